@@ -6,20 +6,25 @@
 namespace jvari {
 
 namespace {
-constexpr double a_tie = 1.2;  // of the least cost: what is dearer is no tie, however the clock scatters
+// of the least cost: what is dearer is no tie, however the clock scatters
+constexpr double a_tie = 1.2;
 
-std::optional<std::size_t> least(std::span<const Offer> offers, const auto& which, double Offer::*value) {
+std::optional<std::size_t> least(std::span<const Offer> offers, const auto& which,
+                                 double Offer::*value) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < offers.size(); ++i)
         if (which(offers[i]) && (!best || offers[i].*value < offers[*best].*value)) best = i;
     return best;
 }
 
-std::vector<std::size_t> other_schemes(std::span<const Offer> offers, std::optional<std::size_t> best, const auto& which) {
+std::vector<std::size_t> other_schemes(std::span<const Offer> offers,
+                                       std::optional<std::size_t> best, const auto& which) {
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < offers.size(); ++i) {
         if ((best && offers[i].scheme == offers[*best].scheme) || !which(offers[i])) continue;
-        const auto known = std::find_if(others.begin(), others.end(), [&](std::size_t k) { return offers[k].scheme == offers[i].scheme; });
+        const auto known = std::find_if(others.begin(), others.end(), [&](std::size_t k) {
+            return offers[k].scheme == offers[i].scheme;
+        });
         if (known == others.end()) others.push_back(i);
         else if (offers[i].cost < offers[*known].cost) *known = i;
     }
@@ -27,24 +32,29 @@ std::vector<std::size_t> other_schemes(std::span<const Offer> offers, std::optio
 }
 }  // namespace
 
-double at_most(double error, double uncertainty) {
-    return error + uncertainty;
-}
+double at_most(double error, double uncertainty) { return error + uncertainty; }
 
 double at_least(double error, double uncertainty) {
-    return std::isinf(error) ? error : std::isnan(uncertainty) ? 0 : std::fmax(0, error - uncertainty);
+    return std::isinf(error)         ? error
+           : std::isnan(uncertainty) ? 0
+                                     : std::fmax(0, error - uncertainty);
 }
 
 Choice cheapest_within(double accuracy, std::span<const Offer> offers) {
     const auto met = [=](const Offer& o) { return o.most <= accuracy; };
     const auto cheapest = least(offers, met, &Offer::cost);
     const auto tied = [&](const Offer& o) {
-        return met(o) && o.lower <= offers[*cheapest].upper && o.cost < a_tie * offers[*cheapest].cost;
+        return met(o) && o.lower <= offers[*cheapest].upper &&
+               o.cost < a_tie * offers[*cheapest].cost;
     };
     const auto best = least(offers, tied, &Offer::most);
-    const auto perhaps = [&](const Offer& o) { return !met(o) && o.least <= accuracy && (!best || o.cost < offers[*best].cost); };
-    std::vector<std::size_t> ties = best ? other_schemes(offers, best, tied) : std::vector<std::size_t>();
-    if (best && best != cheapest && offers[*best].scheme == offers[*cheapest].scheme) ties.insert(ties.begin(), *cheapest);
+    const auto perhaps = [&](const Offer& o) {
+        return !met(o) && o.least <= accuracy && (!best || o.cost < offers[*best].cost);
+    };
+    std::vector<std::size_t> ties =
+        best ? other_schemes(offers, best, tied) : std::vector<std::size_t>();
+    if (best && best != cheapest && offers[*best].scheme == offers[*cheapest].scheme)
+        ties.insert(ties.begin(), *cheapest);
     return {best, std::move(ties), other_schemes(offers, best, perhaps)};
 }
 

@@ -9,8 +9,9 @@
 
 namespace jvari {
 
-// What is known of a run that is measured against a reference (error e), which is itself uncertain by c: by the triangle inequality it
-// differs from the motion of the scene by e + c at most and by e - c at least, relative to the norm of the reference.
+// What is known of a run that is measured against a reference (error e), which is itself uncertain
+// by c: by the triangle inequality it differs from the motion of the scene by e + c at most and by
+// e - c at least, relative to the norm of the reference.
 double at_most(double error, double uncertainty);   // NaN where c is unknown
 double at_least(double error, double uncertainty);  // 0 at least; 0 where c is unknown
 
@@ -20,9 +21,11 @@ struct Offer {
     double cost, lower, upper;  // its median and quartiles
 };
 
-// `best`: of the runs within `accuracy` whose quartiles of cost touch those of the cheapest, and that cost less than 1.2 times as much, the
-// one of least error. `ties`: other schemes among them, and the cheapest run whatever its scheme. `perhaps`: other schemes with a cheaper run (without a best: any run) of which it is not certain that it is within. Each
-// scheme once, by its cheapest such run, in the order of the offers.
+// `best`: of the runs within `accuracy` whose quartiles of cost touch those of the cheapest, and
+// that cost less than 1.2 times as much, the one of least error. `ties`: other schemes among them,
+// and the cheapest run whatever its scheme. `perhaps`: other schemes with a cheaper run (without a
+// best: any run) of which it is not certain that it is within. Each scheme once, by its cheapest
+// such run, in the order of the offers.
 struct Choice {
     std::optional<std::size_t> best;
     std::vector<std::size_t> ties, perhaps;

@@ -1,4 +1,5 @@
-// gsl_fit_wlinear takes weights as inverse variances; here all are 1, and its covariance is scaled by the scatter it found, chi^2/(n - 2).
+// gsl_fit_wlinear takes weights as inverse variances; here all are 1, and its covariance is scaled
+// by the scatter it found, chi^2/(n - 2).
 #include "analysis/convergence.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -21,7 +22,8 @@ bool serves(double rate, double error) {
 }  // namespace
 
 Order observed_order(std::span<const double> rate, std::span<const double> error) {
-    if (rate.size() != error.size()) throw std::invalid_argument("rates and errors differ in length");
+    if (rate.size() != error.size())
+        throw std::invalid_argument("rates and errors differ in length");
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> x, y;
     for (std::size_t i = 0; i < rate.size(); ++i) {
@@ -34,10 +36,12 @@ Order observed_order(std::span<const double> rate, std::span<const double> error
     if (n < 2 || *first == *last) return {nan, nan, static_cast<int>(n)};
     const std::vector<double> weight(n, 1.0);
     double intercept, slope, cov00, cov01, cov11, chisq;
-    gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00, &cov01, &cov11, &chisq);
-    const double half_width = n > 2 ? gsl_cdf_tdist_Pinv(0.5 * (1 + confidence), static_cast<double>(n) - 2) *
-                                          std::sqrt(cov11 * chisq / (static_cast<double>(n) - 2))
-                                    : std::numeric_limits<double>::infinity();
+    gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00,
+                    &cov01, &cov11, &chisq);
+    const double half_width =
+        n > 2 ? gsl_cdf_tdist_Pinv(0.5 * (1 + confidence), static_cast<double>(n) - 2) *
+                    std::sqrt(cov11 * chisq / (static_cast<double>(n) - 2))
+              : std::numeric_limits<double>::infinity();
     return {-slope, half_width, static_cast<int>(n)};
 }
 

@@ -1,4 +1,5 @@
-// Source: convolution.hpp. FFTW's plans are estimated, not measured: the same signal gives the same bits in each run.
+// Source: convolution.hpp. FFTW's plans are estimated, not measured: the same signal gives the same
+// bits in each run.
 #include "analysis/convolution.hpp"
 
 #include <fftw3.h>
@@ -30,7 +31,8 @@ struct Convolution::State {
         forward = fftw_plan_dft_r2c_1d(2 * block, now.get(), sum.get(), FFTW_ESTIMATE);
         back = fftw_plan_dft_c2r_1d(2 * block, sum.get(), now.get(), FFTW_ESTIMATE);
         for (std::size_t from = 0; from < response.size(); from += block) {
-            const auto part = response.subspan(from, std::min<std::size_t>(block, response.size() - from));
+            const auto part =
+                response.subspan(from, std::min<std::size_t>(block, response.size() - from));
             std::fill(std::copy(part.begin(), part.end(), now.get()), now.get() + 2 * block, 0.0);
             responses.push_back(silent_spectrum(bins));
             fftw_execute_dft_r2c(forward, now.get(), responses.back().get());
@@ -49,7 +51,8 @@ struct Convolution::State {
     void multiply() {
         std::fill_n(&sum[0][0], 2 * bins, 0.0);
         for (std::size_t p = 0; p < responses.size(); ++p) {
-            const fftw_complex *x = inputs[(newest + inputs.size() - p) % inputs.size()].get(), *h = responses[p].get();
+            const fftw_complex *x = inputs[(newest + inputs.size() - p) % inputs.size()].get(),
+                               *h = responses[p].get();
             for (int k = 0; k < bins; ++k) {
                 sum[k][0] += x[k][0] * h[k][0] - x[k][1] * h[k][1];
                 sum[k][1] += x[k][0] * h[k][1] + x[k][1] * h[k][0];
@@ -61,21 +64,22 @@ struct Convolution::State {
     Rows now;  // two blocks: the last one and this, then their convolution
     Spectrum sum;
     fftw_plan forward, back;
-    std::vector<Spectrum> responses, inputs;  // by partition; a ring of the spectra of the last inputs
+    // by partition; a ring of the spectra of the last inputs
+    std::vector<Spectrum> responses, inputs;
     std::size_t newest = 0;
     std::vector<double> last;  // the last block
 };
 
 Convolution::Convolution(std::span<const double> response, int block) {
-    if (response.empty() || block < 1) throw std::invalid_argument("convolution: expected a response and a block of at least one row each");
+    if (response.empty() || block < 1)
+        throw std::invalid_argument(
+            "convolution: expected a response and a block of at least one row each");
     state_ = std::make_unique<State>(response, block);
 }
 Convolution::~Convolution() = default;
 Convolution::Convolution(Convolution&&) noexcept = default;
 
-int Convolution::block() const {
-    return state_->block;
-}
+int Convolution::block() const { return state_->block; }
 
 void Convolution::advance(std::span<const double> in, std::span<double> out) {
     State& s = *state_;

@@ -1,7 +1,9 @@
-// Convolution with a long response, one block at a time, by uniformly partitioned overlap-save (Stockham 1966).
+// Convolution with a long response, one block at a time, by uniformly partitioned overlap-save
+// (Stockham 1966).
 //
-// out[n] = sum_m response[m] in[n - m], where `in` is 0 before the first row. A block costs two transforms of 2 `block` rows, and a product
-// of spectra for each partition of the response. Only the constructor allocates memory.
+// out[n] = sum_m response[m] in[n - m], where `in` is 0 before the first row. A block costs two
+// transforms of 2 `block` rows, and a product of spectra for each partition of the response. Only
+// the constructor allocates memory.
 #pragma once
 
 #include <memory>
@@ -17,9 +19,10 @@ public:
     ~Convolution();
     Convolution(Convolution&&) noexcept;
 
-    int block() const;                                                // rows of a block
-    void advance(std::span<const double> in, std::span<double> out);  // each has `block` rows; both may be the same memory
-    void reset();                                                     // starts again from silence
+    int block() const;  // rows of a block
+    // each has `block` rows; both may be the same memory
+    void advance(std::span<const double> in, std::span<double> out);
+    void reset();  // starts again from silence
 
 private:
     struct State;

@@ -1,10 +1,12 @@
-// Estimates frequency and decay rate of partials from a trace, far more finely than the width of an FFT bin.
+// Estimates frequency and decay rate of partials from a trace, far more finely than the width of an
+// FFT bin.
 //
-// A band of the signal x = sum a_k exp((2 pi i f_k - sigma_k) t) is shifted to 0 Hz, filtered by a Kaiser window and decimated. The filter
-// changes only the amplitudes of damped exponentials, so the result is again a sum of a few of them. The matrix pencil with a truncated
-// singular value decomposition gives their poles (Hua & Sarkar 1990; Van Huffel et al. 1994, HTLS). The estimate is exact up to rounding,
-// noise, and partials outside the band (150 dB down at twice its half width). Use it on free strings: a string against an obstacle has no
-// partials that stay constant.
+// A band of the signal x = sum a_k exp((2 pi i f_k - sigma_k) t) is shifted to 0 Hz, filtered by a
+// Kaiser window and decimated. The filter changes only the amplitudes of damped exponentials, so
+// the result is again a sum of a few of them. The matrix pencil with a truncated singular value
+// decomposition gives their poles (Hua & Sarkar 1990; Van Huffel et al. 1994, HTLS). The estimate
+// is exact up to rounding, noise, and partials outside the band (150 dB down at twice its half
+// width). Use it on free strings: a string against an obstacle has no partials that stay constant.
 #pragma once
 
 #include <span>
@@ -15,17 +17,21 @@ namespace jvari {
 struct Partial {
     double frequency;  // f [Hz]
     double decay;      // sigma [1/s]; negative if the partial grows
-    double amplitude;  // at the first row, in the unit of the signal: a real partial is amplitude exp(-sigma t) cos(2 pi f t + phase)
-    double phase;      // [rad], at the first row
+    // at the first row, in the unit of the signal: a real partial is amplitude exp(-sigma t) cos(2
+    // pi f t + phase)
+    double amplitude;
+    double phase;  // [rad], at the first row
 };
 
-// The partials with from < f < to [Hz] that stand out of the noise and are at most 140 dB below the signal's largest value, by ascending
-// frequency. There are none if the signal is too short for the band (the filter alone needs about 6.5/(to - from) seconds), not finite, or
-// zero. Choose a band at least twice as wide as the decay rate in Hz (sigma/pi), with fewer than about 40 partials.
-std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from, double to);
+// The partials with from < f < to [Hz] that stand out of the noise and are at most 140 dB below the
+// signal's largest value, by ascending frequency. There are none if the signal is too short for the
+// band (the filter alone needs about 6.5/(to - from) seconds), not finite, or zero. Choose a band
+// at least twice as wide as the decay rate in Hz (sigma/pi), with fewer than about 40 partials.
+std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from,
+                                      double to);
 
-// The partial with the most energy within `half_width` [Hz] of `guess`; all members are NaN if there is none. A good half width is 0.4 of
-// the distance to the next partial.
+// The partial with the most energy within `half_width` [Hz] of `guess`; all members are NaN if
+// there is none. A good half width is 0.4 of the distance to the next partial.
 Partial partial_near(std::span<const double> signal, double rate, double guess, double half_width);
 
 double cents(double frequency, double reference);  // 1200 log2(frequency/reference)

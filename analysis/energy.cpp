@@ -1,4 +1,5 @@
-// Source: energy.hpp. Sums are carried in long double: a second of rows must not add 1e-12 of rounding to a ledger that closes to 1e-11.
+// Source: energy.hpp. Sums are carried in long double: a second of rows must not add 1e-12 of
+// rounding to a ledger that closes to 1e-11.
 #include "analysis/energy.hpp"
 
 #include <algorithm>
@@ -8,17 +9,21 @@
 
 namespace jvari {
 
-EnergyBalance energy_balance(std::span<const double> stored, std::span<const double> supplied, std::span<const double> dissipated) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+EnergyBalance energy_balance(std::span<const double> stored, std::span<const double> supplied,
+                             std::span<const double> dissipated) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                     inf = std::numeric_limits<double>::infinity();
     if (stored.size() != supplied.size() || stored.size() != dissipated.size())
         throw std::invalid_argument("the energy columns differ in length");
     if (stored.empty()) return {nan, nan, nan, 0, nan, nan, nan};
 
-    EnergyBalance balance{std::abs(stored[0]), stored[0], 0, 0, 0, 0, dissipated.size() > 1 ? inf : 0};
+    EnergyBalance balance{
+        std::abs(stored[0]), stored[0], 0, 0, 0, 0, dissipated.size() > 1 ? inf : 0};
     long double ledger = stored[0], step = 0, accumulated = 0;
     for (std::size_t n = 1; n < stored.size(); ++n) {
         const long double entry = static_cast<long double>(supplied[n]) - dissipated[n];
-        const long double residual = std::abs(static_cast<long double>(stored[n]) - stored[n - 1] - entry);
+        const long double residual =
+            std::abs(static_cast<long double>(stored[n]) - stored[n - 1] - entry);
         ledger += entry;
         if (!std::isfinite(residual)) {  // also where stored[n] or an entry is not finite
             balance.step = balance.accumulated = inf;
@@ -35,9 +40,12 @@ EnergyBalance energy_balance(std::span<const double> stored, std::span<const dou
         balance.smallest_stored = std::min(balance.smallest_stored, stored[n]);
         balance.smallest_dissipated = std::min(balance.smallest_dissipated, dissipated[n]);
     }
-    if (!std::isfinite(stored[0])) return {balance.largest_stored, balance.smallest_stored, inf, 0, inf, nan, nan};
+    if (!std::isfinite(stored[0]))
+        return {balance.largest_stored, balance.smallest_stored, inf, 0, inf, nan, nan};
     const auto relative = [&](long double x) {
-        return x == 0 ? 0.0 : balance.largest_stored > 0 ? static_cast<double>(x / balance.largest_stored) : inf;
+        return x == 0                       ? 0.0
+               : balance.largest_stored > 0 ? static_cast<double>(x / balance.largest_stored)
+                                            : inf;
     };
     balance.step = relative(step);
     balance.accumulated = relative(accumulated);
@@ -53,7 +61,8 @@ EnergyBalance energy_balance(const Trace& trace) {
 EnergyGain energy_gain(const Trace& t) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     if (t.energy.empty() || t.rows < 1) return {nan, nan};
-    const auto stored = t.energy_column(0), supplied = t.energy_column(1), dissipated = t.energy_column(2);
+    const auto stored = t.energy_column(0), supplied = t.energy_column(1),
+               dissipated = t.energy_column(2);
     double budget = std::abs(stored[0]), ledger = stored[0], gain = 0, last = 0;
     for (long n = 1; n < t.rows; ++n) {
         budget += std::abs(supplied[n]);

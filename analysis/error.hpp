@@ -4,7 +4,8 @@
 //   +inf if the candidate has a NaN or an infinity, or stops before the window ends,
 //   NaN if the reference does not cover the window, or the window has no row,
 //   0 if both are zero in the whole window, and NaN if only the reference is.
-// Signals are not aligned in time or level: a delayed or scaled copy counts as an error. spectrum.hpp has measures that ignore the delay.
+// Signals are not aligned in time or level: a delayed or scaled copy counts as an error.
+// spectrum.hpp has measures that ignore the delay.
 #pragma once
 
 #include <limits>
@@ -15,25 +16,30 @@
 
 namespace jvari {
 
-struct Window {                                           // the rows with from <= t < to
-    double from = 0;                                      // [s]
-    double to = std::numeric_limits<double>::infinity();  // [s]; infinity: to the end of the reference
+struct Window {       // the rows with from <= t < to
+    double from = 0;  // [s]
+    // [s]; infinity: to the end of the reference
+    double to = std::numeric_limits<double>::infinity();
 };
 
 // ||candidate - reference|| / ||reference|| over the rows of the window; dimensionless.
-double relative_l2(std::span<const double> candidate, std::span<const double> reference, double rate, Window = {});
+double relative_l2(std::span<const double> candidate, std::span<const double> reference,
+                   double rate, Window = {});
 
 // The predictability horizon [s] is the first instant t at which the running error
 //     E(t) = ||candidate - reference||_[0,t] / max(||reference||_[0,t], max|reference|)
-// passes `threshold`, or the duration of the reference if it never does. The second part of the maximum, one row as large as the
-// largest, keeps the first rows of a string that starts from rest from deciding: there the running norm is nearly zero. A candidate that
-// stops early or is not finite counts until its last finite row.
-double horizon(std::span<const double> candidate, std::span<const double> reference, double rate, double threshold = 0.1);
+// passes `threshold`, or the duration of the reference if it never does. The second part of the
+// maximum, one row as large as the largest, keeps the first rows of a string that starts from rest
+// from deciding: there the running norm is nearly zero. A candidate that stops early or is not
+// finite counts until its last finite row.
+double horizon(std::span<const double> candidate, std::span<const double> reference, double rate,
+               double threshold = 0.1);
 
 struct TapErrors {
     std::vector<double> tap;  // one per tap of the reference
     double worst;             // the largest: +inf if any is +inf, else NaN if any is NaN
-    double combined;          // the root mean square; each tap is relative to its own norm, so units do not matter
+    // the root mean square; each tap is relative to its own norm, so units do not matter
+    double combined;
 };
 // Both throw std::invalid_argument unless the traces have the same taps at the same tap rate.
 TapErrors relative_l2(const Trace& candidate, const Trace& reference, Window = {});

@@ -13,8 +13,9 @@ namespace jvari {
 
 namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array verdict_names = {"sound",          "unjudged",      "flagged",  "inaccurate", "adhesive",
-                                      "energy_gaining", "not_converged", "diverged", "refused",    "error"};
+constexpr std::array verdict_names = {"sound",    "unjudged",       "flagged",       "inaccurate",
+                                      "adhesive", "energy_gaining", "not_converged", "diverged",
+                                      "refused",  "error"};
 
 double over_bound(const Scene& scene, const Trace& trace, int modes) {
     double most = nan;
@@ -22,7 +23,8 @@ double over_bound(const Scene& scene, const Trace& trace, int modes) {
     for (int k = 0; k < trace.taps(); ++k) {
         if (std::isinf(bounds[k])) continue;
         most = std::fmax(most, 0);
-        for (const double x : trace.column(k)) most = std::max(most, std::isfinite(x) ? std::abs(x) / bounds[k] : HUGE_VAL);
+        for (const double x : trace.column(k))
+            most = std::max(most, std::isfinite(x) ? std::abs(x) / bounds[k] : HUGE_VAL);
     }
     return most;
 }
@@ -31,7 +33,8 @@ double over_bound(const Scene& scene, const Trace& trace, int modes) {
 Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& run) {
     const EnergyBalance balance = energy_balance(run.trace);
     const EnergyGain gain = energy_gain(run.trace);
-    // A scheme that promises no balance may leave its columns empty: zeros that "close" say nothing.
+    // A scheme that promises no balance may leave its columns empty: zeros that "close" say
+    // nothing.
     const bool silent = promised == Balance::none && !(balance.largest_stored > 0);
     Figures f{run.status,
               silent ? nan : balance.step,
@@ -43,7 +46,8 @@ Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& r
               over_bound(scene, run.trace, modes),
               run.facts};
     std::erase_if(f.facts, [](const Fact& told) {
-        return told.name == facts::smallest_contact_force.name || told.name == facts::largest_contact_force.name ||
+        return told.name == facts::smallest_contact_force.name ||
+               told.name == facts::largest_contact_force.name ||
                told.name == facts::deepest_penetration.name;
     });
     return f;
@@ -51,18 +55,18 @@ Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& r
 
 double pull_of(double least, double largest) {
     if (least >= -pull_floor) return 0;
-    return -least / std::fmax(largest, std::numeric_limits<double>::min());  // of an unknown one and 0 the other
+    // of an unknown one and 0 the other
+    return -least / std::fmax(largest, std::numeric_limits<double>::min());
 }
 
 Flags raised_by(const Figures& f) {
     return {pull_of(f.smallest_contact_force, f.largest_contact_force) > pull_allowed,
-            fact_of(f.facts, facts::psi_out_of_contact) > psi_allowed, f.energy_residual_accumulated > energy_allowed,
+            fact_of(f.facts, facts::psi_out_of_contact) > psi_allowed,
+            f.energy_residual_accumulated > energy_allowed,
             fact_of(f.facts, facts::modes_above_nyquist) > 0};
 }
 
-const char* name_of(Verdict v) {
-    return verdict_names[static_cast<std::size_t>(v)];
-}
+const char* name_of(Verdict v) { return verdict_names[static_cast<std::size_t>(v)]; }
 
 Verdict verdict_named(const std::string& name) {
     const auto found = std::find(verdict_names.begin(), verdict_names.end(), name);
@@ -70,19 +74,19 @@ Verdict verdict_named(const std::string& name) {
     return static_cast<Verdict>(found - verdict_names.begin());
 }
 
-bool is_stable(Verdict v) {
-    return v == Verdict::sound || v == Verdict::flagged;
-}
+bool is_stable(Verdict v) { return v == Verdict::sound || v == Verdict::flagged; }
 
 Verdict verdict_of(const Figures& f, Balance promised, double error) {
     const double pull = pull_of(f.smallest_contact_force, f.largest_contact_force);
     if (f.status.outcome == Outcome::diverged) return Verdict::diverged;
     if (f.status.outcome != Outcome::ok) return Verdict::not_converged;
-    if (f.energy_gain > (promised == Balance::exact ? energy_allowed : gain_allowed_unpromised)) return Verdict::energy_gaining;
+    if (f.energy_gain > (promised == Balance::exact ? energy_allowed : gain_allowed_unpromised))
+        return Verdict::energy_gaining;
     if (pull > pull_allowed) return Verdict::adhesive;
     if (error > error_allowed) return Verdict::inaccurate;
     if (raised_by(f).any()) return Verdict::flagged;
-    const bool told = !std::isnan(f.largest_over_bound) || !std::isnan(f.energy_gain) || !std::isnan(pull) || !std::isnan(error);
+    const bool told = !std::isnan(f.largest_over_bound) || !std::isnan(f.energy_gain) ||
+                      !std::isnan(pull) || !std::isnan(error);
     return told ? Verdict::sound : Verdict::unjudged;
 }
 

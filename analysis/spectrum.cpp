@@ -21,17 +21,20 @@ class Transform {
 public:
     Transform(int n, Taper taper) : n_(n), window_(n, 1.0), transform_(n) {
         if (taper == Taper::hann)
-            for (int i = 0; i < n; ++i) window_[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / n);
+            for (int i = 0; i < n; ++i)
+                window_[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / n);
         for (double w : window_) weight_ += w * w;
     }
 
     int bins() const { return n_ / 2 + 1; }
     void operator()(std::span<const double> x, double* power) {  // rows past the end of x are zero
-        for (int i = 0; i < n_; ++i) transform_.rows()[i] = i < static_cast<int>(x.size()) ? window_[i] * x[i] : 0.0;
+        for (int i = 0; i < n_; ++i)
+            transform_.rows()[i] = i < static_cast<int>(x.size()) ? window_[i] * x[i] : 0.0;
         transform_.write(power);
         for (int k = 0; k < bins(); ++k) {
             const double sides = k == 0 || 2 * k == n_ ? 1 : 2;
-            power[k] = weight_ > 0 ? sides * power[k] / (n_ * weight_) : 0.0;  // Parseval: the sum is sum (x w)^2/sum w^2
+            // Parseval: the sum is sum (x w)^2/sum w^2
+            power[k] = weight_ > 0 ? sides * power[k] / (n_ * weight_) : 0.0;
         }
     }
 
@@ -42,26 +45,28 @@ private:
     SquaredTransform transform_;
 };
 
-double decibel(double power) {
-    return 10 * std::log10(power);
-}
+double decibel(double power) { return 10 * std::log10(power); }
 
 // 0: compare; else the answer that the signals themselves give (see the top of spectrum.hpp).
 double verdict(std::span<const double>& candidate, std::span<const double> reference) {
     const auto finite = [](double v) { return std::isfinite(v); };
     if (!std::all_of(reference.begin(), reference.end(), finite)) return nan;
-    if (std::all_of(reference.begin(), reference.end(), [](double v) { return v == 0; })) return nan;  // and where empty
+    // and where empty
+    if (std::all_of(reference.begin(), reference.end(), [](double v) { return v == 0; }))
+        return nan;
     if (candidate.size() < reference.size()) return inf;
     candidate = candidate.first(reference.size());
     return std::all_of(candidate.begin(), candidate.end(), finite) ? 0 : inf;
 }
 
-// The share of `power` between two frequencies: each bin spreads its power evenly over its own width.
+// The share of `power` between two frequencies: each bin spreads its power evenly over its own
+// width.
 double power_between(const PowerSpectrum& spectrum, double from, double to) {
     const int bins = static_cast<int>(spectrum.power.size());
     double sum = 0;
     for (int k = std::max(0, static_cast<int>(from / spectrum.bin_hz)); k < bins; ++k) {
-        const double left = std::max(k - 0.5, 0.0) * spectrum.bin_hz, right = std::min(k + 0.5, bins - 1.0) * spectrum.bin_hz;
+        const double left = std::max(k - 0.5, 0.0) * spectrum.bin_hz,
+                     right = std::min(k + 0.5, bins - 1.0) * spectrum.bin_hz;
         if (left >= to) break;
         const double inside = std::min(right, to) - std::max(left, from);
         if (inside > 0) sum += spectrum.power[k] * inside / (right - left);
@@ -79,7 +84,9 @@ PowerSpectrum power_spectrum(std::span<const double> signal, double rate, Taper 
 }
 
 Spectrogram spectrogram(std::span<const double> signal, double rate, int window, int hop) {
-    if (window < 2 || hop < 1) throw std::invalid_argument("a spectrogram needs a window of two rows or more and a hop of one or more");
+    if (window < 2 || hop < 1)
+        throw std::invalid_argument(
+            "a spectrogram needs a window of two rows or more and a hop of one or more");
     Spectrogram s;
     if (signal.empty()) return s;
     Transform transform(window, Taper::hann);
@@ -92,7 +99,8 @@ Spectrogram spectrogram(std::span<const double> signal, double rate, int window,
     s.power.resize(static_cast<std::size_t>(s.frames) * s.bins);
     for (int m = 0; m < s.frames; ++m) {
         const long start = static_cast<long>(m) * hop;
-        transform(signal.subspan(start, std::min<long>(window, rows - start)), s.power.data() + static_cast<long>(m) * s.bins);
+        transform(signal.subspan(start, std::min<long>(window, rows - start)),
+                  s.power.data() + static_cast<long>(m) * s.bins);
     }
     return s;
 }
@@ -102,19 +110,23 @@ Bands third_octaves(std::span<const double> signal, double rate, const BandChoic
     const double flank = std::pow(10.0, 0.05);
     Bands bands;
     const auto number = [](double hertz) { return 10 * std::log10(hertz / 1000); };
-    for (int n = static_cast<int>(std::ceil(number(choice.lowest / 1.02))); n <= number(choice.highest * 1.02); ++n) {
+    for (int n = static_cast<int>(std::ceil(number(choice.lowest / 1.02)));
+         n <= number(choice.highest * 1.02); ++n) {
         const double centre = 1000 * std::pow(10.0, 0.1 * n);
-        if (spectrum.power.empty() || centre >= 0.5 * rate || centre * (flank - 1 / flank) < spectrum.bin_hz) continue;
+        if (spectrum.power.empty() || centre >= 0.5 * rate ||
+            centre * (flank - 1 / flank) < spectrum.bin_hz)
+            continue;
         bands.centre.push_back(centre);
         bands.level.push_back(decibel(power_between(spectrum, centre / flank, centre * flank)));
     }
     return bands;
 }
 
-double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate,
-                               const BandChoice& choice) {
+double third_octave_difference(std::span<const double> candidate, std::span<const double> reference,
+                               double rate, const BandChoice& choice) {
     if (const double v = verdict(candidate, reference); v != 0) return v;
-    const Bands c = third_octaves(candidate, rate, choice), r = third_octaves(reference, rate, choice);
+    const Bands c = third_octaves(candidate, rate, choice),
+                r = third_octaves(reference, rate, choice);
     if (r.level.empty()) return nan;  // too short for any band
     const double floor = *std::max_element(r.level.begin(), r.level.end()) - choice.range;
     double squares = 0;
@@ -125,14 +137,16 @@ double third_octave_difference(std::span<const double> candidate, std::span<cons
         squares += d * d;
         ++bands;
     }
-    return bands > 0 ? std::sqrt(squares / bands) : nan;  // none: all of the reference's energy is outside the bands
+    // none: all of the reference's energy is outside the bands
+    return bands > 0 ? std::sqrt(squares / bands) : nan;
 }
 
-StftDifference stft_difference(std::span<const double> candidate, std::span<const double> reference, double rate, int window,
-                               double range) {
+StftDifference stft_difference(std::span<const double> candidate, std::span<const double> reference,
+                               double rate, int window, double range) {
     if (const double v = verdict(candidate, reference); v != 0) return {v, v};
     const int hop = std::max(1, window / 4);
-    const Spectrogram c = spectrogram(candidate, rate, window, hop), r = spectrogram(reference, rate, window, hop);
+    const Spectrogram c = spectrogram(candidate, rate, window, hop),
+                      r = spectrogram(reference, rate, window, hop);
     const double strongest = *std::max_element(r.power.begin(), r.power.end());
     if (!(strongest > 0)) return {nan, nan};  // rows only under the ends of the window
     const double floor = strongest * std::pow(10.0, -0.1 * range);
@@ -149,7 +163,8 @@ StftDifference stft_difference(std::span<const double> candidate, std::span<cons
     return {level / cells, std::sqrt(gap / norm)};
 }
 
-StftDifference multi_resolution_stft_difference(std::span<const double> candidate, std::span<const double> reference, double rate) {
+StftDifference multi_resolution_stft_difference(std::span<const double> candidate,
+                                                std::span<const double> reference, double rate) {
     StftDifference mean{0, 0};
     int resolutions = 0;
     for (int window : {512, 1024, 2048, 4096}) {
@@ -174,12 +189,16 @@ std::vector<double> centroid_track(const Spectrogram& s) {
     return track;
 }
 
-double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate) {
+double centroid_difference(std::span<const double> candidate, std::span<const double> reference,
+                           double rate) {
     constexpr int window = 2048, hop = 512;
     if (candidate.size() < reference.size()) return inf;
-    const Spectrogram c = spectrogram(candidate.first(reference.size()), rate, window, hop), r = spectrogram(reference, rate, window, hop);
+    const Spectrogram c = spectrogram(candidate.first(reference.size()), rate, window, hop),
+                      r = spectrogram(reference, rate, window, hop);
     const auto of_c = centroid_track(c), of_r = centroid_track(r);
-    const auto power_of = [](std::span<const double> bins) { return std::accumulate(bins.begin(), bins.end(), 0.0); };
+    const auto power_of = [](std::span<const double> bins) {
+        return std::accumulate(bins.begin(), bins.end(), 0.0);
+    };
     double strongest = 0, sum = 0;
     int frames = 0;
     for (int m = 0; m < r.frames; ++m) strongest = std::max(strongest, power_of(r.frame(m)));

@@ -1,9 +1,11 @@
-// Spectra of a trace: levels in bands, spectrograms, and differences of them that ignore what an ear ignores (phase, small delays).
+// Spectra of a trace: levels in bands, spectrograms, and differences of them that ignore what an
+// ear ignores (phase, small delays).
 //
-// Signals have one row per 1/rate [s]. Powers are one-sided mean squares in the unit of the signal squared: a sine of amplitude A has A^2/2
-// with any window. The window is the periodic Hann, w[n] = (1 - cos(2 pi n/N))/2, where nothing else is said. To compare two signals, the
-// candidate is cut to the reference's rows. The difference is +inf if the candidate is shorter or not finite, and NaN if the reference is
-// not finite, empty or zero. There is no model of hearing.
+// Signals have one row per 1/rate [s]. Powers are one-sided mean squares in the unit of the signal
+// squared: a sine of amplitude A has A^2/2 with any window. The window is the periodic Hann, w[n] =
+// (1 - cos(2 pi n/N))/2, where nothing else is said. To compare two signals, the candidate is cut
+// to the reference's rows. The difference is +inf if the candidate is shorter or not finite, and
+// NaN if the reference is not finite, empty or zero. There is no model of hearing.
 #pragma once
 
 #include <span>
@@ -17,7 +19,8 @@ struct PowerSpectrum {
     double bin_hz = 0;          // width of a bin [Hz]; bin k is at k bin_hz
     std::vector<double> power;  // rows/2 + 1; sum = sum (x w)^2/sum w^2
 };
-PowerSpectrum power_spectrum(std::span<const double> signal, double rate, Taper = Taper::hann);  // any length; empty without rows
+// any length; empty without rows
+PowerSpectrum power_spectrum(std::span<const double> signal, double rate, Taper = Taper::hann);
 
 struct Spectrogram {
     int frames = 0, bins = 0;
@@ -25,35 +28,42 @@ struct Spectrogram {
     double hop = 0;             // time from one frame to the next [s]
     double centre = 0;          // instant of the middle of frame 0 [s]
     std::vector<double> power;  // frames x bins, row-major
-    std::span<const double> frame(int m) const { return std::span(power).subspan(static_cast<std::size_t>(m) * bins, bins); }
+    std::span<const double> frame(int m) const {
+        return std::span(power).subspan(static_cast<std::size_t>(m) * bins, bins);
+    }
 };
-// Frames of `window` rows every `hop` rows. A signal shorter than one window becomes one frame, filled up with zeros.
-// Throws std::invalid_argument unless window >= 2 and hop >= 1.
+// Frames of `window` rows every `hop` rows. A signal shorter than one window becomes one frame,
+// filled up with zeros. Throws std::invalid_argument unless window >= 2 and hop >= 1.
 Spectrogram spectrogram(std::span<const double> signal, double rate, int window, int hop);
 
 // ---- Bands.
 
 struct Bands {
     std::vector<double> centre;  // exact centre frequencies, 1000 x 10^(n/10) [Hz]
-    std::vector<double> level;   // 10 log10 of the mean square in the band [dB re the unit squared]; -inf for none
+    // 10 log10 of the mean square in the band [dB re the unit squared]; -inf for none
+    std::vector<double> level;
 };
-// Which bands are compared. Absent: all third octaves that lie below half of 44.1 kHz and that one second of signal resolves.
+// Which bands are compared. Absent: all third octaves that lie below half of 44.1 kHz and that one
+// second of signal resolves.
 struct BandChoice {
-    double lowest = 50, highest = 16e3;  // least and largest centre [Hz], with 2 % of tolerance for nominal names
+    // least and largest centre [Hz], with 2 % of tolerance for nominal names
+    double lowest = 50, highest = 16e3;
     Taper taper = Taper::hann;
     double range = 100;  // bands within so much of the reference's strongest count [dB]
 };
 
-// Third octaves of base ten (IEC 61260-1, ISO 266) with ideal flanks at 10^(+-1/20) of the centre. A bin across an edge is shared in
-// proportion to its width. Bands narrower than a bin are left out, and bands whose centre is at half the rate or above; the last band ends
-// at half the rate.
+// Third octaves of base ten (IEC 61260-1, ISO 266) with ideal flanks at 10^(+-1/20) of the centre.
+// A bin across an edge is shared in proportion to its width. Bands narrower than a bin are left
+// out, and bands whose centre is at half the rate or above; the last band ends at half the rate.
 Bands third_octaves(std::span<const double> signal, double rate, const BandChoice& = {});
 
-// Root mean square over bands of (candidate level - reference level) [dB], over the bands where the reference has energy. A candidate's
-// level below the floor of that range is set to the floor. The taper matters: Hann resolves weak bands beside strong ones, so that a band
-// between two partials weighs as much as one that sounds. The rectangular taper weighs the attack like the rest, but the jump from the last
-// row to the first leaks into bands far below their neighbours.
-double third_octave_difference(std::span<const double> candidate, std::span<const double> reference, double rate, const BandChoice& = {});
+// Root mean square over bands of (candidate level - reference level) [dB], over the bands where the
+// reference has energy. A candidate's level below the floor of that range is set to the floor. The
+// taper matters: Hann resolves weak bands beside strong ones, so that a band between two partials
+// weighs as much as one that sounds. The rectangular taper weighs the attack like the rest, but the
+// jump from the last row to the first leaks into bands far below their neighbours.
+double third_octave_difference(std::span<const double> candidate, std::span<const double> reference,
+                               double rate, const BandChoice& = {});
 
 // ---- Time and frequency.
 
@@ -61,19 +71,23 @@ struct StftDifference {
     double level;        // mean |20 log10(|C|/|R|)| [dB]
     double convergence;  // || |C| - |R| ||_F / || |R| ||_F ("spectral convergence")
 };
-// One resolution, with frames every window/4 rows. `level` covers the cells where the reference is within `range` [dB] of its strongest;
-// the candidate's level does not go below that floor. (Arik, Jun & Diamos 2019; Yamamoto, Song & Kim 2020, eqs 4-6, with a natural
-// logarithm: a factor of 8.686 dB)
-StftDifference stft_difference(std::span<const double> candidate, std::span<const double> reference, double rate, int window,
-                               double range = 100);
-// Mean over windows of 512, 1024, 2048 and 4096 rows. Windows longer than the signal are left out, unless all are.
-StftDifference multi_resolution_stft_difference(std::span<const double> candidate, std::span<const double> reference, double rate);
+// One resolution, with frames every window/4 rows. `level` covers the cells where the reference is
+// within `range` [dB] of its strongest; the candidate's level does not go below that floor. (Arik,
+// Jun & Diamos 2019; Yamamoto, Song & Kim 2020, eqs 4-6, with a natural logarithm: a factor of
+// 8.686 dB)
+StftDifference stft_difference(std::span<const double> candidate, std::span<const double> reference,
+                               double rate, int window, double range = 100);
+// Mean over windows of 512, 1024, 2048 and 4096 rows. Windows longer than the signal are left out,
+// unless all are.
+StftDifference multi_resolution_stft_difference(std::span<const double> candidate,
+                                                std::span<const double> reference, double rate);
 
 // Spectral centroid of each frame [Hz]: sum f P/sum P over the bins; NaN for a silent frame.
 std::vector<double> centroid_track(const Spectrogram&);
 
-// Root mean square difference of two centroid tracks [Hz], with frames of 2048 rows every 512. Frames more than 60 dB below the reference's
-// strongest are left out.
-double centroid_difference(std::span<const double> candidate, std::span<const double> reference, double rate);
+// Root mean square difference of two centroid tracks [Hz], with frames of 2048 rows every 512.
+// Frames more than 60 dB below the reference's strongest are left out.
+double centroid_difference(std::span<const double> candidate, std::span<const double> reference,
+                           double rate);
 
 }  // namespace jvari

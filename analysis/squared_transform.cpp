@@ -9,7 +9,8 @@ namespace jvari {
 
 namespace {
 std::mutex planner;  // FFTW plans one at a time; transforms may run side by side
-// and other files plan too, under a lock of their own: FFTW is told before main() to lock for itself
+// and other files plan too, under a lock of their own: FFTW is told before main() to lock for
+// itself
 [[maybe_unused]] const bool locked_for_all = (fftw_make_planner_thread_safe(), true);
 
 struct Free {

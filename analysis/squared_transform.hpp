@@ -1,4 +1,5 @@
-// |X|^2 of real rows: by FFTW in the program, by Eigen in the page's module (web/squared_transform.cpp).
+// |X|^2 of real rows: by FFTW in the program, by Eigen in the page's module
+// (web/squared_transform.cpp).
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// Median and quartiles of repeated measurements. Two medians whose interquartile ranges overlap are a tie.
+// Median and quartiles of repeated measurements. Two medians whose interquartile ranges overlap are
+// a tie.
 #pragma once
 
 #include <span>
@@ -6,8 +7,9 @@
 namespace jvari {
 
 struct Spread {
-    int count = 0;                // finite values; others are left out
-    double median, lower, upper;  // in the unit of the values, linear between order statistics; NaN if count is 0
+    int count = 0;  // finite values; others are left out
+    // in the unit of the values, linear between order statistics; NaN if count is 0
+    double median, lower, upper;
     double smallest, largest;
 };
 Spread spread_of(std::span<const double> values);

@@ -18,7 +18,8 @@ int fail(bool json, int code, const char* status, const std::string& message) {
     jvari::bench::command::tell("jvari: " + message);
     try {
         jvari::bench::command::Console(json, false)
-            .print_json(jvari::bench::store::indented({{"status", status}, {"message", message}, {"exit_code", code}}));
+            .print_json(jvari::bench::store::indented(
+                {{"status", status}, {"message", message}, {"exit_code", code}}));
     } catch (const jvari::bench::store::Unwritable&) {  // the code says it
     }
     return code;
@@ -58,7 +59,9 @@ int main(int argc, char** argv) {
     if (json) command::keep_standard_output();
     std::atexit([] {
         if (ended) return;
-        command::tell("jvari: a plugin or a library called exit() before the work was done; nothing of it is to be trusted");
+        command::tell(
+            "jvari: a plugin or a library called exit() before the work was done; nothing of it is "
+            "to be trusted");
         _exit(command::exit_code::run_failed);
     });
     const int code = code_of(argc, argv, json);

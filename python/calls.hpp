@@ -1,4 +1,5 @@
-// What the module does: run, run_many, compare, suite, trim. Each hands its arguments to the engine and its result back.
+// What the module does: run, run_many, compare, suite, trim. Each hands its arguments to the engine
+// and its result back.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -34,14 +35,16 @@ namespace jvari::python {
 
 using namespace bench;
 
-inline std::vector<std::string>& all_plugins() {  // files; read and written by who has the interpreter's lock
+// files; read and written by who has the interpreter's lock
+inline std::vector<std::string>& all_plugins() {
     static std::vector<std::string> paths;
     return paths;
 }
 
 inline std::vector<std::string> plugins() {  // those whose schemes can run here
     std::vector<std::string> here = all_plugins();
-    if (in_a_scheme()) std::erase_if(here, [](const std::string& p) { return p.starts_with("scheme "); });
+    if (in_a_scheme())
+        std::erase_if(here, [](const std::string& p) { return p.starts_with("scheme "); });
     return here;
 }
 
@@ -67,15 +70,18 @@ struct Job {  // what a run is asked for, its scene aside
     const Descriptor* scheme;
     Settings settings;
 };
-inline Job job_of(const std::string& scheme, double rate, std::optional<double> tap_rate, int modes, const py::dict& options) {
+inline Job job_of(const std::string& scheme, double rate, std::optional<double> tap_rate, int modes,
+                  const py::dict& options) {
     if (in_a_scheme() && find_guest("scheme " + scheme))
-        throw store::UsageError("scheme " + scheme + ": a scheme in Python cannot run one in Python");
+        throw store::UsageError("scheme " + scheme +
+                                ": a scheme in Python cannot run one in Python");
     const Descriptor& d = compare::Catalogue(plugins()).find(scheme);
     return {&d, compare::settings_of_run(d, rate, tap_rate, modes, options_of(options))};
 }
 
-inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme, double rate, int modes,
-                                         std::optional<double> duration, std::optional<double> tap_rate, bool energy,
+inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme,
+                                         double rate, int modes, std::optional<double> duration,
+                                         std::optional<double> tap_rate, bool energy,
                                          const py::dict& options) {
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
@@ -89,43 +95,56 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
     });
 }
 
-inline Column run_many(const std::vector<py::object>& scenes, const std::string& scheme, double rate, int modes,
-                       std::optional<double> duration, std::optional<double> tap_rate, const py::dict& options, int jobs) {
+inline Column run_many(const std::vector<py::object>& scenes, const std::string& scheme,
+                       double rate, int modes, std::optional<double> duration,
+                       std::optional<double> tap_rate, const py::dict& options, int jobs) {
     const Job job = job_of(scheme, rate, tap_rate, modes, options);
     std::vector<Scene> all;
     for (const py::object& o : scenes) {
         all.push_back(NamedScene::of(o).scene);
         if (duration) all.back().duration = *duration;
-        const auto same = [](const Tap& a, const Tap& b) { return a.name == b.name && a.quantity == b.quantity; };
-        if (all.back().duration != all.front().duration || !std::ranges::equal(all.back().taps, all.front().taps, same))
-            throw store::UsageError(
-                "run_many: scene " + std::to_string(all.size() - 1) +
-                " lasts another time or has taps of other names or quantities than the first; duration=... sets one time for all");
+        const auto same = [](const Tap& a, const Tap& b) {
+            return a.name == b.name && a.quantity == b.quantity;
+        };
+        if (all.back().duration != all.front().duration ||
+            !std::ranges::equal(all.back().taps, all.front().taps, same))
+            throw store::UsageError("run_many: scene " + std::to_string(all.size() - 1) +
+                                    " lasts another time or has taps of other names or quantities "
+                                    "than the first; duration=... sets one time for all");
     }
-    const long rows = all.empty() ? 0 : std::lround(all.front().duration * job.settings.tap_rate) + 1;
+    const long rows =
+        all.empty() ? 0 : std::lround(all.front().duration * job.settings.tap_rate) + 1;
     const long taps = all.empty() ? 0 : static_cast<long>(all.front().taps.size());
-    Column out({static_cast<py::ssize_t>(all.size()), static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(taps)});
+    Column out({static_cast<py::ssize_t>(all.size()), static_cast<py::ssize_t>(rows),
+                static_cast<py::ssize_t>(taps)});
     double* to = out.mutable_data();
     unlocked([&] {
-        store::side_by_side(std::vector<double>(all.size(), 1), jobs, Ear(), "runs", [&](std::size_t i, store::Done& done) {
-            RunOptions o;
-            o.progress = [&done](long n, long of) { done = static_cast<double>(n) / static_cast<double>(of); };
-            const Run r = run(*job.scheme, all[i], job.settings, o);
-            double* own = to + static_cast<long>(i) * rows * taps;
-            std::fill_n(own, rows * taps, std::numeric_limits<double>::quiet_NaN());
-            for (int k = 0; k < r.trace.taps(); ++k) {
-                const std::span<const double> values = r.trace.column(k);
-                for (std::size_t n = 0; n < values.size(); ++n) own[static_cast<long>(n) * taps + k] = values[n];
-            }
-        });
+        store::side_by_side(std::vector<double>(all.size(), 1), jobs, Ear(), "runs",
+                            [&](std::size_t i, store::Done& done) {
+                                RunOptions o;
+                                o.progress = [&done](long n, long of) {
+                                    done = static_cast<double>(n) / static_cast<double>(of);
+                                };
+                                const Run r = run(*job.scheme, all[i], job.settings, o);
+                                double* own = to + static_cast<long>(i) * rows * taps;
+                                std::fill_n(own, rows * taps,
+                                            std::numeric_limits<double>::quiet_NaN());
+                                for (int k = 0; k < r.trace.taps(); ++k) {
+                                    const std::span<const double> values = r.trace.column(k);
+                                    for (std::size_t n = 0; n < values.size(); ++n)
+                                        own[static_cast<long>(n) * taps + k] = values[n];
+                                }
+                            });
     });
     return out;
 }
 
-inline py::object compare_rows(const py::object& scene, const std::vector<std::string>& schemes, const std::vector<double>& rates,
-                               const std::variant<int, std::vector<int>>& modes, const std::string& reference, int reference_modes,
-                               bool controls, std::optional<double> duration, std::optional<double> tap_rate, const py::dict& options,
-                               int repeats, int jobs) {
+inline py::object compare_rows(const py::object& scene, const std::vector<std::string>& schemes,
+                               const std::vector<double>& rates,
+                               const std::variant<int, std::vector<int>>& modes,
+                               const std::string& reference, int reference_modes, bool controls,
+                               std::optional<double> duration, std::optional<double> tap_rate,
+                               const py::dict& options, int repeats, int jobs) {
     const NamedScene s = NamedScene::of(scene);
     compare::CompareRequest r;
     r.scene = s.name;
@@ -143,11 +162,15 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
     r.repeats = repeats;
     r.jobs = jobs;
     const compare::Catalogue catalogue(plugins());
-    return rows_of(unlocked([&] { return compare::with_bounds(compare::cells_of(compare::compare(r, catalogue, Ear()))); },
-                            [] { return std::string("nothing is kept but long runs of references"); }));
+    return rows_of(unlocked(
+        [&] {
+            return compare::with_bounds(compare::cells_of(compare::compare(r, catalogue, Ear())));
+        },
+        [] { return std::string("nothing is kept but long runs of references"); }));
 }
 
-inline py::dict tables_of(const suite::Suite& suite, const std::string& out, bool resume, int jobs) {
+inline py::dict tables_of(const suite::Suite& suite, const std::string& out, bool resume,
+                          int jobs) {
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
     const study::Plan plan = suite::plan_of(suite, catalogue, files);
@@ -160,24 +183,31 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
         [&] {
-            const map::MapRun maps = map::run_maps(suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs}, Ear());
+            const map::MapRun maps =
+                map::run_maps(suite.maps, catalogue,
+                              {store::program_identity(files), folder, resume, jobs}, Ear());
             const study::Study run = study::run(plan, below("cells"), resume, jobs, Ear());
-            tables.emplace_back("cells", compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
+            tables.emplace_back(
+                "cells",
+                compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
             tables.emplace_back("maps", map::maps_table(maps));
             tables.emplace_back("boundaries", map::boundaries_table(maps, {}));
             for (const suite::Facet& f : suite::facets())
-                if (store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && f.rows != suite::sound_rows)
+                if (store::Table rows = study::rows_of(f.name, plan, run.records);
+                    !rows.rows.empty() && f.rows != suite::sound_rows)
                     tables.emplace_back(f.name, std::move(rows));
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"
-                                  : study::kept_of(plan, folder) + " are kept in " + out + "; resume=True goes on from there";
+                                  : study::kept_of(plan, folder) + " are kept in " + out +
+                                        "; resume=True goes on from there";
         });
     py::dict rows;
     for (const auto& [name, table] : tables) rows[py::str(name)] = rows_of(table);
     return rows;
 }
-inline py::dict suite_tables(const std::string& file, const std::string& out, bool resume, int jobs) {
+inline py::dict suite_tables(const std::string& file, const std::string& out, bool resume,
+                             int jobs) {
     return tables_of(suite::read_suite(file), out, resume, jobs);
 }
 inline py::list suite_rows(const std::string& file, const std::string& out, bool resume, int jobs) {
@@ -191,11 +221,14 @@ struct TrimmedRows {
     py::object path, needs;
     std::string toml;
 };
-inline TrimmedRows trim_rows(const py::object& scene, const std::string& within, const std::string& of, const std::string& tap,
-                             const std::string& scheme, std::optional<double> duration, double tap_rate, const std::string& reference,
-                             int reference_modes, const std::string& out, int jobs) {
+inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
+                             const std::string& of, const std::string& tap,
+                             const std::string& scheme, std::optional<double> duration,
+                             double tap_rate, const std::string& reference, int reference_modes,
+                             const std::string& out, int jobs) {
     const NamedScene s = NamedScene::of(scene);
-    const trim::Request r{s.name, of, within, tap, scheme, reference, out, s.set, plugins(), duration, tap_rate, reference_modes, jobs};
+    const trim::Request r{s.name, of,        within,   tap,      scheme,          reference, out,
+                          s.set,  plugins(), duration, tap_rate, reference_modes, jobs};
     const compare::Catalogue catalogue(plugins());
     store::Table path, needs;
     std::string toml;
@@ -209,8 +242,9 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
             return t.path.found;
         },
         [&] {
-            return out.empty() ? "nothing is kept, for there is no out"
-                               : "what was judged is kept in " + out + "; the same call goes on from there";
+            return out.empty()
+                       ? "nothing is kept, for there is no out"
+                       : "what was judged is kept in " + out + "; the same call goes on from there";
         });
     return {found, rows_of(path), rows_of(needs), toml};
 }

@@ -1,4 +1,5 @@
-// What the module does for schemes of one's own: problem, judge, check, and registering a class as a scheme.
+// What the module does for schemes of one's own: problem, judge, check, and registering a class as
+// a scheme.
 #pragma once
 
 #include "bench/check/check.hpp"
@@ -12,7 +13,8 @@
 namespace jvari::python {
 
 inline void know(const std::string& guest) {
-    if (std::ranges::find(all_plugins(), guest) == all_plugins().end()) all_plugins().push_back(guest);
+    if (std::ranges::find(all_plugins(), guest) == all_plugins().end())
+        all_plugins().push_back(guest);
 }
 
 inline double tap_rate_of(const std::vector<double>& rates, std::optional<double> asked) {
@@ -21,7 +23,8 @@ inline double tap_rate_of(const std::vector<double>& rates, std::optional<double
     return compare::tap_rate_for(r, rates);
 }
 
-inline py::object problem_of(const py::object& of, double rate, int modes, std::optional<double> duration, std::optional<double> tap_rate) {
+inline py::object problem_of(const py::object& of, double rate, int modes,
+                             std::optional<double> duration, std::optional<double> tap_rate) {
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
     refuse_beyond_arrays(scene);
@@ -29,13 +32,17 @@ inline py::object problem_of(const py::object& of, double rate, int modes, std::
 }
 
 // jvari.scheme("mine", ...): what it gives takes the class, registers it and gives it back.
-inline py::object scheme_decorator(const std::string& name, const std::vector<std::string>& represents, const std::string& balance,
-                                   const std::string& source, bool compiled) {
+inline py::object scheme_decorator(const std::string& name,
+                                   const std::vector<std::string>& represents,
+                                   const std::string& balance, const std::string& source,
+                                   bool compiled) {
     return py::cpp_function([=](const py::object& made_by) {
         const std::string path = "scheme " + name;
         if (!find_guest(path))
             for (const std::string& known : scheme_names())
-                if (known == name) throw store::UsageError("scheme \"" + name + "\": there is a scheme of the name already");
+                if (known == name)
+                    throw store::UsageError("scheme \"" + name +
+                                            "\": there is a scheme of the name already");
         know(add_class(made_by, name, represents, balance, source, compiled));
         return made_by;
     });
@@ -48,32 +55,41 @@ inline py::list check_rows_of(const std::string& scheme) {
     py::list rows;
     for (const check::Answered& a : checked.answers) {
         py::dict row;
-        row["promise"] = a.promise->name, row["sentence"] = a.promise->sentence, row["scene"] = a.scene;
+        row["promise"] = a.promise->name, row["sentence"] = a.promise->sentence,
+        row["scene"] = a.scene;
         row["answer"] = check::name_of(a.verdict.answer), row["why"] = a.verdict.why;
         rows.append(row);
     }
     return rows;
 }
 
-// A trace: rows x taps, or rows of the only tap; or {tap: rows}, of which further names are not looked at.
+// A trace: rows x taps, or rows of the only tap; or {tap: rows}, of which further names are not
+// looked at.
 inline Trace trace_of(const py::object& given, const Scene& scene, double tap_rate, double rate) {
     const std::string what = "trace at " + store::text_of(rate) + " Hz";
     std::vector<Numbers> columns;
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const py::str name(scene.taps[k].name);
         if (py::isinstance<py::dict>(given)) {
-            if (!given.contains(name)) throw store::UsageError(what + ": tap " + scene.taps[k].name + " is missing");
+            if (!given.contains(name))
+                throw store::UsageError(what + ": tap " + scene.taps[k].name + " is missing");
             columns.push_back(numbers_of(given[name], what));
         } else {
             const auto all = numbers_of(given, what);
             const bool single = all.ndim() == 1 && scene.taps.size() == 1;
-            if (!single && (all.ndim() != 2 || all.shape(1) != static_cast<py::ssize_t>(scene.taps.size())))
-                throw store::UsageError(what + ": expected rows x " + std::to_string(scene.taps.size()) +
+            if (!single &&
+                (all.ndim() != 2 || all.shape(1) != static_cast<py::ssize_t>(scene.taps.size())))
+                throw store::UsageError(what + ": expected rows x " +
+                                        std::to_string(scene.taps.size()) +
                                         " taps, or a dict of taps by name");
-            columns.push_back(single ? all : numbers_of(all[py::make_tuple(py::slice(0, all.shape(0), 1), py::int_(k))], what));
+            columns.push_back(
+                single ? all
+                       : numbers_of(all[py::make_tuple(py::slice(0, all.shape(0), 1), py::int_(k))],
+                                    what));
         }
         if (columns.back().ndim() != 1 || columns.back().size() != columns.front().size())
-            throw store::UsageError(what + ": tap " + scene.taps[k].name + " has another number of rows than the first");
+            throw store::UsageError(what + ": tap " + scene.taps[k].name +
+                                    " has another number of rows than the first");
     }
     Trace t;
     t.tap_rate = tap_rate;
@@ -85,16 +101,20 @@ inline Trace trace_of(const py::object& given, const Scene& scene, double tap_ra
     return t;
 }
 
-inline py::object judge_rows(const py::object& scene, const py::object& traces, const std::string& name, const py::object& cost,
-                             const std::vector<std::string>& schemes, std::optional<double> duration, std::optional<double> tap_rate,
-                             const std::string& tap, const std::string& reference, int repeats, int jobs) {
+inline py::object judge_rows(const py::object& scene, const py::object& traces,
+                             const std::string& name, const py::object& cost,
+                             const std::vector<std::string>& schemes,
+                             std::optional<double> duration, std::optional<double> tap_rate,
+                             const std::string& tap, const std::string& reference, int repeats,
+                             int jobs) {
     const NamedScene s = NamedScene::of(scene);
     compare::CompareRequest r;
-    r.scene = s.name, r.set = s.set, r.schemes = schemes, r.reference = reference, r.duration = duration, r.tap_rate = tap_rate,
-    r.tap = tap;
+    r.scene = s.name, r.set = s.set, r.schemes = schemes, r.reference = reference,
+    r.duration = duration, r.tap_rate = tap_rate, r.tap = tap;
     r.repeats = repeats, r.jobs = jobs;
     py::dict by_rate;
-    const bool rates = py::isinstance<py::dict>(traces) && py::len(traces) > 0 && !py::isinstance<py::str>(py::list(traces)[0]);
+    const bool rates = py::isinstance<py::dict>(traces) && py::len(traces) > 0 &&
+                       !py::isinstance<py::str>(py::list(traces)[0]);
     if (rates) by_rate = traces;
     else by_rate[py::float_(44100.0)] = traces;
     for (const auto& [rate, trace] : by_rate) r.rates.push_back(rate.cast<double>());
@@ -112,17 +132,21 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces, 
         const double hz = rate.cast<double>();
         Trace t = trace_of(py::reinterpret_borrow<py::object>(given), judged, rows.rate, hz);
         judge::must_be_whole(t, "trace at " + store::text_of(hz) + " Hz", rows.count);
-        c.contents.append(reinterpret_cast<const char*>(t.tap.data()), t.tap.size() * sizeof(double));
+        c.contents.append(reinterpret_cast<const char*>(t.tap.data()),
+                          t.tap.size() * sizeof(double));
         c.traces.emplace(hz, lent.traces.emplace_back(std::make_shared<Trace>(std::move(t))));
         if (cost.is_none()) continue;
-        c.costs[hz] = py::isinstance<py::dict>(cost) ? cost[py::reinterpret_borrow<py::object>(rate)].cast<double>() : cost.cast<double>();
+        c.costs[hz] = py::isinstance<py::dict>(cost)
+                          ? cost[py::reinterpret_borrow<py::object>(rate)].cast<double>()
+                          : cost.cast<double>();
     }
     c.contents = store::hash_of(c.contents);
     std::vector<std::string> others = plugins();
     std::erase(others, "trace " + name);
     return rows_of(unlocked([&] {
         study::Kept nowhere;
-        return compare::with_bounds(compare::cells_of(judge::judge(std::move(c), r, others, Ear(), nowhere)));
+        return compare::with_bounds(
+            compare::cells_of(judge::judge(std::move(c), r, others, Ear(), nowhere)));
     }));
 }
 

@@ -18,17 +18,20 @@ namespace jvari::python {
 
 namespace py = pybind11;
 
-// What Python wants to raise, and the module raises there. No std::exception: nothing on the way takes it for a failure of its own.
+// What Python wants to raise, and the module raises there. No std::exception: nothing on the way
+// takes it for a failure of its own.
 struct Raised {
     explicit Raised(py::error_already_set e) : error(std::move(e)) {}
     py::error_already_set error;
 };
 
-// Of calls that compute. The interpreter waits for them before it leaves: their threads could not end without it.
+// Of calls that compute. The interpreter waits for them before it leaves: their threads could not
+// end without it.
 struct Calls {
     int under_way = 0;
     bool leaving = false;
-    std::optional<Raised> raised;  // within a scheme, where nothing can be thrown: the next look raises it
+    // within a scheme, where nothing can be thrown: the next look raises it
+    std::optional<Raised> raised;
 };
 inline Calls& calls() {  // read and written by who has the interpreter's lock
     static Calls c;
@@ -42,13 +45,15 @@ inline void wait_for_calls() {
     }
 }
 
-// Whether Python code of a scheme runs on this thread: a scheme in Python cannot run one, or it might run itself without end.
+// Whether Python code of a scheme runs on this thread: a scheme in Python cannot run one, or it
+// might run itself without end.
 inline bool& in_a_scheme() {
     thread_local bool inside = false;
     return inside;
 }
 
-// Ctrl-C and other signals of Python, on the thread that called; on any other that the interpreter leaves.
+// Ctrl-C and other signals of Python, on the thread that called; on any other that the interpreter
+// leaves.
 inline void look_for_signals() {
     const py::gil_scoped_acquire lock;
     if (auto& there = calls().raised) throw Raised(*std::exchange(there, {}));
@@ -64,9 +69,13 @@ class Ear : public bench::store::Listener {
 public:
     void note(const std::string& text) const override {
         const py::gil_scoped_acquire lock;
-        if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw Raised(py::error_already_set());  // warnings are errors here
+        // warnings are errors here
+        if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0)
+            throw Raised(py::error_already_set());
     }
-    std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Signals>(); }
+    std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+        return std::make_unique<Signals>();
+    }
 };
 
 template <class Work>
@@ -101,7 +110,8 @@ auto unlocked(Work work, Kept kept) {
     try {
         return unlocked(work);
     } catch (const Raised& e) {
-        if (e.error.matches(PyExc_KeyboardInterrupt)) e.error.value().attr("args") = py::make_tuple("interrupted: " + kept());
+        if (e.error.matches(PyExc_KeyboardInterrupt))
+            e.error.value().attr("args") = py::make_tuple("interrupted: " + kept());
         throw;
     }
 }

@@ -1,5 +1,6 @@
-// Schemes written in Python, and what they are made from: the problem as NumPy arrays. A class is made once for a problem and asked for its
-// rows, block by block; whatever it raises ends that run and stands in its row as the reason.
+// Schemes written in Python, and what they are made from: the problem as NumPy arrays. A class is
+// made once for a problem and asked for its rows, block by block; whatever it raises ends that run
+// and stands in its row as the reason.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -25,8 +26,10 @@
 namespace jvari::python {
 
 inline py::object array_of(const Matrix& m) {
-    const auto rows = static_cast<py::ssize_t>(m.rows), columns = static_cast<py::ssize_t>(m.columns);
-    Column a(m.rows < 0 ? std::vector<py::ssize_t>{columns} : std::vector<py::ssize_t>{rows, columns});
+    const auto rows = static_cast<py::ssize_t>(m.rows),
+               columns = static_cast<py::ssize_t>(m.columns);
+    Column a(m.rows < 0 ? std::vector<py::ssize_t>{columns}
+                        : std::vector<py::ssize_t>{rows, columns});
     std::copy_n(m.data, static_cast<std::size_t>(a.size()), a.mutable_data());
     return a;
 }
@@ -39,7 +42,8 @@ py::object array_of(const Plain& value) {
 }
 inline py::object namespace_of(const jvari_problem& p) {
     py::dict members;
-    each_member(p, [&members](const char* name, const auto& value) { members[name] = array_of(value); });
+    each_member(
+        p, [&members](const char* name, const auto& value) { members[name] = array_of(value); });
     return py::module_::import("types").attr("SimpleNamespace")(**members);
 }
 
@@ -48,8 +52,9 @@ struct PythonClass {  // of a scheme, kept for the life of the process as its gu
     py::object made_by;
 };
 
-// The one way into the code of a scheme: with the interpreter's lock. What it raises is a failure of that scheme, BadScheme with its
-// sentence; what is no Exception of Python, KeyboardInterrupt or SystemExit, ends the study.
+// The one way into the code of a scheme: with the interpreter's lock. What it raises is a failure
+// of that scheme, BadScheme with its sentence; what is no Exception of Python, KeyboardInterrupt or
+// SystemExit, ends the study.
 template <class Act>
 auto in_scheme(const std::string& name, Act act) {
     const py::gil_scoped_acquire lock;
@@ -63,9 +68,7 @@ auto in_scheme(const std::string& name, Act act) {
     } catch (const py::error_already_set& e) {
         if (!e.matches(PyExc_Exception)) calls().raised.emplace(e);
         throw BadScheme(name + ": " + e.what());
-    } catch (const py::builtin_exception& e) {
-        throw BadScheme(name + ": " + e.what());
-    }
+    } catch (const py::builtin_exception& e) { throw BadScheme(name + ": " + e.what()); }
 }
 
 inline int dofs_of(const py::object& self) {
@@ -74,29 +77,35 @@ inline int dofs_of(const py::object& self) {
     const bool none = PyErr_Occurred() != nullptr;
     PyErr_Clear();
     if (none || n < 0 || n > std::numeric_limits<int>::max())
-        throw py::type_error("dofs: found " + py::repr(given).cast<std::string>() + ", expected a whole number, the doubles of state");
+        throw py::type_error("dofs: found " + py::repr(given).cast<std::string>() +
+                             ", expected a whole number, the doubles of state");
     return static_cast<int>(n);
 }
 
 class Interpreted final : public Scheme {
 public:
-    Interpreted(const PythonClass& of, const Scene& scene, const Settings& settings) : of_(of), problem_(scene, settings) {
+    Interpreted(const PythonClass& of, const Scene& scene, const Settings& settings)
+        : of_(of), problem_(scene, settings) {
         refuse_beyond_arrays(scene);
         try {
             make();
-        } catch (const BadScheme& e) {
-            throw Refusal(e.what());
-        }
-        dofs_ = in_scheme(of_.name,
-                          [this] { return py::hasattr(*self_, "dofs") ? dofs_of(*self_) : 2 * static_cast<int>(problem_.arrays().modes); });
+        } catch (const BadScheme& e) { throw Refusal(e.what()); }
+        dofs_ = in_scheme(of_.name, [this] {
+            return py::hasattr(*self_, "dofs") ? dofs_of(*self_)
+                                               : 2 * static_cast<int>(problem_.arrays().modes);
+        });
     }
 
-    // Its own reset(), where it has one; else it is made anew. What it has raised stays the reason of this run.
+    // Its own reset(), where it has one; else it is made anew. What it has raised stays the reason
+    // of this run.
     void reset() noexcept override {
         row_ = 0;
         if (!std::exchange(used_, false)) return;
         attempt([this] {
-            if (in_scheme(of_.name, [this] { return py::hasattr(*self_, "reset") && (self_->attr("reset")(), true); })) return;
+            if (in_scheme(of_.name, [this] {
+                    return py::hasattr(*self_, "reset") && (self_->attr("reset")(), true);
+                }))
+                return;
             make();
         });
     }
@@ -107,7 +116,9 @@ public:
         const long step = row_ * problem_.arrays().steps_per_row;
         row_ += out.rows;
         if (!failure_) return {};
-        for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, std::numeric_limits<double>::quiet_NaN());
+        for (int k = 0; k < out.taps; ++k)
+            std::fill_n(out.tap + k * out.stride, out.rows,
+                        std::numeric_limits<double>::quiet_NaN());
         return {Outcome::diverged, step};
     }
     int dofs() const override { return dofs_; }
@@ -123,7 +134,8 @@ public:
     }
 
 private:
-    static void wait_for_end(const Block& out) {  // where it is what ends the study: no row is to be kept of it
+    // where it is what ends the study: no row is to be kept of it
+    static void wait_for_end(const Block& out) {
         const auto ends = [] {
             const py::gil_scoped_acquire lock;
             return calls().raised.has_value();
@@ -131,16 +143,15 @@ private:
         while (ends() && !out.stopped()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     void make() {
-        self_ = in_scheme(of_.name, [this] { return held(of_.made_by(namespace_of(problem_.arrays()))); });
+        self_ = in_scheme(of_.name,
+                          [this] { return held(of_.made_by(namespace_of(problem_.arrays()))); });
     }
     template <class Act>
     void attempt(Act act) noexcept {  // nothing more once it has failed
         if (failure_) return;
         try {
             act();
-        } catch (...) {
-            failure_ = std::current_exception();
-        }
+        } catch (...) { failure_ = std::current_exception(); }
     }
     static std::shared_ptr<py::object> held(py::object o) {  // to be let go of on any thread
         return {new py::object(std::move(o)), [](py::object* it) {
@@ -148,19 +159,24 @@ private:
                     delete it;
                 }};
     }
-    static void copy(const Numbers& from, int rows, int columns, double* to, long stride, const char* what) {
+    static void copy(const Numbers& from, int rows, int columns, double* to, long stride,
+                     const char* what) {
         if (from.ndim() != 2 || from.shape(0) != rows || from.shape(1) != columns)
-            throw std::runtime_error(std::string("advance(") + std::to_string(rows) + ") gives " + what + " of another shape than (" +
-                                     std::to_string(rows) + ", " + std::to_string(columns) + ")");
+            throw std::runtime_error(std::string("advance(") + std::to_string(rows) + ") gives " +
+                                     what + " of another shape than (" + std::to_string(rows) +
+                                     ", " + std::to_string(columns) + ")");
         const auto values = from.unchecked<2>();
         for (int n = 0; n < rows; ++n)
             for (int k = 0; k < columns; ++k) to[n + k * stride] = values(n, k);
     }
     static void take(const py::object& given, const Block& out) {
         const bool pair = py::isinstance<py::tuple>(given) && py::len(given) == 2;
-        copy(numbers_of(pair ? given[py::int_(0)] : given, "advance"), out.rows, out.taps, out.tap, out.stride, "taps");
+        copy(numbers_of(pair ? given[py::int_(0)] : given, "advance"), out.rows, out.taps, out.tap,
+             out.stride, "taps");
         if (!out.energy) return;
-        if (pair) copy(numbers_of(given[py::int_(1)], "advance"), out.rows, 3, out.energy, out.stride, "energies");
+        if (pair)
+            copy(numbers_of(given[py::int_(1)], "advance"), out.rows, 3, out.energy, out.stride,
+                 "energies");
         else
             for (int k = 0; k < 3; ++k) std::fill_n(out.energy + k * out.stride, out.rows, 0.0);
     }
@@ -177,35 +193,45 @@ private:
 inline Features features_of(const std::vector<std::string>& names) {
     std::vector<std::string> known;
     Features all;
-    for (int i = 0; i < feature_count; ++i) known.emplace_back(name_of(static_cast<Feature>(1u << i)));
+    for (int i = 0; i < feature_count; ++i)
+        known.emplace_back(name_of(static_cast<Feature>(1u << i)));
     for (const std::string& name : names) {
         const auto found = std::ranges::find(known, name);
-        if (found == known.end()) throw bench::store::UsageError(bench::store::unknown("feature", name, known));
+        if (found == known.end())
+            throw bench::store::UsageError(bench::store::unknown("feature", name, known));
         all = all | Features(1u << (found - known.begin()));
     }
     return all;
 }
 
 // Registers the class in place of one of the same name; returns the path that its guest has.
-inline std::string add_class(const py::object& made_by, const std::string& name, const std::vector<std::string>& represents,
-                             const std::string& balance, const std::string& source, bool compiled) {
-    const auto* kept = new PythonClass{name, source, made_by};  // NOLINT(cppcoreguidelines-owning-memory): as its guest, to the end
+inline std::string add_class(const py::object& made_by, const std::string& name,
+                             const std::vector<std::string>& represents, const std::string& balance,
+                             const std::string& source, bool compiled) {
+    // NOLINT(cppcoreguidelines-owning-memory): as its guest, to the end
+    const auto* kept = new PythonClass{name, source, made_by};
     Descriptor d{};
     d.name = kept->name.c_str(), d.source = kept->source.c_str();
     d.represents = features_of(represents);
     if (balance != "exact" && balance != "to tolerance" && balance != "none")
-        throw bench::store::UsageError("balance: found \"" + balance + "\", expected \"exact\", \"to tolerance\" or \"none\"");
-    d.balance = balance == "exact" ? Balance::exact : balance == "none" ? Balance::none : Balance::to_tolerance;
+        throw bench::store::UsageError("balance: found \"" + balance +
+                                       "\", expected \"exact\", \"to tolerance\" or \"none\"");
+    d.balance = balance == "exact"  ? Balance::exact
+                : balance == "none" ? Balance::none
+                                    : Balance::to_tolerance;
     d.clock = Clock::stepped;
     d.own = kept;
     d.untimed = compiled ? "" : "interpreted, not compared";
-    d.make = [](const Descriptor& of, const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
-        return std::make_unique<Interpreted>(*static_cast<const PythonClass*>(of.own), scene, settings);
+    d.make = [](const Descriptor& of, const Scene& scene,
+                const Settings& settings) -> std::unique_ptr<Scheme> {
+        return std::make_unique<Interpreted>(*static_cast<const PythonClass*>(of.own), scene,
+                                             settings);
     };
     std::string text = name;
     try {
         text += py::module_::import("inspect").attr("getsource")(made_by).cast<std::string>();
-    } catch (py::error_already_set&) {  // typed into a console: nothing is kept of it but by its name and this process
+        // typed into a console: nothing is kept of it but by its name and this process
+    } catch (py::error_already_set&) {
         text += std::to_string(reinterpret_cast<std::uintptr_t>(kept));
     }
     std::string path = "scheme " + name;

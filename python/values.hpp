@@ -1,4 +1,5 @@
-// Python's values and the engine's: keys and options as text, scenes, tables as rows, columns of a trace as arrays on its memory.
+// Python's values and the engine's: keys and options as text, scenes, tables as rows, columns of a
+// trace as arrays on its memory.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -19,25 +20,31 @@ namespace jvari::python {
 
 namespace py = pybind11;
 
-inline std::string text_of(const py::handle& value, int level = 0) {  // as an override or an option has it
-    constexpr int deepest = 16;                                       // as in scene files
-    if (level > deepest) throw bench::store::UsageError("found lists nested deeper than " + std::to_string(deepest));
+// as an override or an option has it
+inline std::string text_of(const py::handle& value, int level = 0) {
+    constexpr int deepest = 16;  // as in scene files
+    if (level > deepest)
+        throw bench::store::UsageError("found lists nested deeper than " + std::to_string(deepest));
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
     if (py::isinstance<py::str>(value)) return value.cast<std::string>();
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
         std::string text;
-        for (const py::handle& item : value) text += (text.empty() ? "" : ", ") + text_of(item, level + 1);
+        for (const py::handle& item : value)
+            text += (text.empty() ? "" : ", ") + text_of(item, level + 1);
         return "[" + text + "]";
     }
-    return py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : bench::store::text_of(value.cast<double>());
+    return py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>()
+                                           : bench::store::text_of(value.cast<double>());
 }
 
-inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& options) {  // {"[SCHEME:]NAME": value}
+// {"[SCHEME:]NAME": value}
+inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& options) {
     std::vector<bench::compare::SchemeOption> all;
     for (const auto& [key, value] : options) {
         const auto name = key.cast<std::string>();
         const auto colon = name.find(':');
-        const std::string scheme = colon == std::string::npos ? "" : name.substr(0, colon), option = name.substr(colon + 1);
+        const std::string scheme = colon == std::string::npos ? "" : name.substr(0, colon),
+                          option = name.substr(colon + 1);
         if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
             for (const auto& one : value) all.push_back({scheme, option, text_of(one)});
         else all.push_back({scheme, option, text_of(value)});
@@ -54,7 +61,9 @@ struct NamedScene {  // a scene as it was asked for, and what that is
         Scene scene = read_scene(name, set);
         return {name, std::move(set), std::move(scene)};
     }
-    static NamedScene of(const py::object& o) { return py::isinstance<py::str>(o) ? of(o.cast<std::string>(), {}) : o.cast<NamedScene>(); }
+    static NamedScene of(const py::object& o) {
+        return py::isinstance<py::str>(o) ? of(o.cast<std::string>(), {}) : o.cast<NamedScene>();
+    }
     NamedScene with(const std::string& key, const py::object& to) const {
         auto all = set;
         all.push_back(key + "=" + text_of(to));
@@ -62,7 +71,8 @@ struct NamedScene {  // a scene as it was asked for, and what that is
     }
     std::string said() const {
         std::string text = "jvari.scene('" + name + "')";
-        for (const std::string& o : set) text += ".set('" + o.substr(0, o.find('=')) + "', '" + o.substr(o.find('=') + 1) + "')";
+        for (const std::string& o : set)
+            text += ".set('" + o.substr(0, o.find('=')) + "', '" + o.substr(o.find('=') + 1) + "')";
         return text;
     }
 };
@@ -93,12 +103,14 @@ inline Numbers numbers_of(const py::object& given, const std::string& what) {
 
 struct TakenRun {  // a run, and what its columns are in
     Run run;
-    std::vector<std::pair<std::string, std::string>> units;  // of each column: taps, then what of the energy was probed
+    // of each column: taps, then what of the energy was probed
+    std::vector<std::pair<std::string, std::string>> units;
 
     TakenRun(Run r, const Scene& scene) : run(std::move(r)) {
         for (const Tap& t : scene.taps) units.emplace_back(t.name, unit_of(t.quantity));
         if (!run.trace.energy.empty())
-            for (const char* name : {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"}) units.emplace_back(name, "J");
+            for (const char* name : {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"})
+                units.emplace_back(name, "J");
     }
 };
 
@@ -111,7 +123,8 @@ inline Column column(const py::object& self, const std::string& name) {
         const int k = static_cast<int>(names.size());
         names.push_back(column_name);
         if (column_name != name) continue;
-        const auto values = k < trace.taps() ? trace.column(k) : trace.energy_column(k - trace.taps());
+        const auto values =
+            k < trace.taps() ? trace.column(k) : trace.energy_column(k - trace.taps());
         Column a(static_cast<py::ssize_t>(values.size()), values.data(), self);
         a.attr("setflags")(py::arg("write") = false);
         return a;
@@ -121,7 +134,8 @@ inline Column column(const py::object& self, const std::string& name) {
 
 inline Column time_of(const TakenRun& r) {
     Column t(r.run.trace.rows);
-    for (long n = 0; n < r.run.trace.rows; ++n) t.mutable_data()[n] = static_cast<double>(n) / r.run.trace.tap_rate;
+    for (long n = 0; n < r.run.trace.rows; ++n)
+        t.mutable_data()[n] = static_cast<double>(n) / r.run.trace.tap_rate;
     return t;
 }
 
@@ -136,7 +150,8 @@ inline py::object to_xarray(const py::object& self) {
     const py::module_ xarray = py::module_::import("xarray");
     py::dict columns, coordinates;
     for (const auto& [name, unit] : r.units)
-        columns[py::str(name)] = py::make_tuple("time", column(self, name), py::dict(py::arg("units") = unit));
+        columns[py::str(name)] =
+            py::make_tuple("time", column(self, name), py::dict(py::arg("units") = unit));
     coordinates["time"] = py::make_tuple("time", time_of(r), py::dict(py::arg("units") = "s"));
     return xarray.attr("Dataset")(columns, coordinates, facts_of(r));
 }

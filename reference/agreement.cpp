@@ -8,7 +8,8 @@
 namespace jvari {
 
 namespace {
-constexpr double slowest = 0.70710678118654752, fastest = 0.25;  // ratios of a doubling to the one before: orders 1/2 and 2
+// ratios of a doubling to the one before: orders 1/2 and 2
+constexpr double slowest = 0.70710678118654752, fastest = 0.25;
 constexpr double least_left_of_matched = 1.2;
 }  // namespace
 
@@ -16,10 +17,13 @@ std::span<const double> rows_from(std::span<const double> x, double seconds, dou
     return x.subspan(std::min(x.size(), static_cast<std::size_t>(row_at(seconds, rate))));
 }
 
-double relative_difference(std::span<const double> a, std::span<const double> b, double rate, double until) {
+double relative_difference(std::span<const double> a, std::span<const double> b, double rate,
+                           double until) {
     const auto within = [&](std::span<const double> x) {
         const double length = static_cast<double>(x.size()) / rate;
-        return until < length ? x.first(std::min(x.size(), static_cast<std::size_t>(row_at(until, rate)))) : x;
+        return until < length
+                   ? x.first(std::min(x.size(), static_cast<std::size_t>(row_at(until, rate))))
+                   : x;
     };
     return relative_difference(within(a), within(b));
 }
@@ -28,7 +32,8 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
     Agreement result;
     for (std::size_t w = 0; w < agreement_windows.size(); ++w)
         result.relative_l2[w] = relative_difference(a, b, rate, agreement_windows[w]);
-    for (std::size_t l = 0; l < agreement_levels.size(); ++l) result.until[l] = agree_until(a, b, rate, agreement_levels[l]);
+    for (std::size_t l = 0; l < agreement_levels.size(); ++l)
+        result.until[l] = agree_until(a, b, rate, agreement_levels[l]);
     return result;
 }
 

@@ -41,21 +41,31 @@ std::vector<Job> jobs_for(const Scene& scene, const CertifySettings& settings) {
         if (represents(r, scene)) able.push_back(&r);
     std::vector<Job> jobs;
     for (const Descriptor* r : able)
-        for (const Options& o : confirmation_of(*r, scene).accuracies) jobs.push_back({r, o, false});
+        for (const Options& o : confirmation_of(*r, scene).accuracies)
+            jobs.push_back({r, o, false});
     if (!able.empty())
         for (const Options& o : confirmation_of(*able.front(), scene).accuracies)
-            if (const auto nearer = matched(*able.front(), scene, o)) jobs.push_back({able.front(), *nearer, false});
+            if (const auto nearer = matched(*able.front(), scene, o))
+                jobs.push_back({able.front(), *nearer, false});
     if (able.size() == 1)
-        for (const Options& o : confirmation_of(*able.front(), scene).other_methods) jobs.push_back({able.front(), o, false});
+        for (const Options& o : confirmation_of(*able.front(), scene).other_methods)
+            jobs.push_back({able.front(), o, false});
     if (jobs.empty())
-        if (const Descriptor* scheme = best_by_estimate(stand_ins(scene), scene, coarsest(settings), multiple))
+        if (const Descriptor* scheme =
+                best_by_estimate(stand_ins(scene), scene, coarsest(settings), multiple))
             jobs.push_back({scheme, {}, true});
     if (jobs.empty())
-        throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
+        throw Refusal("no reference and no scheme represents scene " + scene.name + ": it needs " +
+                      names_of(needed_by(scene)));
     if (!able.empty()) {
-        jobs.push_back({able.front(), matched(*able.front(), scene, {}).value_or(Options{}), false, "modes"});
+        jobs.push_back(
+            {able.front(), matched(*able.front(), scene, {}).value_or(Options{}), false, "modes"});
         if (needed_by(scene).any(any_profile))
-            jobs.push_back({able.front(), {{nodes_option.name, std::to_string(2 * std::stoi(nodes_option.fallback))}}, false, "points"});
+            jobs.push_back(
+                {able.front(),
+                 {{nodes_option.name, std::to_string(2 * std::stoi(nodes_option.fallback))}},
+                 false,
+                 "points"});
     }
     return jobs;
 }
@@ -81,11 +91,13 @@ Certificate::Entry entry_of(const Job& job, const CertifySettings& settings) {
 }
 
 bool is_default(const Job& job) {
-    return (job.options.empty() || (job.options.size() == 1 && is_matched(job.options))) && job.doubled.empty() && !job.oversampled;
+    return (job.options.empty() || (job.options.size() == 1 && is_matched(job.options))) &&
+           job.doubled.empty() && !job.oversampled;
 }
 
 bool are_compared(const Job& a, const Job& b) {
-    if (a.doubled.empty()) return b.doubled.empty() && is_matched(a.options) == is_matched(b.options);
+    if (a.doubled.empty())
+        return b.doubled.empty() && is_matched(a.options) == is_matched(b.options);
     return a.scheme == b.scheme && is_default(b);
 }
 
@@ -117,14 +129,16 @@ Certificate certify(const Scene& scene, const CertifySettings& settings) {
     int done = 0;
     RunOptions options;
     if (settings.within)
-        options.progress = [&settings](long rows, long of) { settings.within(static_cast<double>(rows) / static_cast<double>(of)); };
+        options.progress = [&settings](long rows, long of) {
+            settings.within(static_cast<double>(rows) / static_cast<double>(of));
+        };
     const auto announce = [&](const std::string& name) {
         if (settings.progress) settings.progress(name, done, static_cast<int>(jobs.size()) + 1);
         ++done;
     };
     const auto settings_of = [&](const Job& job) {
-        return Settings{job.oversampled ? finest_rate(settings) : 0, settings.tap_rate, job.doubled == "modes" ? 2 * c.modes : c.modes,
-                        job.options};
+        return Settings{job.oversampled ? finest_rate(settings) : 0, settings.tap_rate,
+                        job.doubled == "modes" ? 2 * c.modes : c.modes, job.options};
     };
     for (const Job& job : jobs) {
         Certificate::Entry entry = entry_of(job, settings);
@@ -158,22 +172,29 @@ Certificate certify(const Scene& scene, const CertifySettings& settings) {
         c.entries.push_back(std::move(entry));
     }
     if (ran.empty())
-        throw Refusal("certificate of scene " + scene.name + ": every reference refuses it; the first: " + c.entries.front().reason);
+        throw Refusal("certificate of scene " + scene.name +
+                      ": every reference refuses it; the first: " + c.entries.front().reason);
 
     const auto compare = [&](const Trace& a, const Trace& b) {
         std::vector<Agreement> taps;
-        const auto free = [&](const Trace& t, int k) { return rows_from(t.column(k), c.from, t.tap_rate); };
-        for (int k = 0; k < b.taps(); ++k) taps.push_back(agreement(free(a, k), free(b, k), settings.tap_rate));
+        const auto free = [&](const Trace& t, int k) {
+            return rows_from(t.column(k), c.from, t.tap_rate);
+        };
+        for (int k = 0; k < b.taps(); ++k)
+            taps.push_back(agreement(free(a, k), free(b, k), settings.tap_rate));
         return taps;
     };
     for (std::size_t a = 0; a < ran.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
             if (are_compared(*ran[a].job, *ran[b].job))
-                c.pairs.push_back({ran[a].entry, ran[b].entry, compare(ran[a].trace, ran[b].trace)});
+                c.pairs.push_back(
+                    {ran[a].entry, ran[b].entry, compare(ran[a].trace, ran[b].trace)});
 
     announce("noise floor");
     const Job& first = *ran.front().job;
-    c.floor = compare(run(*first.scheme, moved(scene, 1 + floor_displacement), settings_of(first), options).trace, ran.front().trace);
+    c.floor = compare(
+        run(*first.scheme, moved(scene, 1 + floor_displacement), settings_of(first), options).trace,
+        ran.front().trace);
     return c;
 }
 

@@ -1,10 +1,13 @@
-// An ideal string above a rigid profile on the lattice of its characteristics, dx = c dt: Schatzman & Bercovier, "Numerical approximation
-// of a wave equation with unilateral constraints", Math. Comp. 53 (1989), on the lattice of sitar_fdm.cpp. All of the string's modes are in
-// it; its error falls as one over the cells, for each bounce comes two steps late. On a flat wall it tends to the closed form of Bamberger
-// and Schatzman, u = w + 2 sup (profile - w)^+ over the backward cone, w the free motion, which holds until a contact's reflection by an
-// end or by an edge of the wall arrives; from there on the lattice goes on and no closed form is known.
+// An ideal string above a rigid profile on the lattice of its characteristics, dx = c dt: Schatzman
+// & Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math.
+// Comp. 53 (1989), on the lattice of sitar_fdm.cpp. All of the string's modes are in it; its error
+// falls as one over the cells, for each bounce comes two steps late. On a flat wall it tends to the
+// closed form of Bamberger and Schatzman, u = w + 2 sup (profile - w)^+ over the backward cone, w
+// the free motion, which holds until a contact's reflection by an end or by an edge of the wall
+// arrives; from there on the lattice goes on and no closed form is known.
 //
-// Rows fall on steps: of the multiples of the tap rate that give about as many cells as asked for, it takes the one most in tune.
+// Rows fall on steps: of the multiples of the tap rate that give about as many cells as asked for,
+// it takes the one most in tune.
 #include <algorithm>
 #include <cmath>
 
@@ -15,35 +18,44 @@
 namespace jvari {
 
 namespace {
-constexpr Option cells_option{"cells", "8192", "least number of cells from end to end, 64 to 262144; at most twice as many are taken"};
+constexpr Option cells_option{
+    "cells", "8192",
+    "least number of cells from end to end, 64 to 262144; at most twice as many are taken"};
 constexpr Option options[] = {cells_option};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     const double cells = number_option(settings, cells_option);
-    if (!(cells >= 64 && cells <= 262144)) throw Refusal("option cells: expected a number from 64 to 262144");
+    if (!(cells >= 64 && cells <= 262144))
+        throw Refusal("option cells: expected a number from 64 to 262144");
     const String& s = scene.strings.front();
-    if (s.barriers.empty()) throw Refusal(std::string(descriptor.name) + ": the string touches nothing; exact_linear has its closed form");
-    const double per_row = s.length * settings.tap_rate / std::sqrt(s.tension / s.linear_density);  // cells, were a step a row
+    if (s.barriers.empty())
+        throw Refusal(std::string(descriptor.name) +
+                      ": the string touches nothing; exact_linear has its closed form");
+    // cells, were a step a row
+    const double per_row = s.length * settings.tap_rate / std::sqrt(s.tension / s.linear_density);
     const double least = std::max(1.0, std::ceil(cells / per_row));
     double chosen = least, nearest = 1;
     for (double steps = least; steps < least + std::min(least, 4096.0); ++steps) {
         const double misfit = std::abs(steps * per_row - std::round(steps * per_row));
         if (misfit < nearest - 1e-9) nearest = misfit, chosen = steps;
     }
-    return characteristic_lattice_of(descriptor, scene, {chosen * settings.tap_rate, settings.tap_rate, 0, {}});
+    return characteristic_lattice_of(descriptor, scene,
+                                     {chosen * settings.tap_rate, settings.tap_rate, 0, {}});
 }
 }  // namespace
 
-const Descriptor characteristic_lattice = {.name = "characteristic_lattice",
-                                           .source = "Schatzman & Bercovier 1989, by Bamberger & Schatzman's closed form on a flat wall",
-                                           .represents = Feature::rigid_profile | Feature::initial_shape,
-                                           .balance = Balance::to_tolerance,
-                                           .clock = Clock::continuous,
-                                           .make = made,
-                                           .options = options,
-                                           .note = "An ideal string released over one rigid profile that begins at x = 0.",
-                                           .confirmation = [](const Scene&) {
-                                               return Confirmation{{{}, {{cells_option.name, "16384"}}}, {}};
-                                           }};
+const Descriptor characteristic_lattice = {
+    .name = "characteristic_lattice",
+    .source = "Schatzman & Bercovier 1989, by Bamberger & Schatzman's closed form on a flat wall",
+    .represents = Feature::rigid_profile | Feature::initial_shape,
+    .balance = Balance::to_tolerance,
+    .clock = Clock::continuous,
+    .make = made,
+    .options = options,
+    .note = "An ideal string released over one rigid profile that begins at x = 0.",
+    .confirmation = [](const Scene&) {
+        return Confirmation{{{}, {{cells_option.name, "16384"}}}, {}};
+    }};
 
 }  // namespace jvari

@@ -1,10 +1,13 @@
 // Closed form for strings that touch nothing: every mode is a damped oscillator,
 //
-//     y_i(t) = e^(-sigma t) (cos wt + sigma sin(wt)/w) y_i(0) + e^(-sigma t) sin(wt)/w v_i(0) + Duhamel integral of the pluck,
+//     y_i(t) = e^(-sigma t) (cos wt + sigma sin(wt)/w) y_i(0) + e^(-sigma t) sin(wt)/w v_i(0) +
+//     Duhamel integral of the pluck,
 //
-// w^2 = omega0^2 - sigma^2, hyperbolic where that is negative, t itself in place of sin(wt)/w where it is zero (van Walstijn et al. 2016,
-// eqs 16-21). Rows after the last forced one come straight from the state there, with the phase reduced in long double: no error
-// accumulates. The Duhamel integral is Gauss-Legendre on panels that are short against the fastest mode and the pluck's own time scale.
+// w^2 = omega0^2 - sigma^2, hyperbolic where that is negative, t itself in place of sin(wt)/w where
+// it is zero (van Walstijn et al. 2016, eqs 16-21). Rows after the last forced one come straight
+// from the state there, with the phase reduced in long double: no error accumulates. The Duhamel
+// integral is Gauss-Legendre on panels that are short against the fastest mode and the pluck's own
+// time scale.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,15 +31,18 @@ Flight flight(double omega0, double sigma, long double t) {
     double c, s;  // e^(-sigma t) cos wt, e^(-sigma t) sin(wt)/w
     if (omega0 > sigma) {
         const long double turn = 2 * std::numbers::pi_v<long double>;
-        const long double w = std::sqrt((static_cast<long double>(omega0) - sigma) * (static_cast<long double>(omega0) + sigma));
+        const long double w = std::sqrt((static_cast<long double>(omega0) - sigma) *
+                                        (static_cast<long double>(omega0) + sigma));
         const long double phase = w * t;
         const double reduced = static_cast<double>(phase - turn * std::rint(phase / turn));
         const double decay = static_cast<double>(std::exp(-static_cast<double>(sigma * t)));
         c = decay * std::cos(reduced);
         s = decay * std::sin(reduced) / static_cast<double>(w);
     } else {
-        const double time = static_cast<double>(t), nu = std::sqrt((sigma - omega0) * (sigma + omega0));
-        const double slow = std::exp(-omega0 * omega0 / (sigma + nu) * time);  // sigma - nu without cancellation
+        const double time = static_cast<double>(t),
+                     nu = std::sqrt((sigma - omega0) * (sigma + omega0));
+        // sigma - nu without cancellation
+        const double slow = std::exp(-omega0 * omega0 / (sigma + nu) * time);
         c = 0.5 * slow * (1 + std::exp(-2 * nu * time));
         s = nu == 0 ? slow * time : slow * -std::expm1(-2 * nu * time) / (2 * nu);
     }
@@ -59,12 +65,15 @@ private:
     };
     void next_row(const Block& out) noexcept;
     void fly(const State& from, long double t, State& to) const noexcept;
-    void push(State&, double from, double to) const noexcept;  // free flight and the pluck's force, one panel
-    void ledger(double from, double to) noexcept;              // from state_, energies of one panel by quadrature
+    // free flight and the pluck's force, one panel
+    void push(State&, double from, double to) const noexcept;
+    // from state_, energies of one panel by quadrature
+    void ledger(double from, double to) noexcept;
     double stored() const noexcept;
     long panels(double length) const noexcept {
         return static_cast<long>(
-            std::clamp(std::ceil(length * rate_ / 3), 1.0, 0.5 * static_cast<double>(std::numeric_limits<long>::max())));
+            std::clamp(std::ceil(length * rate_ / 3), 1.0,
+                       0.5 * static_cast<double>(std::numeric_limits<long>::max())));
     }
 
     Modes modes_;
@@ -79,13 +88,18 @@ private:
 };
 
 ExactLinear::ExactLinear(const String& s, const Scene& scene, Modes modes, double tap_rate)
-    : modes_(std::move(modes)), readout_(scene, modes_), start_(initial_displacement(modes_, s)), tap_rate_(tap_rate) {
-    for (int i = 0; i < modes_.count(); ++i) rate_ = std::max({rate_, modes_.omega0[i], 2 * modes_.sigma[i]});
+    : modes_(std::move(modes)),
+      readout_(scene, modes_),
+      start_(initial_displacement(modes_, s)),
+      tap_rate_(tap_rate) {
+    for (int i = 0; i < modes_.count(); ++i)
+        rate_ = std::max({rate_, modes_.omega0[i], 2 * modes_.sigma[i]});
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         excited_ = footprint_weights(modes_, s.pluck->position, s.pluck->width);
         for (double& g : excited_) g /= modes_.mass;
-        const double k = std::abs(s.pluck->skew);  // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
+        // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
+        const double k = std::abs(s.pluck->skew);
         rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
     }
     for (State* state : {&anchor_, &state_, &node_state_}) state->y = state->v = start_;
@@ -126,8 +140,10 @@ void ExactLinear::next_row(const Block& out) noexcept {
         const double length = cut[part + 1] - cut[part];
         const long count = length > 0 ? panels(length) : 0;
         for (long k = 0; k < count; ++k) {
-            const double a = now + cut[part] + length * static_cast<double>(k) / static_cast<double>(count),
-                         b = now + cut[part] + length * static_cast<double>(k + 1) / static_cast<double>(count);
+            const double a = now + cut[part] +
+                             length * static_cast<double>(k) / static_cast<double>(count),
+                         b = now + cut[part] +
+                             length * static_cast<double>(k + 1) / static_cast<double>(count);
             if (probe) ledger(a, b);
             push(state_, a, b);
             if (out.stopped(k, panels_between_questions)) return;
@@ -152,9 +168,11 @@ void ExactLinear::fly(const State& from, long double t, State& to) const noexcep
 
 void ExactLinear::push(State& state, double from, double to) const noexcept {
     fly(state, static_cast<long double>(to) - from, state);
-    if (pluck_.empty() || from >= pluck_[0].start + pluck_[0].duration || to <= pluck_[0].start) return;
+    if (pluck_.empty() || from >= pluck_[0].start + pluck_[0].duration || to <= pluck_[0].start)
+        return;
     for (int q = 0; q < nodes; ++q) {
-        const double length = to - from, impulse = weight_[q] * length * force(pluck_[0], from + node_[q] * length);
+        const double length = to - from,
+                     impulse = weight_[q] * length * force(pluck_[0], from + node_[q] * length);
         for (int i = 0; i < modes_.count(); ++i) {
             const Flight f = flight(modes_.omega0[i], modes_.sigma[i], length * (1 - node_[q]));
             state.y[i] += f.yv * impulse * excited_[i];
@@ -201,8 +219,10 @@ std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settin
 const Descriptor exact_linear = {.name = "exact_linear",
                                  .source = "closed form of van Walstijn et al. 2016, eqs 16-21",
                                  .represents = Feature::bending_stiffness | Feature::damping |
-                                               Features(Feature::frequency_dependent_damping) | Features(Feature::measured_modes) |
-                                               Features(Feature::initial_shape) | Features(Feature::pluck),
+                                               Features(Feature::frequency_dependent_damping) |
+                                               Features(Feature::measured_modes) |
+                                               Features(Feature::initial_shape) |
+                                               Features(Feature::pluck),
                                  .balance = Balance::to_tolerance,
                                  .clock = Clock::continuous,
                                  .make = made};

@@ -1,4 +1,5 @@
-// Newton's iteration on the Legendre polynomial P_n, from the asymptotic guess of its roots (Abramowitz & Stegun 22.16.6, 25.4.29).
+// Newton's iteration on the Legendre polynomial P_n, from the asymptotic guess of its roots
+// (Abramowitz & Stegun 22.16.6, 25.4.29).
 #include "reference/gauss_legendre.hpp"
 
 #include <cmath>
@@ -10,8 +11,10 @@ void gauss_legendre(std::span<double> node, std::span<double> weight) {
     using Real = long double;
     const int n = static_cast<int>(node.size());
     for (int q = 0; q < (n + 1) / 2; ++q) {
-        Real x = std::cos(std::numbers::pi_v<Real> * (q + 0.75L) / (n + 0.5L)), slope = 0;  // a root from above, P_n' there
-        for (int iteration = 0; iteration < 6; ++iteration) {                               // each doubles the digits: five are enough
+        // a root from above, P_n' there
+        Real x = std::cos(std::numbers::pi_v<Real> * (q + 0.75L) / (n + 0.5L)), slope = 0;
+        // each doubles the digits: five are enough
+        for (int iteration = 0; iteration < 6; ++iteration) {
             Real p = 1, before = 0;
             for (int k = 1; k <= n; ++k) {
                 const Real next = ((2 * k - 1) * x * p - (k - 1) * before) / k;

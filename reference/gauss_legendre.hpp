@@ -5,7 +5,8 @@
 
 namespace jvari {
 
-// Fills in as many nodes, ascending, and weights as the spans hold, which are equally long. Each is right to its last bit but one.
+// Fills in as many nodes, ascending, and weights as the spans hold, which are equally long. Each is
+// right to its last bit but one.
 void gauss_legendre(std::span<double> node, std::span<double> weight);
 
 }  // namespace jvari

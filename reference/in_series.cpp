@@ -17,11 +17,13 @@ constexpr int most_points = 8;  // lumped contacts and a thread
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// M = C^-1 E C^-1 is what the cut modes' admittance C - s^2 E + ... asks for. The damper R is the wave resistance where the string is ideal
-// and far from its ends. At a contact it is eight times as large, which hardly matters for the motion: the larger it is, the faster is what
-// a closed contact leaves of it, R (M^-1 + G) with G = sum of g^2/m over the modes kept, and touching_set.hpp splits that off. sqrt(M/C) at
-// least keeps spring and mass from creeping.
-void put_ladder(InSeries& series, const Matrix& stiff, const Matrix& E, std::span<const Footprint> points, const Modes& kept) {
+// M = C^-1 E C^-1 is what the cut modes' admittance C - s^2 E + ... asks for. The damper R is the
+// wave resistance where the string is ideal and far from its ends. At a contact it is eight times
+// as large, which hardly matters for the motion: the larger it is, the faster is what a closed
+// contact leaves of it, R (M^-1 + G) with G = sum of g^2/m over the modes kept, and
+// touching_set.hpp splits that off. sqrt(M/C) at least keeps spring and mass from creeping.
+void put_ladder(InSeries& series, const Matrix& stiff, const Matrix& E,
+                std::span<const Footprint> points, const Modes& kept) {
     constexpr double wave = 8 / std::numbers::pi, apart = 8 * wave;  // x omega_M
     const Eigen::Index n = series.points;
     series.states = 2 * series.points;
@@ -31,7 +33,8 @@ void put_ladder(InSeries& series, const Matrix& stiff, const Matrix& E, std::spa
         const auto g = footprint_weights(kept, points[a].position, points[a].width);
         const double G = std::inner_product(g.begin(), g.end(), g.begin(), 0.0) / kept.mass;
         const double rate = (a < series.C.contacts ? apart : wave) * kept.omega0.back();
-        yields(a, a) = std::min((lighter(a, a) + G) / rate, std::sqrt(lighter(a, a) * series.C.C[a * n + a]));
+        yields(a, a) =
+            std::min((lighter(a, a) + G) / rate, std::sqrt(lighter(a, a) * series.C.C[a * n + a]));
     }
     Matrix A(2 * n, 2 * n), B(2 * n, n), S = Matrix::Zero(2 * n, 2 * n), Q = S;
     A << -yields * stiff, Matrix::Identity(n, n), -lighter * stiff, Matrix::Zero(n, n);
@@ -39,18 +42,25 @@ void put_ladder(InSeries& series, const Matrix& stiff, const Matrix& E, std::spa
     S.topLeftCorner(n, n) = stiff;
     S.bottomRightCorner(n, n) = mass;
     Q.bottomRightCorner(n, n) = mass * yields * mass;
-    const auto put = [](const Matrix& m, std::vector<double>& out) { out.assign(m.data(), m.data() + m.size()); };
-    put(A, series.A), put(B, series.B), put(stiff, series.stiff), put(S, series.energy), put(Q, series.loss);
+    const auto put = [](const Matrix& m, std::vector<double>& out) {
+        out.assign(m.data(), m.data() + m.size());
+    };
+    put(A, series.A), put(B, series.B), put(stiff, series.stiff), put(S, series.energy),
+        put(Q, series.loss);
 }
 }  // namespace
 
-std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& scene, const Modes& modes, const Settings& settings) {
+std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& scene,
+                                  const Modes& modes, const Settings& settings) {
     if (choice_option(settings, compliance_option) != "matched") return {};
     const String& s = scene.strings.front();
-    const auto refuse = [&](const char* what) { throw Refusal(std::string(descriptor.name) + ": compliance=matched " + what); };
+    const auto refuse = [&](const char* what) {
+        throw Refusal(std::string(descriptor.name) + ": compliance=matched " + what);
+    };
     for (const Barrier& barrier : s.barriers) {
         const auto* lumped = std::get_if<LumpedBarrier>(&barrier);
-        if (!lumped) refuse("takes lumped barriers and a thread; points of a profile are not solved for");
+        if (!lumped)
+            refuse("takes lumped barriers and a thread; points of a profile are not solved for");
         if (lumped->contact_loss != 0) refuse("leaves contact loss out");
     }
     std::vector<double> own;
@@ -63,9 +73,14 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     if (series.points == 0) return series;
     const Matrix C = Eigen::Map<const Matrix>(series.C.C.data(), series.points, series.points);
     const Sites sites = sites_of(scene);
-    const CutModes cut = cut_modes(s, std::span(sites.forces).first(series.points), kept.count(), HUGE_VAL);
-    const auto positive = [](const Matrix& m) { return Eigen::LLT<Matrix>(m).info() == Eigen::Success; };
-    const auto nothing = [&] { refuse("needs modes that are left out: nothing is missing at a contact or at the thread"); };
+    const CutModes cut =
+        cut_modes(s, std::span(sites.forces).first(series.points), kept.count(), HUGE_VAL);
+    const auto positive = [](const Matrix& m) {
+        return Eigen::LLT<Matrix>(m).info() == Eigen::Success;
+    };
+    const auto nothing = [&] {
+        refuse("needs modes that are left out: nothing is missing at a contact or at the thread");
+    };
     if (cut.E.empty()) nothing();
     const Matrix E = Eigen::Map<const Matrix>(cut.E.data(), series.points, series.points);
     if (!positive(C) || !positive(E)) nothing();
@@ -73,11 +88,13 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     return series;
 }
 
-void add_series(const Block& out, int row, const InSeries& series, const double* z, double F_e) noexcept {
+void add_series(const Block& out, int row, const InSeries& series, const double* z,
+                double F_e) noexcept {
     double P[most_points] = {};
     for (int a = 0; a < series.points; ++a)
         for (int b = 0; b < series.points; ++b) P[a] += series.stiff[a * series.points + b] * z[b];
-    for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += series.C.on_tap(static_cast<std::size_t>(k), P, F_e);
+    for (int k = 0; k < out.taps; ++k)
+        out.tap[k * out.stride + row] += series.C.on_tap(static_cast<std::size_t>(k), P, F_e);
 }
 
 }  // namespace jvari

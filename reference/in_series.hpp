@@ -1,10 +1,12 @@
-// What the points of a string whose modes are cut lack (compliance=matched): each yields by D more than the modes do,
+// What the points of a string whose modes are cut lack (compliance=matched): each yields by D more
+// than the modes do,
 //
 //     Y_a = y_a + D_a + C_ae F_e,      F = C^-1 D + R (D' - v),      M v' = R (D' - v),
 //
-// a spring with a mass beside it that a damper holds: C the static deflection of the modes left out, M their inertia
-// (schemes/contact/compliance.hpp). The references are exact in time, so nothing else is missing. Between contact events this is linear; as
-// a system of first order with the states z = (D, v),
+// a spring with a mass beside it that a damper holds: C the static deflection of the modes left
+// out, M their inertia (schemes/contact/compliance.hpp). The references are exact in time, so
+// nothing else is missing. Between contact events this is linear; as a system of first order with
+// the states z = (D, v),
 //
 //     z' = A z + B F,      z' Q z' is lost [W],      z' S z/2 is stored.
 //
@@ -21,8 +23,9 @@ namespace jvari {
 
 struct InSeries {
     MissingMatrix C;
-    int points = 0, states = 0;        // contacts and thread, in this order
-    std::vector<double> A, B;          // [state][state] [1/s], [state][point] [1/(N s) of the state]
+    int points = 0, states = 0;  // contacts and thread, in this order
+    // [state][state] [1/s], [state][point] [1/(N s) of the state]
+    std::vector<double> A, B;
     std::vector<double> stiff;         // C^-1 [point][point] [N/m]
     std::vector<double> energy, loss;  // S and Q [state][state]
 

@@ -8,12 +8,14 @@
 
 namespace jvari {
 
-InstrumentEquations::InstrumentEquations(const std::vector<String>& all, const std::vector<Modes>& modes,
+InstrumentEquations::InstrumentEquations(const std::vector<String>& all,
+                                         const std::vector<Modes>& modes,
                                          const std::vector<BodyMode>& body_modes) {
     std::vector<Point> threads;
     for (int k = 0; k < static_cast<int>(all.size()); ++k) {
         const String& s = all[k];
-        OfString own{static_cast<int>(omega_.size()), modes[k].count(), modes[k].mass, end_inertia(modes[k], s), s.pluck};
+        OfString own{static_cast<int>(omega_.size()), modes[k].count(), modes[k].mass,
+                     end_inertia(modes[k], s), s.pluck};
         own.bridge = 2 * k;
         own.thread = 2 * k + 1;
         for (int i = 0; i < own.count; ++i) {
@@ -45,7 +47,8 @@ InstrumentEquations::InstrumentEquations(const std::vector<String>& all, const s
         if (s.pluck) {
             own.g_e = footprint_weights(modes[k], s.pluck->position, s.pluck->width);
             own.finger = 1 - s.pluck->position / s.length;
-            least_scale_ += 1e-3 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
+            least_scale_ +=
+                1e-3 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
         }
         strings.push_back(std::move(own));
     }
@@ -80,11 +83,14 @@ double InstrumentEquations::w_speed(const double* z) const noexcept {
     return sum;
 }
 
-InstrumentEquations::Motion InstrumentEquations::motion(const Point& p, const double* z) const noexcept {
+InstrumentEquations::Motion InstrumentEquations::motion(const Point& p,
+                                                        const double* z) const noexcept {
     const int first = strings[p.string].first;
     double y = 0;
     for (std::size_t i = 0; i < p.g.size(); ++i) y += p.g[i] * z[first + i] / omega_[first + i];
-    return {y + p.e * w(z), weighted_sum(p.g.data(), z + padded + first, static_cast<int>(p.g.size())) + p.e * w_speed(z)};
+    return {y + p.e * w(z),
+            weighted_sum(p.g.data(), z + padded + first, static_cast<int>(p.g.size())) +
+                p.e * w_speed(z)};
 }
 
 InstrumentEquations::Pull InstrumentEquations::pull(int a, Motion m) const noexcept {
@@ -92,7 +98,8 @@ InstrumentEquations::Pull InstrumentEquations::pull(int a, Motion m) const noexc
     const double eta = p.height - m.y;
     if (a >= contacts) return {p.law.k * eta - p.damping * m.v, p.damping * m.v * m.v};
     const double f =
-        p.law.alpha == 1 ? p.law.k * eta : p.law.k * std::pow(std::abs(eta), p.law.alpha - 1) * eta;  // odd: a trial may overshoot
+        // odd: a trial may overshoot
+        p.law.alpha == 1 ? p.law.k * eta : p.law.k * std::pow(std::abs(eta), p.law.alpha - 1) * eta;
     return {f * (1 - p.beta * m.v), p.beta * f * m.v * m.v};
 }
 
@@ -129,10 +136,13 @@ void InstrumentEquations::slope(double t, const double* z, double* dz) const noe
     }
     for (const OfString& s : strings) {
         if (s.plucked) {
-            const double F = jvari::force(*s.pluck, s.pluck->start + std::clamp(time + t - s.pluck->start, 0.0, s.pluck->duration));
+            const double F = jvari::force(
+                *s.pluck,
+                s.pluck->start + std::clamp(time + t - s.pluck->start, 0.0, s.pluck->duration));
             for (int i = 0; i < s.count; ++i) dv[s.first + i] += F / s.mass * s.g_e[i];
             g += s.finger * F;
-            supplied += F * (weighted_sum(s.g_e.data(), v + s.first, s.count) + s.finger * w_speed(z));
+            supplied +=
+                F * (weighted_sum(s.g_e.data(), v + s.first, s.count) + s.finger * w_speed(z));
         }
         g -= weighted_sum(s.mu.data(), dv + s.first, s.count);
     }
@@ -144,10 +154,12 @@ void InstrumentEquations::slope(double t, const double* z, double* dz) const noe
         for (int i = 0; i < s.count; ++i) dv[s.first + i] -= a / s.mass * s.mu[i];
 }
 
-void InstrumentEquations::solve(double, double gamma, const double*, const double* b, double* x) noexcept {
+void InstrumentEquations::solve(double, double gamma, const double*, const double* b,
+                                double* x) noexcept {
     std::copy_n(b, size(), x);
     for (int i = 0; i < padded; ++i) {  // the blocks [1, -gamma w; gamma w, 1 + 2 gamma sigma]
-        const double w = gamma * omega_[i], damped = 1 + gamma * damping_[i], p = b[i], v = b[padded + i];
+        const double w = gamma * omega_[i], damped = 1 + gamma * damping_[i], p = b[i],
+                     v = b[padded + i];
         x[i] = (damped * p + w * v) / (damped + w * w);
         x[padded + i] = (v - w * p) / (damped + w * w);
     }
@@ -157,7 +169,8 @@ double InstrumentEquations::energy(const double* z) const noexcept {
     const double *p = z, *v = z + padded, speed = w_speed(z), at = w(z);
     double sum = 0.5 * inertia_ * speed * speed + 0.5 * tension_ * at * at;
     for (int i = 0; i < padded; ++i) sum += 0.5 * mass_[i] * (p[i] * p[i] + v[i] * v[i]);
-    for (const OfString& s : strings) sum += speed * weighted_sum(s.mu.data(), v + s.first, s.count);
+    for (const OfString& s : strings)
+        sum += speed * weighted_sum(s.mu.data(), v + s.first, s.count);
     for (int a = 0; a < static_cast<int>(points.size()); ++a) {
         const double eta = points[a].height - motion(points[a], z).y;
         if (a >= contacts) sum += 0.5 * points[a].law.k * eta * eta;
@@ -172,13 +185,16 @@ double InstrumentEquations::scale_squared(const double* z) const noexcept {
     for (int a = 0; a < static_cast<int>(points.size()); ++a)
         if (acts(a)) {
             const double eta = points[a].height - motion(points[a], z).y;
-            pressed += points[a].law.k / (points[a].law.alpha + 1) * std::pow(std::abs(eta), points[a].law.alpha + 1);
+            pressed += points[a].law.k / (points[a].law.alpha + 1) *
+                       std::pow(std::abs(eta), points[a].law.alpha + 1);
         }
-    return std::max({sum, 2 * pressed / strings.front().mass, 2 * padded * least_scale_ * least_scale_});
+    return std::max(
+        {sum, 2 * pressed / strings.front().mass, 2 * padded * least_scale_ * least_scale_});
 }
 
-// As in string_equations.cpp: an impact at speed v goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/compliance. Contacts of one
-// string push the same modes, those of two the body: their stiffnesses add up.
+// As in string_equations.cpp: an impact at speed v goes as deep as m v^2/2 = k
+// eta^(alpha+1)/(alpha+1), m = 1/compliance. Contacts of one string push the same modes, those of
+// two the body: their stiffnesses add up.
 double InstrumentEquations::pace(const double* z) const noexcept {
     double fastest = 0, springs = 0, dampers = 0;
     for (const double omega : omega_) fastest = std::max(fastest, omega);
@@ -193,7 +209,9 @@ double InstrumentEquations::pace(const double* z) const noexcept {
     for (int a = 0; a < contacts; ++a) {
         if (!touched[a]) continue;
         const double v = penetration_speed(a, z), k = points[a].law.k, alpha = points[a].law.alpha;
-        const double depth = std::max(penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * compliance_[a]), 1 / (alpha + 1)));
+        const double depth =
+            std::max(penetration(a, z),
+                     std::pow(v * v * (alpha + 1) / (2 * k * compliance_[a]), 1 / (alpha + 1)));
         pressed += alpha * k * std::pow(depth, alpha - 1) * compliance_[a];
     }
     return std::max(std::sqrt(fastest * fastest + springs + pressed), dampers);

@@ -1,13 +1,17 @@
-// The motion of all strings of a scene on a body that moves, as first-order equations for an integrator: those of string_equations.hpp for
-// every string, and the body's, coupled by the inertia that schemes/body/body_step.hpp derives. Per mode, of strings and of the body,
+// The motion of all strings of a scene on a body that moves, as first-order equations for an
+// integrator: those of string_equations.hpp for every string, and the body's, coupled by the
+// inertia that schemes/body/body_step.hpp derives. Per mode, of strings and of the body,
 //
-//     p_i' = omega_i v_i,    m_i v_i' = -m_i (omega_i p_i + 2 sigma_i v_i) + G_i - mu_i a,    sum over strings of (mu L/3 a + sum mu_i
+//     p_i' = omega_i v_i,    m_i v_i' = -m_i (omega_i p_i + 2 sigma_i v_i) + G_i - mu_i a,    sum
+//                            over strings of (mu L/3 a + sum mu_i
 //     v_i') in G
 //
-// with a = w''. The mass matrix is diagonal but for the body's rank: with A_i the accelerations where the body is held and A_k those of the
-// body where the strings are, b = sum 1/M_k and S = sum mu_i^2/m_i,
+// with a = w''. The mass matrix is diagonal but for the body's rank: with A_i the accelerations
+// where the body is held and A_k those of the body where the strings are, b = sum 1/M_k and S = sum
+// mu_i^2/m_i,
 //
-//     f = g - sum mu_i A_i - (sum mu L/3 - S) a,   a = sum A_k + b f,   g = -(sum T/L) w + sum e_p F_p + sum psi(x_e) F_e,
+//     f = g - sum mu_i A_i - (sum mu L/3 - S) a,   a = sum A_k + b f,   g = -(sum T/L) w + sum e_p
+//                                                  F_p + sum psi(x_e) F_e,
 //
 // one equation for a; then v_k' = A_k + f/M_k and v_i' = A_i - mu_i a/m_i.
 #pragma once
@@ -22,7 +26,8 @@ namespace jvari {
 
 struct InstrumentEquations final : Equations {
     // Strings without profiles, and the modes of each.
-    InstrumentEquations(const std::vector<String>&, const std::vector<Modes>&, const std::vector<BodyMode>&);
+    InstrumentEquations(const std::vector<String>&, const std::vector<Modes>&,
+                        const std::vector<BodyMode>&);
 
     struct OfString {
         int first = 0, count = 0;  // its modes
@@ -53,7 +58,8 @@ struct InstrumentEquations final : Equations {
     double penetration_speed(int contact, const double* z) const noexcept override;
     double contact_force(int contact, const double* z) const noexcept override;
     double scale_squared(const double* z) const noexcept override;
-    void solve(double, double gamma, const double* z, const double* b, double* x) noexcept override;  // of the modes without their coupling
+    // of the modes without their coupling
+    void solve(double, double gamma, const double* z, const double* b, double* x) noexcept override;
 
     double pace(const double* z) const noexcept;  // of the fastest motion [1/s]
     double energy(const double* z) const noexcept;

@@ -13,7 +13,8 @@
 namespace jvari {
 
 namespace {
-void add_taps(const Block& out, int row, const std::vector<BodyTap>& taps, const double* of_v, double w, double speed) noexcept {
+void add_taps(const Block& out, int row, const std::vector<BodyTap>& taps, const double* of_v,
+              double w, double speed) noexcept {
     for (std::size_t t = 0; t < taps.size(); ++t) {
         double& cell = out.tap[taps[t].column * out.stride + row];
         const double heard = of_v[t] + (taps[t].on_w * w + taps[t].on_speed * speed);
@@ -28,7 +29,8 @@ struct Heard {  // of one string
 
 class IntegratedInstrument final : public Scheme {
 public:
-    IntegratedInstrument(const Scene& scene, const std::vector<String>& strings, std::vector<Modes> modes, double tap_rate,
+    IntegratedInstrument(const Scene& scene, const std::vector<String>& strings,
+                         std::vector<Modes> modes, double tap_rate,
                          const Integrator::Settings& integrator)
         : modes_(std::move(modes)),
           equations_(strings, modes_, scene.body->modes),
@@ -42,7 +44,8 @@ public:
             most_taps = std::max(most_taps, heard_.back().taps.size());
             most_modes = std::max(most_modes, static_cast<std::size_t>(modes_[k].count()));
             const auto y = initial_displacement(modes_[k], strings[k]);
-            for (int i = 0; i < modes_[k].count(); ++i) start_.push_back(modes_[k].omega0[i] * y[i]);
+            for (int i = 0; i < modes_[k].count(); ++i)
+                start_.push_back(modes_[k].omega0[i] * y[i]);
         }
         start_.resize(equations_.size());
         seen_.assign(equations_.sums, 0.0);
@@ -58,7 +61,8 @@ public:
         std::fill(sums_.begin(), sums_.end(), 0.0);
         row_ = 0;
         events_ = 0;
-        for (int a = 0; a < equations_.contacts; ++a) equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
+        for (int a = 0; a < equations_.contacts; ++a)
+            equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
         restart(0);
     }
 
@@ -79,7 +83,8 @@ public:
                 {facts::integrator_steps, effort.steps},
                 {facts::slope_evaluations, effort.slopes},
                 {facts::integrator_tolerance, tolerance_},
-                {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+                {facts::smallest_contact_force,
+                 effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
                 {facts::largest_contact_force, effort.largest_force},
                 {facts::deepest_penetration, effort.deepest}};
     }
@@ -90,7 +95,9 @@ private:
         std::fill_n(z + 2 * equations_.padded, equations_.sums, 0.0);
         std::fill(seen_.begin(), seen_.end(), 0.0);
         equations_.time = begun_ = time;
-        for (auto& s : equations_.strings) s.plucked = s.pluck && time >= s.pluck->start && time < s.pluck->start + s.pluck->duration;
+        for (auto& s : equations_.strings)
+            s.plucked =
+                s.pluck && time >= s.pluck->start && time < s.pluck->start + s.pluck->duration;
         integrator_.restart(1 / equations_.pace(z));
     }
 
@@ -107,7 +114,9 @@ private:
             const auto stop = integrator_.advance(until - begun_, out);
             if (stop == Integrator::Stop::failed || out.stopped()) return false;
             take_sums();
-            const double reached = stop == Integrator::Stop::reached ? until : std::min(begun_ + integrator_.time(), until);
+            const double reached = stop == Integrator::Stop::reached
+                                       ? until
+                                       : std::min(begun_ + integrator_.time(), until);
             idle = reached - at > 1e-15 / tap_rate_ ? 0 : idle + 1;
             if (idle > 1000) return false;
             if (stop == Integrator::Stop::crossed) {
@@ -121,8 +130,10 @@ private:
         return true;
     }
     bool at_an_edge(double t) const noexcept {
-        return std::any_of(equations_.strings.begin(), equations_.strings.end(),
-                           [t](const auto& s) { return s.pluck && (t == s.pluck->start || t == s.pluck->start + s.pluck->duration); });
+        return std::any_of(
+            equations_.strings.begin(), equations_.strings.end(), [t](const auto& s) {
+                return s.pluck && (t == s.pluck->start || t == s.pluck->start + s.pluck->duration);
+            });
     }
     void take_sums() noexcept {
         const double* sum = integrator_.state() + 2 * equations_.padded;
@@ -138,13 +149,17 @@ private:
         for (std::size_t k = 0; k < heard_.size(); ++k) {
             const auto& s = equations_.strings[k];
             const Heard& h = heard_[k];
-            const Block own{1, static_cast<int>(h.taps.size()), 1, tap_.data(), nullptr, nullptr, nullptr};
-            for (int i = 0; i < s.count; ++i) y_[i] = z[s.first + i] / equations_.omega(s.first + i);
-            h.readout.write(own, 0, y_.data(), z + equations_.padded + s.first, 1, sums_[s.bridge] * tap_rate_,
-                            sums_[s.thread] * tap_rate_);
+            const Block own{
+                1, static_cast<int>(h.taps.size()), 1, tap_.data(), nullptr, nullptr, nullptr};
+            for (int i = 0; i < s.count; ++i)
+                y_[i] = z[s.first + i] / equations_.omega(s.first + i);
+            h.readout.write(own, 0, y_.data(), z + equations_.padded + s.first, 1,
+                            sums_[s.bridge] * tap_rate_, sums_[s.thread] * tap_rate_);
             add_taps(out, row, h.taps, tap_.data(), w, speed);
         }
-        if (out.energy) write_energy(out, row, equations_.energy(z), sums_[equations_.sums - 2], sums_[equations_.sums - 1]);
+        if (out.energy)
+            write_energy(out, row, equations_.energy(z), sums_[equations_.sums - 2],
+                         sums_[equations_.sums - 1]);
         std::fill(sums_.begin(), sums_.end(), 0.0);
     }
 
@@ -153,7 +168,8 @@ private:
     Integrator integrator_;
     std::vector<Heard> heard_;
     std::vector<double> start_, tap_, y_;
-    std::vector<double> seen_, sums_;  // of the integrator's sums: taken already; since the last row
+    // of the integrator's sums: taken already; since the last row
+    std::vector<double> seen_, sums_;
     double tolerance_, tap_rate_;
     double begun_ = 0;  // t = 0 of the integrator [s]
     long row_ = 0;
@@ -161,7 +177,8 @@ private:
 };
 }  // namespace
 
-std::unique_ptr<Scheme> integrated_instrument(const Descriptor& descriptor, const Scene& scene, const Settings& settings,
+std::unique_ptr<Scheme> integrated_instrument(const Descriptor& descriptor, const Scene& scene,
+                                              const Settings& settings,
                                               const Integrator::Settings& integrator) {
     matched_without_loss(descriptor, scene, settings);
     std::vector<Modes> modes;
@@ -170,7 +187,8 @@ std::unique_ptr<Scheme> integrated_instrument(const Descriptor& descriptor, cons
         modes.push_back(modes_of(s, settings));
         strings.push_back(with_points(s, modes.back().count(), profile_points(settings)));
     }
-    return std::make_unique<IntegratedInstrument>(scene, strings, std::move(modes), settings.tap_rate, integrator);
+    return std::make_unique<IntegratedInstrument>(scene, strings, std::move(modes),
+                                                  settings.tap_rate, integrator);
 }
 
 }  // namespace jvari

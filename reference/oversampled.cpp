@@ -10,7 +10,8 @@
 
 namespace jvari {
 
-Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Settings& settings, int multiple, const RunOptions& options) {
+Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Settings& settings,
+                        int multiple, const RunOptions& options) {
     if (multiple < 4 || multiple % 4 != 0)
         throw Refusal("oversampling by " + std::to_string(multiple) +
                       ": expected a multiple of 4, so that three rates stand below each other");
@@ -31,11 +32,16 @@ Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Sett
     for (int k = 0; k < c.taps(); ++k) {
         auto& tap = result.estimates.emplace_back();
         for (std::size_t w = 0; w < agreement_windows.size(); ++w) {
-            const auto free = [&](const Trace& t) { return rows_from(t.column(k), from, t.tap_rate); };
-            const double first = relative_difference(free(a), free(b), c.tap_rate, agreement_windows[w]);
-            const double last = relative_difference(free(b), free(c), c.tap_rate, agreement_windows[w]);
+            const auto free = [&](const Trace& t) {
+                return rows_from(t.column(k), from, t.tap_rate);
+            };
+            const double first =
+                relative_difference(free(a), free(b), c.tap_rate, agreement_windows[w]);
+            const double last =
+                relative_difference(free(b), free(c), c.tap_rate, agreement_windows[w]);
             const bool rounding = !(last > 1e-13);
-            const double order = rounding ? std::numeric_limits<double>::quiet_NaN() : std::log2(first / last);
+            const double order =
+                rounding ? std::numeric_limits<double>::quiet_NaN() : std::log2(first / last);
             const double p = rounding ? trusted_order : std::clamp(order, 0.25, trusted_order);
             tap[w] = {last, order, caution * last / (std::exp2(p) - 1)};
         }
@@ -53,7 +59,8 @@ std::vector<const Descriptor*> stand_ins(const Scene& scene) {
     return able;
 }
 
-double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings& settings, int multiple, const RunOptions& options) {
+double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings& settings,
+                   int multiple, const RunOptions& options) {
     Scene start = scene;
     start.duration = std::min(scene.duration, trial);
     double worst = 0;
@@ -61,19 +68,19 @@ double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings&
         const Oversampled o = oversampled(scheme, start, settings, multiple, options);
         if (o.estimates.empty()) return HUGE_VAL;
         for (const auto& tap : o.estimates) worst = std::max(worst, tap.back().error);
-    } catch (const Refusal&) {
-        return HUGE_VAL;
-    }
+    } catch (const Refusal&) { return HUGE_VAL; }
     return worst;
 }
 
-const Descriptor* best_by_estimate(const std::vector<const Descriptor*>& candidates, const Scene& scene, const Settings& settings,
-                                   int multiple, const RunOptions& options) {
+const Descriptor* best_by_estimate(const std::vector<const Descriptor*>& candidates,
+                                   const Scene& scene, const Settings& settings, int multiple,
+                                   const RunOptions& options) {
     if (candidates.size() < 2) return candidates.empty() ? nullptr : candidates.front();
     const Descriptor* best = candidates.front();
     double least = HUGE_VAL;
     for (const Descriptor* d : candidates)
-        if (const double error = estimate_of(*d, scene, settings, multiple, options); error < least) least = error, best = d;
+        if (const double error = estimate_of(*d, scene, settings, multiple, options); error < least)
+            least = error, best = d;
     return best;
 }
 

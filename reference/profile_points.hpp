@@ -1,10 +1,13 @@
-// A profile barrier as point barriers: the force of a density K [g(x) - y(x)]^alpha on mode i (Issanchou et al. 2016, eqs 3-4) is
+// A profile barrier as point barriers: the force of a density K [g(x) - y(x)]^alpha on mode i
+// (Issanchou et al. 2016, eqs 3-4) is
 //
 //     int_from^to K [eta(x)]^alpha v_i(x) dx  ~  sum_q w K [eta(x_q)]^alpha v_i(x_q),
 //
-// by a rule of equal weights, for what is touched ends inside the profile, at a place that moves. Two choices: `count` points in the
-// middles of as many equal parts, which approach the integral as their number grows; or the nodes x_q = qL/N, N = modes + 1, of the grid of
-// modal_spatial_newton with its weight L/N: then both have the same equations, and the error of the integral is in neither's comparison.
+// by a rule of equal weights, for what is touched ends inside the profile, at a place that moves.
+// Two choices: `count` points in the middles of as many equal parts, which approach the integral as
+// their number grows; or the nodes x_q = qL/N, N = modes + 1, of the grid of modal_spatial_newton
+// with its weight L/N: then both have the same equations, and the error of the integral is in
+// neither's comparison.
 #pragma once
 
 #include "schemes/scheme.hpp"
@@ -18,11 +21,14 @@ struct ProfilePoints {
 constexpr int most_points = 256;  // per string: the references' tables grow with its square
 
 inline constexpr Option nodes_option{"nodes", "32",
-                                     "points that stand for a profile: a whole number up to 256, or grid for the nodes of as many modes"};
-inline constexpr Approximation points_for_a_profile[] = {{Feature::profile_barrier, facts::contact_points}};
+                                     "points that stand for a profile: a whole number up to 256, "
+                                     "or grid for the nodes of as many modes"};
+inline constexpr Approximation points_for_a_profile[] = {
+    {Feature::profile_barrier, facts::contact_points}};
 ProfilePoints profile_points(const Settings&);
 
-// The string with its profiles replaced. Throws Refusal where they come to no point, or to more than most_points.
+// The string with its profiles replaced. Throws Refusal where they come to no point, or to more
+// than most_points.
 String with_points(String, int modes, ProfilePoints);
 
 }  // namespace jvari

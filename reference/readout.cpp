@@ -18,13 +18,16 @@ Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count())
     for (const Tap& tap : scene.taps) {
         quantity_.push_back(tap.quantity);
         std::vector<double> w(modes_, 0.0);
-        if (tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity) w = displacement_weights(modes, tap.position);
-        if (tap.quantity == Quantity::nut_force) w = nut_force_weights(modes, scene.strings.front());
+        if (tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity)
+            w = displacement_weights(modes, tap.position);
+        if (tap.quantity == Quantity::nut_force)
+            w = nut_force_weights(modes, scene.strings.front());
         weights_.insert(weights_.end(), w.begin(), w.end());
     }
 }
 
-void Readout::write(const Block& out, int row, const double* y, const double* u, double rate, double bridge, double thread) const {
+void Readout::write(const Block& out, int row, const double* y, const double* u, double rate,
+                    double bridge, double thread) const {
     for (int k = 0; k < out.taps; ++k) {
         const double* w = weights_.data() + static_cast<long>(k) * modes_;
         double v = 0;

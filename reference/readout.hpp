@@ -1,4 +1,5 @@
-// What the taps of a one-string scene read from a modal state and from the impulses of the last interval.
+// What the taps of a one-string scene read from a modal state and from the impulses of the last
+// interval.
 #pragma once
 
 #include <vector>
@@ -8,13 +9,16 @@
 
 namespace jvari {
 
-double weighted_sum(const double* w, const double* y, int count);  // in eight partial sums, in a fixed order
+// in eight partial sums, in a fixed order
+double weighted_sum(const double* w, const double* y, int count);
 
 struct Readout {
     Readout(const Scene&, const Modes&);
 
-    // Writes row `row` of the block; y [m] and u [m] are modal displacements and velocities/rate; forces are means over the interval [N].
-    void write(const Block& out, int row, const double* y, const double* u, double rate, double bridge, double thread) const;
+    // Writes row `row` of the block; y [m] and u [m] are modal displacements and velocities/rate;
+    // forces are means over the interval [N].
+    void write(const Block& out, int row, const double* y, const double* u, double rate,
+               double bridge, double thread) const;
 
 private:
     std::vector<Quantity> quantity_;

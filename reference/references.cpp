@@ -25,12 +25,16 @@ const Descriptor* best_reference(const Scene& scene) {
     return nullptr;
 }
 
-std::optional<OptionValues> matched(const Descriptor& reference, const Scene& scene, OptionValues options) {
-    constexpr Features never = Feature::profile_barrier | Feature::contact_loss | Features(Feature::moving_body) |
-                               Features(Feature::tension_modulation) | Features(Feature::rigid_barrier);  // rigid: matched unasked
+std::optional<OptionValues> matched(const Descriptor& reference, const Scene& scene,
+                                    OptionValues options) {
+    constexpr Features never =
+        Feature::profile_barrier | Feature::contact_loss | Features(Feature::moving_body) |
+        // rigid: matched unasked
+        Features(Feature::tension_modulation) | Features(Feature::rigid_barrier);
     const Features needed = needed_by(scene);
     const auto is_compliance = [](const auto& o) { return o.first == compliance_option.name; };
-    if (!declares(reference, compliance_option.name) || std::any_of(options.begin(), options.end(), is_compliance) || needed.any(never))
+    if (!declares(reference, compliance_option.name) ||
+        std::any_of(options.begin(), options.end(), is_compliance) || needed.any(never))
         return {};
     if (!needed.has(Feature::lumped_barrier) && !needed.has(Feature::thread)) return {};
     options.emplace_back(compliance_option.name, "matched");
@@ -38,7 +42,8 @@ std::optional<OptionValues> matched(const Descriptor& reference, const Scene& sc
 }
 
 bool is_matched(const OptionValues& options) {
-    return std::find(options.begin(), options.end(), std::pair<std::string, std::string>(compliance_option.name, "matched")) !=
+    return std::find(options.begin(), options.end(),
+                     std::pair<std::string, std::string>(compliance_option.name, "matched")) !=
            options.end();
 }
 

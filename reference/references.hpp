@@ -1,4 +1,5 @@
-// The references, in order of authority. Each is a Scheme with an error bound, made and stepped like any other.
+// The references, in order of authority. Each is a Scheme with an error bound, made and stepped
+// like any other.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,9 @@ std::span<const Descriptor> references();
 // The first reference that represents the scene, or nullptr.
 const Descriptor* best_reference(const Scene&);
 
-// The options with compliance=matched, which is nearer to the scene with the same modes: where it says something and nobody chose another.
-// Nothing where it does not. The reference may refuse it still.
+// The options with compliance=matched, which is nearer to the scene with the same modes: where it
+// says something and nobody chose another. Nothing where it does not. The reference may refuse it
+// still.
 std::optional<OptionValues> matched(const Descriptor& reference, const Scene&, OptionValues);
 bool is_matched(const OptionValues&);
 

@@ -4,8 +4,10 @@
 
 namespace jvari {
 
-SeriesStates::SeriesStates(const InSeries& series, double mass) : count(series.states), points(series.points) {
-    for (int i = 0; i < count; ++i) width_.push_back(std::sqrt(series.energy[i * count + i] / mass));
+SeriesStates::SeriesStates(const InSeries& series, double mass)
+    : count(series.states), points(series.points) {
+    for (int i = 0; i < count; ++i)
+        width_.push_back(std::sqrt(series.energy[i * count + i] / mass));
     for (int i = 0; i < count; ++i)
         for (int j = 0; j < count; ++j) {
             drift_.push_back(width_[i] * series.A[i * count + j] / width_[j]);

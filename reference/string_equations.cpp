@@ -13,7 +13,8 @@ namespace {
 JVARI_CLONES
 double dot(const double* g, const double* x, int n) {
     Lanes sum = {};
-    for (int i = 0; i < n; i += lanes) sum += *reinterpret_cast<const Lanes*>(g + i) * *reinterpret_cast<const Lanes*>(x + i);
+    for (int i = 0; i < n; i += lanes)
+        sum += *reinterpret_cast<const Lanes*>(g + i) * *reinterpret_cast<const Lanes*>(x + i);
     return total(sum);
 }
 
@@ -28,7 +29,8 @@ double square(const double* g, const double* x, int n) {  // sum g x^2
 }
 
 JVARI_CLONES
-void oscillate(const double* omega, const double* damping, const double* p, const double* v, double* dp, double* dv, int n) {
+void oscillate(const double* omega, const double* damping, const double* p, const double* v,
+               double* dp, double* dv, int n) {
     for (int i = 0; i < n; ++i) {
         dp[i] = omega[i] * v[i];
         dv[i] = -(omega[i] * p[i] + damping[i] * v[i]);
@@ -41,18 +43,22 @@ void add(const double* d, double F, double* dv, int n) {
 }
 }  // namespace
 
-StringEquations::StringEquations(const Modes& modes, const String& s, const std::optional<InSeries>& series)
+StringEquations::StringEquations(const Modes& modes, const String& s,
+                                 const std::optional<InSeries>& series)
     : mass_(modes.mass), EA_(s.axial_stiffness), length_(s.length), modes_(modes.count()) {
     if (series) series_ = SeriesStates(*series, mass_);
     padded = (modes_ + series_.count + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
-    const auto fill = [&](std::vector<double>& rows) { rows.resize((rows.size() + padded - 1) / padded * padded, 0.0); };
+    const auto fill = [&](std::vector<double>& rows) {
+        rows.resize((rows.size() + padded - 1) / padded * padded, 0.0);
+    };
     for (int i = 0; i < modes.count(); ++i) {
         pad(omega_, modes.omega0[i]);
         pad(damping_, 2 * modes.sigma[i]);
         pad(loss_, 2 * modes.mass * modes.sigma[i]);
     }
-    for (int i = 0; i < modes.count() && EA_ > 0; ++i) pad(reach_, std::pow((i + 1) * std::numbers::pi / (length_ * modes.omega0[i]), 2));
+    for (int i = 0; i < modes.count() && EA_ > 0; ++i)
+        pad(reach_, std::pow((i + 1) * std::numbers::pi / (length_ * modes.omega0[i]), 2));
     for (auto* rows : {&omega_, &damping_, &loss_, &reach_}) fill(*rows);
     const auto add_point = [&](const std::vector<double>& g) {
         for (int i = 0; i < modes.count(); ++i) {
@@ -76,7 +82,8 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        least_scale_ = 1e-2 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
+        least_scale_ =
+            1e-2 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
     }
     touched.assign(contacts, 0);
     inverse_.assign(padded, 0.0);
@@ -88,7 +95,8 @@ StringEquations::StringEquations(const Modes& modes, const String& s, const std:
     stiffness_.assign(contacts, 0.0);
     for (auto* v : {&acting_, &speed_, &change_}) v->assign(std::max(points, series_.count), 0.0);
     for (int a = 0; a < contacts; ++a)
-        for (int b = 0; b < contacts; ++b) couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
+        for (int b = 0; b < contacts; ++b)
+            couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
 }
 
 void StringEquations::read_series(const double* z, double* series) const noexcept {
@@ -111,7 +119,8 @@ StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
         const double own = 1 + q.r * series_.at_once(a), F = (k * eta - q.r * m.v) / own;
         return {F, k / own, q.r / own, q.r, 0};
     }
-    const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta, give = 1 - q.beta * m.v;
+    const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta,
+                 give = 1 - q.beta * m.v;
     return {f * give, alpha * slope * give, q.beta * f, q.beta * f, q.beta * alpha * slope};
 }
 
@@ -150,7 +159,8 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
     series_.speed(states(z), acting_.data(), states(dz));
     sum[dissipated] += series_.lost(states(dz), states(dz));
     if (plucked) {
-        const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
+        const double F = jvari::force(
+            pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         add(row(gains_, points), F, dv, padded);
         sum[supplied] = F * dot(row(weights_, points), v, padded);
     }
@@ -170,8 +180,9 @@ double StringEquations::scale_squared(const double* z) const noexcept {
     return std::max({sum, 2 * pressed / mass_, 2 * padded * least_scale_ * least_scale_});
 }
 
-// An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/sum(g^2/m_i) what the modes have there.
-// Points close to each other push the same modes: their stiffnesses add up, as Gershgorin's circles do.
+// An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m =
+// 1/sum(g^2/m_i) what the modes have there. Points close to each other push the same modes: their
+// stiffnesses add up, as Gershgorin's circles do.
 double StringEquations::pace(const double* z, bool decays) const noexcept {
     double decay = 0;
     for (int a = 0; a < contacts; ++a) {
@@ -180,9 +191,11 @@ double StringEquations::pace(const double* z, bool decays) const noexcept {
         const Point& q = point_[a];
         const double give = couples_[a * contacts + a], v = penetration_speed(a, z);
         const double k = q.law.k, alpha = q.law.alpha;
-        const double depth = std::max(penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * give), 1 / (alpha + 1)));
+        const double depth = std::max(
+            penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * give), 1 / (alpha + 1)));
         stiffness_[a] = k * std::pow(depth, alpha - 1);
-        if (decays) decay = std::max(decay, series_.at_once(a) * q.law.slope(depth));  // of a point that has no mass
+        // of a point that has no mass
+        if (decays) decay = std::max(decay, series_.at_once(a) * q.law.slope(depth));
     }
     double fastest = 0;
     for (int a = 0; a < contacts; ++a) {
@@ -194,7 +207,8 @@ double StringEquations::pace(const double* z, bool decays) const noexcept {
     return std::max(std::sqrt(fastest), decay);
 }
 
-void StringEquations::solve(double t, double gamma, const double* z, const double* b, double* x) noexcept {
+void StringEquations::solve(double t, double gamma, const double* z, const double* b,
+                            double* x) noexcept {
     if (gamma != gamma_) {
         gamma_ = gamma;
         for (int i = 0; i < padded; ++i) {
@@ -204,7 +218,8 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         for (int a = 0; a < points; ++a)
             for (int c = 0; c < points; ++c) {
                 double sum = 0;
-                for (int i = 0; i < padded; ++i) sum += row(weights_, a)[i] * row(gains_, c)[i] * inverse_[i];
+                for (int i = 0; i < padded; ++i)
+                    sum += row(weights_, a)[i] * row(gains_, c)[i] * inverse_[i];
                 compliance_[a * points + c] = sum;
             }
         series_.factor(gamma);
@@ -217,7 +232,8 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         xv[i] = (v - w * p) * inverse_[i];
     }
     series_.solve(states(b), states(x));
-    // dF_a = -K_a dy_a - R_a dv_a,   dy_a = (block solution) + gamma^2 S_ab dF_b,   dv_a = (block solution) + gamma S_ab dF_b
+    // dF_a = -K_a dy_a - R_a dv_a,   dy_a = (block solution) + gamma^2 S_ab dF_b,   dv_a = (block
+    //                                solution) + gamma S_ab dF_b
     const int wide = points + 1;
     for (int a = 0; a < points; ++a) {
         double* equation = small_.data() + a * wide;
@@ -230,10 +246,14 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         for (int c = 0; c < points; ++c)
             if (acts(c)) equation[c] += (gamma * f.K + f.R) * gamma * compliance_[a * points + c];
         for (int c = 0; series_.count > 0 && c < points; ++c)
-            if (acts(c)) equation[c] += gamma * (f.K * series_.answer(a, c) * series_.share(a) + f.R * series_.answer_speed(a, c));
+            if (acts(c))
+                equation[c] += gamma * (f.K * series_.answer(a, c) * series_.share(a) +
+                                        f.R * series_.answer_speed(a, c));
         equation[points] = -f.K * d.y - f.R * d.v;
     }
-    for (int c = 0; c < points; ++c) {  // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal hold
+    // elimination; the matrix is I + (positive diagonal) x (Gram matrix): pivots on the diagonal
+    // hold
+    for (int c = 0; c < points; ++c) {
         const double* top = small_.data() + c * wide;
         for (int a = c + 1; a < points; ++a) {
             double* equation = small_.data() + a * wide;
@@ -269,8 +289,10 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         if (!acts(a)) continue;
         const Motion d = motion(a, x);
         sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
-        const double at_once_F = a >= contacts ? series_.at_once(a) : 0, v = motion_[a].v + at_once_F * pull_[a].F;
-        lost += 2 * pull_[a].drag * v * (d.v + at_once_F * force_[a]) - pull_[a].drag_slope * v * v * d.y;
+        const double at_once_F = a >= contacts ? series_.at_once(a) : 0,
+                     v = motion_[a].v + at_once_F * pull_[a].F;
+        lost += 2 * pull_[a].drag * v * (d.v + at_once_F * force_[a]) -
+                pull_[a].drag_slope * v * v * d.y;
     }
     for (int a = 0; a < points; ++a) {
         acting_[a] = acts(a) ? pull_[a].F : 0;
@@ -281,7 +303,8 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
     lost += 2 * series_.lost(speed_.data(), change_.data());
     sum[dissipated] += gamma * lost;
     if (plucked) {
-        const double F = jvari::force(pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
+        const double F = jvari::force(
+            pluck_[0], pluck_[0].start + std::clamp(pluck_time + t, 0.0, pluck_[0].duration));
         sum[supplied] += gamma * F * dot(row(weights_, points), xv, padded);
     }
 }

@@ -1,15 +1,20 @@
-// The motion of one string in its modes, as first-order equations for an integrator (van Walstijn et al. 2016, eqs 5-18; contact loss of
-// Issanchou et al. 2016, eq 24). With p = omega0 y, so that every component is a velocity and energy is m/2 times their squares,
+// The motion of one string in its modes, as first-order equations for an integrator (van Walstijn
+// et al. 2016, eqs 5-18; contact loss of Issanchou et al. 2016, eq 24). With p = omega0 y, so that
+// every component is a velocity and energy is m/2 times their squares,
 //
-//     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai = g_ai/m
-// and where the string stretches, less EA L/8 beta_i^2/m sum (beta_j/omega0_j)^2 p_j^2 p_i/omega0_i (Kirchhoff, Carrier), which solve()
-// leaves out of J.
+//     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai =
+//                             g_ai/m
+// and where the string stretches, less EA L/8 beta_i^2/m sum (beta_j/omega0_j)^2 p_j^2 p_i/omega0_i
+// (Kirchhoff, Carrier), which solve() leaves out of J.
 //
-//     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c v_c of the thread, F_e(t) of the pluck.
+//     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c
+//     v_c of the thread, F_e(t) of the pluck.
 //
-// Which barriers are touched is given, not decided here: between two events the equations are smooth, and odd beyond the barrier's surface
-// so that a trial step may overshoot. Four sums ride along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian
-// is 2x2 blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's formula.
+// Which barriers are touched is given, not decided here: between two events the equations are
+// smooth, and odd beyond the barrier's surface so that a trial step may overshoot. Four sums ride
+// along: impulses of barriers and thread, energy supplied and dissipated. The Jacobian is 2x2
+// blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's
+// formula.
 //
 // What is in series with the points has its states behind the modes' v (series_states.hpp).
 #pragma once
@@ -24,7 +29,8 @@
 namespace jvari {
 
 struct StringEquations final : Equations {
-    enum Sum { bridge_impulse, thread_impulse, supplied, dissipated, sums };  // [N s], [N s], [J], [J]
+    // [N s], [N s], [J], [J]
+    enum Sum { bridge_impulse, thread_impulse, supplied, dissipated, sums };
 
     StringEquations(const Modes&, const String&, const std::optional<InSeries>& = {});
 
@@ -32,29 +38,41 @@ struct StringEquations final : Equations {
     double pluck_time = 0;  // since the pluck's start, at t = 0 of the integrator [s]
     bool plucked = false;
 
-    int size() const override { return 2 * padded + sums; }            // p, v, sums
-    void read_series(const double* z, double* series) const noexcept;  // the states in series, in their own units
+    int size() const override { return 2 * padded + sums; }  // p, v, sums
+    // the states in series, in their own units
+    void read_series(const double* z, double* series) const noexcept;
     void put_series(const double* series, double* z) const noexcept;
     void slope(double t, const double* z, double* dz) const noexcept override;
-    double penetration(int contact, const double* z) const noexcept override;                // eta [m]
-    double penetration_speed(int contact, const double* z) const noexcept override;          // [m/s]
-    double contact_force(int contact, const double* z) const noexcept override;              // [N], whether touched or not
-    double potential(int point, double y) const noexcept;                                    // [J], of a barrier or the thread
-    double reach(int mode) const noexcept { return reach_.empty() ? 0 : reach_[mode]; }      // (beta/omega0)^2
-    double stretching(double sum) const noexcept { return EA_ * length_ / 32 * sum * sum; }  // of sum reach p^2 [J]
-    // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a hundredth of the speed that the pluck makes.
+    // eta [m]
+    double penetration(int contact, const double* z) const noexcept override;
+    // [m/s]
+    double penetration_speed(int contact, const double* z) const noexcept override;
+    // [N], whether touched or not
+    double contact_force(int contact, const double* z) const noexcept override;
+    // [J], of a barrier or the thread
+    double potential(int point, double y) const noexcept;
+    // (beta/omega0)^2
+    double reach(int mode) const noexcept { return reach_.empty() ? 0 : reach_[mode]; }
+    // of sum reach p^2 [J]
+    double stretching(double sum) const noexcept { return EA_ * length_ / 32 * sum * sum; }
+    // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a hundredth
+    // of the speed that the pluck makes.
     double scale_squared(const double* z) const noexcept override;
-    // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point without mass as well.
+    // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point
+    // without mass as well.
     double pace(const double* z, bool decays = true) const noexcept;
 
-    void solve(double t, double gamma, const double* z, const double* b, double* x) noexcept override;  // (I - gamma J(z)) x = b
+    // (I - gamma J(z)) x = b
+    void solve(double t, double gamma, const double* z, const double* b,
+               double* x) noexcept override;
 
 private:
     struct Point {
         ContactLaw law;
         double beta, r, height;
     };
-    struct Pull {  // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
+    // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
+    struct Pull {
         double F, K, R, drag, drag_slope;
     };
     struct Motion {
@@ -63,9 +81,12 @@ private:
     bool acts(int a) const noexcept { return a >= contacts || touched[a]; }
     Motion motion(int a, const double* z) const noexcept;
     Pull pull(int a, Motion) const noexcept;
-    const double* row(const std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * padded; }
+    const double* row(const std::vector<double>& rows, int a) const noexcept {
+        return rows.data() + static_cast<long>(a) * padded;
+    }
 
-    const double* states(const double* z) const noexcept { return z + padded + modes_; }  // w z, in series
+    // w z, in series
+    const double* states(const double* z) const noexcept { return z + padded + modes_; }
     double* states(double* z) const noexcept { return z + padded + modes_; }
 
     double mass_, EA_, length_;
@@ -73,15 +94,17 @@ private:
     int modes_;
     SeriesStates series_;
     std::vector<Point> point_;
-    std::vector<Pluck> pluck_;                     // none or one
-    std::vector<double> omega_, damping_, loss_;   // omega0, 2 sigma, 2 m sigma
-    std::vector<double> reach_;                    // (beta/omega0)^2; empty where the string does not stretch
+    std::vector<Pluck> pluck_;                    // none or one
+    std::vector<double> omega_, damping_, loss_;  // omega0, 2 sigma, 2 m sigma
+    // (beta/omega0)^2; empty where the string does not stretch
+    std::vector<double> reach_;
     std::vector<double> reads_, weights_, gains_;  // g/omega0, g, g/m [point, then the pluck][mode]
 
-    double gamma_ = 0;                          // of what follows
-    std::vector<double> inverse_, compliance_;  // 1/(1 + 2 gamma sigma + (gamma omega0)^2); S_ab = sum_i g_a d_b/that
-    std::vector<double> small_, force_;         // [point][point + 1], [point]
-    std::vector<double> couples_;               // |g_a d_b| [contact][contact]
+    double gamma_ = 0;  // of what follows
+    // 1/(1 + 2 gamma sigma + (gamma omega0)^2); S_ab = sum_i g_a d_b/that
+    std::vector<double> inverse_, compliance_;
+    std::vector<double> small_, force_;  // [point][point + 1], [point]
+    std::vector<double> couples_;        // |g_a d_b| [contact][contact]
     mutable std::vector<Motion> motion_;
     mutable std::vector<Pull> pull_;
     mutable std::vector<double> stiffness_;                // [contact]

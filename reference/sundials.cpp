@@ -1,4 +1,5 @@
-// The only file that sees SUNDIALS (6.4): CVODE behind integrator.hpp, and what an event asks of it.
+// The only file that sees SUNDIALS (6.4): CVODE behind integrator.hpp, and what an event asks of
+// it.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
@@ -18,7 +19,8 @@ static_assert(std::is_same_v<realtype, double>, "SUNDIALS in double precision");
 
 namespace {
 constexpr double unweighted = 1e-30;  // error weight of what is not controlled
-constexpr int most_splits = 40;       // of steps that might have touched or left and come back, in one go
+// of steps that might have touched or left and come back, in one go
+constexpr int most_splits = 40;
 }  // namespace
 
 struct Integrator::Library {
@@ -72,7 +74,8 @@ int Integrator::Library::slope(realtype t, N_Vector z, N_Vector dz, void* user) 
 
 int Integrator::Library::penetrations(realtype, N_Vector z, realtype* out, void* user) {
     auto& l = *static_cast<Library*>(user);
-    for (int a = 0; a < l.equations.contacts; ++a) out[a] = l.apart ? -1 : l.equations.penetration(a, N_VGetArrayPointer(z));
+    for (int a = 0; a < l.equations.contacts; ++a)
+        out[a] = l.apart ? -1 : l.equations.penetration(a, N_VGetArrayPointer(z));
     return 0;
 }
 
@@ -81,20 +84,25 @@ int Integrator::Library::weights(N_Vector z, N_Vector w, void* user) {
     const double* x = N_VGetArrayPointer(z);
     double* weight = N_VGetArrayPointer(w);
     const int controlled = 2 * l.equations.padded;
-    for (int i = 0; i < controlled; ++i) weight[i] = 1 / (l.settings.tolerance * (std::abs(x[i]) + l.floor));
+    for (int i = 0; i < controlled; ++i)
+        weight[i] = 1 / (l.settings.tolerance * (std::abs(x[i]) + l.floor));
     std::fill(weight + controlled, weight + l.equations.size(), unweighted);
     return 0;
 }
 
-// A matrix-free direct solver: the Newton matrix I - gamma J at the iterate itself, so Newton's own order of convergence holds.
+// A matrix-free direct solver: the Newton matrix I - gamma J at the iterate itself, so Newton's own
+// order of convergence holds.
 int Integrator::Library::solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
     auto& l = *static_cast<Library*>(s->content);
     double t = 0, gamma = 0, rl1 = 0;
     N_Vector predicted = nullptr, current = nullptr, f = nullptr, other = nullptr;
     void* user = nullptr;
-    if (const int failed = CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f, &gamma, &rl1, &other, &user)) return failed;
+    if (const int failed = CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f,
+                                                       &gamma, &rl1, &other, &user))
+        return failed;
     ++l.effort.solves;
-    l.equations.solve(t, gamma, N_VGetArrayPointer(current), N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+    l.equations.solve(t, gamma, N_VGetArrayPointer(current), N_VGetArrayPointer(b),
+                      N_VGetArrayPointer(x));
     return 0;
 }
 
@@ -117,8 +125,10 @@ Integrator::Library::Library(Equations& e, const Settings& s) : equations(e), se
     solver->ops->solve = solve;
     solver->content = this;
     need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) != nullptr);
-    need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS && CVodeSetUserData(memory, this) == CV_SUCCESS);
-    need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS && CVodeWFtolerances(memory, weights) == CV_SUCCESS);
+    need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS &&
+         CVodeSetUserData(memory, this) == CV_SUCCESS);
+    need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS &&
+         CVodeWFtolerances(memory, weights) == CV_SUCCESS);
     need(CVodeSetLinearSolver(memory, solver, nullptr) == CV_SUCCESS);
     if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
     need(begin());
@@ -132,8 +142,8 @@ Integrator::Library::~Library() {
     if (context) SUNContext_Free(&context);
 }
 
-// A step from rest, out of contact: what the library allocates late, it allocates now. And what lay on a surface it does not look at until
-// it has left, which outlives CVodeReInit.
+// A step from rest, out of contact: what the library allocates late, it allocates now. And what lay
+// on a surface it does not look at until it has left, which outlives CVodeReInit.
 bool Integrator::Library::begin() noexcept {
     floor = 1;
     longest_step = 1e-9;
@@ -148,8 +158,10 @@ bool Integrator::Library::begin() noexcept {
 
 bool Integrator::Library::reinit(double t) noexcept {
     time = t;
-    return CVodeReInit(memory, t, z) == CV_SUCCESS && CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
-           (equations.contacts == 0 || CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
+    return CVodeReInit(memory, t, z) == CV_SUCCESS &&
+           CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
+           (equations.contacts == 0 ||
+            CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
 }
 
 int Integrator::Library::step(double to) noexcept {
@@ -159,18 +171,22 @@ int Integrator::Library::step(double to) noexcept {
 }
 
 void Integrator::Library::look(std::vector<Depth>& at) noexcept {
-    for (int a = 0; a < equations.contacts; ++a) at[a] = {equations.penetration(a, state()), equations.penetration_speed(a, state())};
+    for (int a = 0; a < equations.contacts; ++a)
+        at[a] = {equations.penetration(a, state()), equations.penetration_speed(a, state())};
 }
 
-// When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot. Between its turning point's two tangents a
-// convex penetration stays on its side of the surface if their intersection does.
+// When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot.
+// Between its turning point's two tangents a convex penetration stays on its side of the surface if
+// their intersection does.
 double Integrator::Library::turns_beyond() const noexcept {
     for (int a = 0; a < equations.contacts; ++a) {
         const double side = equations.touched[a] ? 1 : -1, h = time - time_before;
-        const Depth from{side * depth_before[a].eta, side * depth_before[a].speed}, to{side * depth[a].eta, side * depth[a].speed};
+        const Depth from{side * depth_before[a].eta, side * depth_before[a].speed},
+            to{side * depth[a].eta, side * depth[a].speed};
         if (!(from.speed < 0 && to.speed > 0)) continue;
         const double since = (to.eta - from.eta - to.speed * h) / (from.speed - to.speed);
-        if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h) return time_before + since;
+        if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h)
+            return time_before + since;
     }
     return -1;
 }
@@ -185,35 +201,30 @@ void Integrator::Library::onto_surface(double to) noexcept {
     const double speed = equations.penetration_speed(contact, state());
     const double room = time - time_before;
     if (speed == 0) return;
-    const double shift = std::clamp(-equations.penetration(contact, state()) / speed, -0.5 * room, std::min(0.5 * room, to - time));
+    const double shift = std::clamp(-equations.penetration(contact, state()) / speed, -0.5 * room,
+                                    std::min(0.5 * room, to - time));
     equations.slope(time, state(), dz.data());
     for (int i = 0; i < equations.size(); ++i) state()[i] += shift * dz[i];
     time += shift;
 }
 
-Integrator::Integrator(Equations& e, const Settings& s) : library_(std::make_unique<Library>(e, s)) {}
+Integrator::Integrator(Equations& e, const Settings& s)
+    : library_(std::make_unique<Library>(e, s)) {}
 Integrator::~Integrator() = default;
-double* Integrator::state() noexcept {
-    return library_->state();
-}
-double Integrator::time() const noexcept {
-    return library_->time;
-}
-int Integrator::crossed() const noexcept {
-    return library_->contact;
-}
-Integrator::Effort Integrator::effort() const noexcept {
-    return library_->effort;
-}
-void Integrator::reset() noexcept {
-    library_->begin();
-}
+double* Integrator::state() noexcept { return library_->state(); }
+double Integrator::time() const noexcept { return library_->time; }
+int Integrator::crossed() const noexcept { return library_->contact; }
+Integrator::Effort Integrator::effort() const noexcept { return library_->effort; }
+void Integrator::reset() noexcept { library_->begin(); }
 
 void Integrator::restart(double longest_step) noexcept {
     Library& l = *library_;
     l.longest_step = longest_step;
-    // By what presses as well as by what moves: a string at rest that a barrier or a thread is about to push has no size of its own yet.
-    l.floor = std::max(1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)), 1e-30);  // [m/s]
+    // By what presses as well as by what moves: a string at rest that a barrier or a thread is
+    // about to push has no size of its own yet.
+    // [m/s]
+    l.floor = std::max(
+        1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)), 1e-30);
     for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
     l.look(l.depth);
     l.contact = l.reinit(0) ? -1 : -2;
@@ -225,15 +236,20 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
     const int contacts = l.equations.contacts;
     double target = to;
     int splits = 0, crawled = 0;
-    const auto inward = [&](int a, double speed) { return l.equations.touched[a] ? speed > 0 : speed < 0; };  // away from the surface
+    // away from the surface
+    const auto inward = [&](int a, double speed) {
+        return l.equations.touched[a] ? speed > 0 : speed < 0;
+    };
     while (l.time < to) {
-        if (to - l.time <= 8 * std::numeric_limits<double>::epsilon() * to) break;  // shorter than the library would step
+        // shorter than the library would step
+        if (to - l.time <= 8 * std::numeric_limits<double>::epsilon() * to) break;
         std::copy_n(l.state(), l.before.size(), l.before.begin());
         l.time_before = l.time;
         std::swap(l.depth, l.depth_before);
         const int result = l.step(target);
         if (result < 0 || out.stopped()) return Stop::failed;
-        crawled = l.time - l.time_before < 1e-12 * to ? crawled + 1 : 0;  // what is that stiff would need 1e12 steps
+        // what is that stiff would need 1e12 steps
+        crawled = l.time - l.time_before < 1e-12 * to ? crawled + 1 : 0;
         if (crawled > 10000) return Stop::failed;
         l.contact = -1;
         if (result == CV_ROOT_RETURN) {
@@ -250,8 +266,10 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
                 if (l.equations.touched[a] ? l.depth[a].eta < 0 : l.depth[a].eta > 0)
                     l.contact = a;  // no crossing: it started on the surface
         }
-        // From the surface inwards and back through it within one step: root finding mistakes the rounding at its start for the crossing.
-        if (l.contact >= 0 && inward(l.contact, (crosses ? l.depth : l.depth_before)[l.contact].speed))
+        // From the surface inwards and back through it within one step: root finding mistakes the
+        // rounding at its start for the crossing.
+        if (l.contact >= 0 &&
+            inward(l.contact, (crosses ? l.depth : l.depth_before)[l.contact].speed))
             split = l.time_before + 0.25 * l.last_step();
         if (split > 0 && splits < most_splits) {
             ++splits;

@@ -1,5 +1,6 @@
-// Sources: Issanchou et al. 2016 (profiles, eq 29), van Walstijn et al. 2016 eqs 54-55 (contact stiffness from materials), Steffen 1990,
-// Astronomy & Astrophysics 239, p. 443 (monotone interpolation of a table).
+// Sources: Issanchou et al. 2016 (profiles, eq 29), van Walstijn et al. 2016 eqs 54-55 (contact
+// stiffness from materials), Steffen 1990, Astronomy & Astrophysics 239, p. 443 (monotone
+// interpolation of a table).
 #include "scenes/barrier.hpp"
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 namespace jvari {
 
 namespace {
-// A cubic between every two rows of a table. Each is monotone: its slope at a row is that of the parabola through the row and its
-// neighbours, 0 where the heights turn, and at most twice a neighbouring secant's. At the table's ends the slope is the secant's.
+// A cubic between every two rows of a table. Each is monotone: its slope at a row is that of the
+// parabola through the row and its neighbours, 0 where the heights turn, and at most twice a
+// neighbouring secant's. At the table's ends the slope is the secant's.
 class MonotoneCubics {
 public:
     explicit MonotoneCubics(const TableCurve& c) : x_(c.x), y_(c.height) {
@@ -18,8 +20,10 @@ public:
         slope_.push_back(secant(0));
         for (std::size_t i = 1; i <= last; ++i) {
             const double before = secant(i - 1), after = secant(i);
-            const double parabola = (before * width(i) + after * width(i - 1)) / (width(i - 1) + width(i));
-            const double size = std::min({2 * std::abs(before), 2 * std::abs(after), std::abs(parabola)});
+            const double parabola =
+                (before * width(i) + after * width(i - 1)) / (width(i - 1) + width(i));
+            const double size =
+                std::min({2 * std::abs(before), 2 * std::abs(after), std::abs(parabola)});
             slope_.push_back(before * after > 0 ? std::copysign(size, before) : 0.0);
         }
         slope_.push_back(secant(last));
@@ -28,7 +32,8 @@ public:
         const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
         const std::size_t i = above - x_.begin() - 1;
         const double h = width(i), s = secant(i), t = x - x_[i];
-        const double a = (slope_[i] + slope_[i + 1] - 2 * s) / (h * h), b = (3 * s - 2 * slope_[i] - slope_[i + 1]) / h;
+        const double a = (slope_[i] + slope_[i + 1] - 2 * s) / (h * h),
+                     b = (3 * s - 2 * slope_[i] - slope_[i + 1]) / h;
         return y_[i] + t * (slope_[i] + t * (b + t * a));
     }
 
@@ -41,7 +46,9 @@ private:
 
 struct HeightAt {
     const std::vector<double>& x;
-    std::vector<double> operator()(const FlatCurve&) const { return std::vector<double>(x.size(), 0.0); }
+    std::vector<double> operator()(const FlatCurve&) const {
+        return std::vector<double>(x.size(), 0.0);
+    }
     std::vector<double> operator()(const LineCurve& c) const {
         std::vector<double> g;
         for (double p : x) g.push_back(c.coefficient * p);
@@ -55,7 +62,8 @@ struct HeightAt {
     std::vector<double> operator()(const TableCurve& c) const {
         const MonotoneCubics between(c);
         std::vector<double> g;
-        for (double p : x) g.push_back(between(std::clamp(p, c.x.front(), c.x.back())));  // a grid may round past the table's end
+        // a grid may round past the table's end
+        for (double p : x) g.push_back(between(std::clamp(p, c.x.front(), c.x.back())));
         return g;
     }
 };
@@ -65,9 +73,7 @@ std::vector<double> heights(const Curve& curve, const std::vector<double>& x) {
     return std::visit(HeightAt{x}, curve);
 }
 
-double height(const Curve& curve, double x) {
-    return heights(curve, {x}).front();
-}
+double height(const Curve& curve, double x) { return heights(curve, {x}).front(); }
 
 ProfileNodes nodes_on(const ProfileBarrier& b, double length, int intervals) {
     const double dx = length / intervals, slack = near_node * intervals;
@@ -84,15 +90,19 @@ std::vector<double> middles(const ProfileBarrier& b, int count) {
     return x;
 }
 
-std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, const std::vector<double>& x, double spacing) {
+std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, const std::vector<double>& x,
+                                  double spacing) {
     std::vector<LumpedBarrier> points;
     const auto g = heights(b.curve, x);
-    for (std::size_t q = 0; q < x.size(); ++q) points.push_back({x[q], 0, g[q], {b.stiffness.K * spacing}, b.exponent, b.contact_loss});
+    for (std::size_t q = 0; q < x.size(); ++q)
+        points.push_back({x[q], 0, g[q], {b.stiffness.K * spacing}, b.exponent, b.contact_loss});
     return points;
 }
 
 double contact_modulus(double young1, double poisson1, double young2, double poisson2) {
-    return 1 / ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));  // (55)
+    // (55)
+    return 1 /
+           ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));
 }
 
 LumpedStiffness contact_stiffness(double contact_modulus, double width) {

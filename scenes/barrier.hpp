@@ -1,18 +1,21 @@
-// Profiles and the contact law. Penetration eta = h - y [m]; V(eta) = k [eta]^(a+1)/(a+1); the force on the string is V'(eta) >= 0.
+// Profiles and the contact law. Penetration eta = h - y [m]; V(eta) = k [eta]^(a+1)/(a+1); the
+// force on the string is V'(eta) >= 0.
 #pragma once
 
 #include "scenes/scene.hpp"
 
 namespace jvari {
 
-// Height g(x) [m] of a profile. Between its rows a table is interpolated by monotone cubics (Steffen 1990).
+// Height g(x) [m] of a profile. Between its rows a table is interpolated by monotone cubics
+// (Steffen 1990).
 double height(const Curve&, double x);
 
 // The same for many positions; the spline of a table is computed once.
 std::vector<double> heights(const Curve&, const std::vector<double>& x);
 
-// The nodes first, first + 1, ... of a grid of spacing L/intervals that lie on a profile, without the string's ends; x [m] is their place.
-// A node counts as on the end of the profile if both agree to within near_node of the string's length, because both are rounded.
+// The nodes first, first + 1, ... of a grid of spacing L/intervals that lie on a profile, without
+// the string's ends; x [m] is their place. A node counts as on the end of the profile if both agree
+// to within near_node of the string's length, because both are rounded.
 constexpr double near_node = 1e-9;
 struct ProfileNodes {
     int first;
@@ -23,10 +26,13 @@ ProfileNodes nodes_on(const ProfileBarrier&, double length, int intervals);
 // The profile is cut into `count` equal parts; returns their middles [m].
 std::vector<double> middles(const ProfileBarrier&, int count);
 
-// Replaces a profile by point contacts at each x [m], each with the stiffness of the profile over `spacing` [m].
-std::vector<LumpedBarrier> lumped(const ProfileBarrier&, const std::vector<double>& x, double spacing);
+// Replaces a profile by point contacts at each x [m], each with the stiffness of the profile over
+// `spacing` [m].
+std::vector<LumpedBarrier> lumped(const ProfileBarrier&, const std::vector<double>& x,
+                                  double spacing);
 
-// Contact modulus E* [Pa] from Young's moduli [Pa] and Poisson's ratios   (van Walstijn et al. 2016, eq 55)
+// Contact modulus E* [Pa] from Young's moduli [Pa] and Poisson's ratios   (van Walstijn et al.
+// 2016, eq 55)
 double contact_modulus(double young1, double poisson1, double young2, double poisson2);
 
 // k = pi/4 E* w [N/m] of two parallel cylinders in contact over the width w [m]   (eq 54)

@@ -1,4 +1,5 @@
-// Sources: van Walstijn et al. 2016 eqs 18 and 53; Issanchou et al. 2016 eq 12; Deshmukh & Rayavarapu (decay factor per period).
+// Sources: van Walstijn et al. 2016 eqs 18 and 53; Issanchou et al. 2016 eq 12; Deshmukh &
+// Rayavarapu (decay factor per period).
 #include "scenes/damping.hpp"
 
 #include <cmath>
@@ -13,19 +14,21 @@ double decay_rate(const PolynomialDamping& law, double beta) {
 }
 
 double decay_rate(const QualityFactorDamping& law, const String& s, double nu) {
-    const double R = 2 * pi * law.air_viscosity + 2 * pi * law.diameter * std::sqrt(pi * law.air_viscosity * law.air_density * nu);
+    const double R =
+        2 * pi * law.air_viscosity +
+        2 * pi * law.diameter * std::sqrt(pi * law.air_viscosity * law.air_density * nu);
     const double air = R / (2 * pi * s.linear_density * nu);
-    const double viscoelastic =
-        4 * pi * pi * s.linear_density * s.bending_stiffness * law.viscoelastic_angle * nu * nu / (s.tension * s.tension);
+    const double viscoelastic = 4 * pi * pi * s.linear_density * s.bending_stiffness *
+                                law.viscoelastic_angle * nu * nu / (s.tension * s.tension);
     return pi * nu * (air + viscoelastic + law.thermoelastic_loss);  // sigma = pi nu/Q  (12)
 }
 
-double decay_rate(const PerPeriodDamping& law, double f1) {
-    return -f1 * std::log(law.factor);
-}
+double decay_rate(const PerPeriodDamping& law, double f1) { return -f1 * std::log(law.factor); }
 
-PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending, const String& s) {
-    const double c = std::sqrt(s.tension / s.linear_density), lambda = s.bending_stiffness / s.tension;
+PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending,
+                            const String& s) {
+    const double c = std::sqrt(s.tension / s.linear_density),
+                 lambda = s.bending_stiffness / s.tension;
     return {0.5 * eta_air, 0.5 * c * eta_friction, 0.5 * c * lambda * eta_bending};  // (53)
 }
 

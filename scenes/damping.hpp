@@ -8,14 +8,18 @@ namespace jvari {
 // sigma0 + sigma1 beta + sigma3 beta^3, beta [1/m]   (van Walstijn et al. 2016, eq 18)
 double decay_rate(const PolynomialDamping&, double beta);
 
-// pi nu/Q(nu), 1/Q = 1/Q_air + 1/Q_ve + 1/Q_te, nu the undamped frequency [Hz]   (Issanchou et al. 2016, eq 12)
+// pi nu/Q(nu), 1/Q = 1/Q_air + 1/Q_ve + 1/Q_te, nu the undamped frequency [Hz]   (Issanchou et al.
+// 2016, eq 12)
 double decay_rate(const QualityFactorDamping&, const String&, double nu);
 
-// -f1 ln(factor), f1 the frequency of the first mode [Hz]   (Deshmukh & Rayavarapu: a factor per period)
+// -f1 ln(factor), f1 the frequency of the first mode [Hz]   (Deshmukh & Rayavarapu: a factor per
+// period)
 double decay_rate(const PerPeriodDamping&, double f1);
 
-// Woodhouse's air, friction and bending loss factors as a polynomial law: sigma0 = eta_A/2, sigma1 = c eta_F/2, sigma3 = c lambda eta_B/2,
-// c = sqrt(T/mu), lambda = EI/T   (van Walstijn et al. 2016, eq 53). eta_A [1/s], eta_F and eta_B dimensionless.
+// Woodhouse's air, friction and bending loss factors as a polynomial law: sigma0 = eta_A/2, sigma1
+// = c eta_F/2, sigma3 = c lambda eta_B/2,
+// c = sqrt(T/mu), lambda = EI/T   (van Walstijn et al. 2016, eq 53). eta_A [1/s], eta_F and eta_B
+//                                 dimensionless.
 PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending, const String&);
 
 }  // namespace jvari

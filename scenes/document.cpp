@@ -14,8 +14,9 @@
 namespace jvari {
 
 namespace {
-constexpr int deepest = 16;        // levels of nesting; scenes have five
-constexpr int dots_in_a_key = 64;  // a key of very many parts would nest tables deeper than the stack is high
+constexpr int deepest = 16;  // levels of nesting; scenes have five
+// a key of very many parts would nest tables deeper than the stack is high
+constexpr int dots_in_a_key = 64;
 
 template <class Indexed>
 std::optional<std::size_t> index_in(const Indexed& name) {
@@ -25,13 +26,15 @@ std::optional<std::size_t> index_in(const Indexed& name) {
     return i;
 }
 
-// One past the text of TOML that begins at `from`: "", '', """ """ or ''' '''. One that is not closed ends with its line, or with all.
+// One past the text of TOML that begins at `from`: "", '', """ """ or ''' '''. One that is not
+// closed ends with its line, or with all.
 std::size_t end_of_text(std::string_view all, std::size_t from) {
     const char mark = all[from];
     const bool lines = all.substr(from, 3) == std::string(3, mark);
     for (std::size_t i = from + (lines ? 3 : 1); i < all.size(); ++i) {
         if (mark == '"' && all[i] == '\\') ++i;
-        else if (lines && all.substr(i, 3) == std::string(3, mark)) return std::min({all.find_first_not_of(mark, i), i + 5, all.size()});
+        else if (lines && all.substr(i, 3) == std::string(3, mark))
+            return std::min({all.find_first_not_of(mark, i), i + 5, all.size()});
         else if (!lines && (all[i] == mark || all[i] == '\n')) return all[i] == mark ? i + 1 : i;
     }
     return all.size();
@@ -50,7 +53,8 @@ std::vector<std::string> parts_of(std::string_view path) {
 const Value* Value::find(std::string_view key) const {
     const auto* table = std::get_if<TomlTable>(&content);
     if (!table) return nullptr;
-    const auto member = std::find_if(table->begin(), table->end(), [key](const Member& m) { return m.key == key; });
+    const auto member =
+        std::find_if(table->begin(), table->end(), [key](const Member& m) { return m.key == key; });
     return member == table->end() ? nullptr : &member->value;
 }
 
@@ -70,7 +74,9 @@ std::string Value::found() const {
 std::optional<std::int64_t> Value::whole() const {
     if (const auto* n = std::get_if<std::int64_t>(&content)) return *n;
     const auto* x = std::get_if<double>(&content);
-    return x && std::abs(*x) < 1e15 && *x == std::floor(*x) ? std::optional(static_cast<std::int64_t>(*x)) : std::nullopt;
+    return x && std::abs(*x) < 1e15 && *x == std::floor(*x)
+               ? std::optional(static_cast<std::int64_t>(*x))
+               : std::nullopt;
 }
 
 std::string Document::place(int p) const {
@@ -98,21 +104,23 @@ struct Reading {
     int place;                 // 0: take the line from the document
     std::string at(int line) const { return place ? where : where + ":" + std::to_string(line); }
 
-    // Between two of , = [ ] { } and the ends of lines stands at most one key; dots in texts and comments are none of its own.
+    // Between two of , = [ ] { } and the ends of lines stands at most one key; dots in texts and
+    // comments are none of its own.
     void refuse_long_keys(std::string_view text) const {
         int line = 1, dots = 0;
         for (std::size_t i = 0; i < text.size(); ++i) {
             const char c = text[i];
             if (c == '"' || c == '\'') {
                 const std::size_t end = end_of_text(text, i);
-                line += static_cast<int>(std::count(text.begin() + static_cast<long>(i), text.begin() + static_cast<long>(end), '\n'));
+                line += static_cast<int>(std::count(text.begin() + static_cast<long>(i),
+                                                    text.begin() + static_cast<long>(end), '\n'));
                 i = end - 1;
             } else if (c == '#') {
                 i = std::min(text.find('\n', i), text.size()) - 1;
             } else if (c == '.') {
                 if (++dots > dots_in_a_key)
-                    throw SceneFileError(at(line) + ": found a key with more than " + std::to_string(dots_in_a_key) +
-                                         " dots, expected fewer");
+                    throw SceneFileError(at(line) + ": found a key with more than " +
+                                         std::to_string(dots_in_a_key) + " dots, expected fewer");
             } else if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) {
                 dots = 0;
                 line += c == '\n';
@@ -122,14 +130,19 @@ struct Reading {
 
     Value value(const toml::node& node, int level) const {
         const int line = static_cast<int>(node.source().begin.line);
-        if (level > deepest) throw SceneFileError(at(line) + ": found tables or arrays nested deeper than " + std::to_string(deepest));
+        if (level > deepest)
+            throw SceneFileError(at(line) + ": found tables or arrays nested deeper than " +
+                                 std::to_string(deepest));
         Value v;
         v.place = place ? place : line > 0 ? line : 1;
         if (const auto* table = node.as_table()) {
             TomlTable members;
-            for (const auto& [key, child] : *table) members.push_back({std::string(key.str()), value(child, level + 1)});
+            for (const auto& [key, child] : *table)
+                members.push_back({std::string(key.str()), value(child, level + 1)});
             const auto line_of = [](const Member& m) { return m.value.place; };
-            std::stable_sort(members.begin(), members.end(), [&](const Member& a, const Member& b) { return line_of(a) < line_of(b); });
+            std::stable_sort(members.begin(), members.end(), [&](const Member& a, const Member& b) {
+                return line_of(a) < line_of(b);
+            });
             if (!place && line == 0 && !members.empty()) v.place = line_of(members.front());
             v.content = std::move(members);
         } else if (const auto* array = node.as_array()) {
@@ -156,20 +169,24 @@ struct Reading {
             const toml::table table = toml::parse(text);
             return value(table, 0);
         } catch (const toml::parse_error& e) {
-            throw SceneFileError(at(static_cast<int>(e.source().begin.line)) + ": not valid TOML: " + std::string(e.description()));
+            throw SceneFileError(at(static_cast<int>(e.source().begin.line)) +
+                                 ": not valid TOML: " + std::string(e.description()));
         }
     }
 };
 
-// A bare number as number_of reads it; else TOML syntax, where what is no TOML value, or a number of another form (0x10), is a text.
+// A bare number as number_of reads it; else TOML syntax, where what is no TOML value, or a number
+// of another form (0x10), is a text.
 Value override_value(std::string_view text, const Reading& reading) {
     const auto one = [&](std::string_view value) {
         Value root = reading.parse("value = " + std::string(value));
         auto& table = std::get<TomlTable>(root.content);
-        if (table.size() != 1) throw SceneFileError(reading.at(0) + ": found a line break in the value");
+        if (table.size() != 1)
+            throw SceneFileError(reading.at(0) + ": found a line break in the value");
         return std::move(table.front().value);
     };
-    const bool bare = text.empty() || std::string_view("\"'[{").find(text.front()) == std::string_view::npos;
+    const bool bare =
+        text.empty() || std::string_view("\"'[{").find(text.front()) == std::string_view::npos;
     if (!bare) return one(text);
     const std::size_t from = std::min(text.find_first_not_of(' '), text.size());
     if (const auto x = number_of(text.substr(from, text.find_last_not_of(' ') + 1 - from))) {
@@ -180,38 +197,45 @@ Value override_value(std::string_view text, const Reading& reading) {
     }
     try {
         Value v = one(text);
-        const bool number = std::holds_alternative<std::int64_t>(v.content) || std::holds_alternative<double>(v.content);
+        const bool number = std::holds_alternative<std::int64_t>(v.content) ||
+                            std::holds_alternative<double>(v.content);
         return number ? one(quote(text)) : v;
-    } catch (const SceneFileError&) {
-        return one(quote(text));
-    }
+    } catch (const SceneFileError&) { return one(quote(text)); }
 }
 
 bool is_index(std::string_view s) {
     return !s.empty() && s.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// The value at the path, made where it is absent: a table by its key, an entry of an array by its index or one past the last.
-Value& reach(Value& root, const std::vector<std::string>& path, const std::string& where, int place) {
+// The value at the path, made where it is absent: a table by its key, an entry of an array by its
+// index or one past the last.
+Value& reach(Value& root, const std::vector<std::string>& path, const std::string& where,
+             int place) {
     Value* at = &root;
     std::string walked;
     for (std::size_t i = 0; i < path.size(); ++i) {
         const std::string& part = path[i];
         const auto refuse = [&](const std::string& found, const std::string& expected) {
-            throw SceneFileError(where + ": " + (walked.empty() ? part : walked) + ": found " + found + ", expected " + expected);
+            throw SceneFileError(where + ": " + (walked.empty() ? part : walked) + ": found " +
+                                 found + ", expected " + expected);
         };
         if (auto* array = std::get_if<Array>(&at->content)) {
             const auto index = is_index(part) ? index_in(part) : std::nullopt;
             if (!index || *index > array->size())
-                refuse(is_index(part) ? "index " + part : found_text(part), "an index from 0 to " + std::to_string(array->size()));
+                refuse(is_index(part) ? "index " + part : found_text(part),
+                       "an index from 0 to " + std::to_string(array->size()));
             if (*index == array->size()) array->push_back({TomlTable{}, place});
             at = &(*array)[*index];
         } else if (auto* table = std::get_if<TomlTable>(&at->content)) {
-            if (part.empty()) throw SceneFileError(where + ": found an empty part in the key, expected key.path=value");
-            const auto member = std::find_if(table->begin(), table->end(), [&](const Member& m) { return m.key == part; });
+            if (part.empty())
+                throw SceneFileError(where +
+                                     ": found an empty part in the key, expected key.path=value");
+            const auto member = std::find_if(table->begin(), table->end(),
+                                             [&](const Member& m) { return m.key == part; });
             if (member == table->end()) {
                 const bool array_follows = i + 1 < path.size() && is_index(path[i + 1]);
-                table->push_back({part, array_follows ? Value{Array{}, place} : Value{TomlTable{}, place}});
+                table->push_back(
+                    {part, array_follows ? Value{Array{}, place} : Value{TomlTable{}, place}});
                 at = &table->back().value;
             } else {
                 at = &member->value;
@@ -225,7 +249,8 @@ Value& reach(Value& root, const std::vector<std::string>& path, const std::strin
 }
 }  // namespace
 
-Document parse_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides) {
+Document parse_document(std::string_view text, const std::string& file,
+                        const std::vector<std::string>& overrides) {
     Document d{Reading{file, 0}.parse(text), file, overrides};
     d.root.place = 1;
     for (std::size_t i = 0; i < overrides.size(); ++i) {
@@ -234,11 +259,13 @@ Document parse_document(std::string_view text, const std::string& file, const st
         const std::size_t equals = overrides[i].find('=');
         const std::string key = overrides[i].substr(0, equals);
         const auto path = parts_of(key.substr(0, key.find_last_not_of(' ') + 1));
-        if (equals == std::string::npos || equals == 0) throw SceneFileError(where + ": expected key.path=value");
+        if (equals == std::string::npos || equals == 0)
+            throw SceneFileError(where + ": expected key.path=value");
         if (path.size() > deepest)
-            throw SceneFileError(where + ": found a key of " + std::to_string(path.size()) + " parts, expected at most " +
-                                 std::to_string(deepest));
-        Value value = override_value(std::string_view(overrides[i]).substr(equals + 1), Reading{where, place});
+            throw SceneFileError(where + ": found a key of " + std::to_string(path.size()) +
+                                 " parts, expected at most " + std::to_string(deepest));
+        Value value = override_value(std::string_view(overrides[i]).substr(equals + 1),
+                                     Reading{where, place});
         reach(d.root, path, where, place) = std::move(value);
     }
     return d;

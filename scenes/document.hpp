@@ -1,4 +1,5 @@
-// A TOML document as plain values, each with its place in the file. No other file includes the TOML library.
+// A TOML document as plain values, each with its place in the file. No other file includes the TOML
+// library.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +21,10 @@ struct Value {
     std::variant<bool, std::int64_t, double, std::string, Moment, Array, TomlTable> content;
     int place = 1;  // line of the file; -1 - i for the i-th override
 
-    const Value* find(std::string_view key) const;  // nullptr if this is no table or has no such key
-    std::optional<std::int64_t> whole() const;      // of 1000 and of 1e3
-    std::string found() const;                      // for messages: 3, "text", a table
+    // nullptr if this is no table or has no such key
+    const Value* find(std::string_view key) const;
+    std::optional<std::int64_t> whole() const;  // of 1000 and of 1e3
+    std::string found() const;                  // for messages: 3, "text", a table
 };
 struct Member {
     std::string key;
@@ -34,11 +36,15 @@ struct Document {
     std::string file;
     std::vector<std::string> overrides;  // "key.path=value"
 
-    std::string place(int) const;                       // "scene.toml:12" or "--set string.0.tension=30"
-    const Value& nearest(std::string_view path) const;  // the value at "string.0.tension", or its nearest existing parent
+    // "scene.toml:12" or "--set string.0.tension=30"
+    std::string place(int) const;
+    // the value at "string.0.tension", or its nearest existing parent
+    const Value& nearest(std::string_view path) const;
 };
 
-// Parses the text and applies the overrides. Throws SceneFileError for invalid TOML and for overrides of keys that cannot exist.
-Document parse_document(std::string_view text, const std::string& file, const std::vector<std::string>& overrides);
+// Parses the text and applies the overrides. Throws SceneFileError for invalid TOML and for
+// overrides of keys that cannot exist.
+Document parse_document(std::string_view text, const std::string& file,
+                        const std::vector<std::string>& overrides);
 
 }  // namespace jvari

@@ -1,4 +1,5 @@
-// Source: van Walstijn et al. 2016, eqs 14-15 (pluck). The smoothed triangle is the string's modal series times a Hann window's spectrum.
+// Source: van Walstijn et al. 2016, eqs 14-15 (pluck). The smoothed triangle is the string's modal
+// series times a Hann window's spectrum.
 #include "scenes/excitation.hpp"
 
 #include <algorithm>
@@ -18,8 +19,12 @@ double force(const Pluck& e, double t) {
     const double u = t - e.start;
     if (u < 0 || u > e.duration) return 0;
     const double ratio = u / e.duration;
-    // sinh(s x)/sinh(s) = exp(s(x-1)) (1 - exp(-2 s x))/(1 - exp(-2 s)): no overflow; the limit x for s -> 0.
-    const double warped = e.skew == 0 ? ratio : std::exp(e.skew * (ratio - 1)) * std::expm1(-2 * e.skew * ratio) / std::expm1(-2 * e.skew);
+    // sinh(s x)/sinh(s) = exp(s(x-1)) (1 - exp(-2 s x))/(1 - exp(-2 s)): no overflow; the limit x
+    // for s -> 0.
+    const double warped = e.skew == 0
+                              ? ratio
+                              : std::exp(e.skew * (ratio - 1)) * std::expm1(-2 * e.skew * ratio) /
+                                    std::expm1(-2 * e.skew);
     const double h = 0.5 * (ratio + warped);  // h_e/tau_e  (15)
     const double sine = std::sin(pi * h);
     return e.amplitude * sine * sine;  // (14)
@@ -28,7 +33,8 @@ double force(const Pluck& e, double t) {
 double free_from(const Scene& scene) {
     double end = 0;
     for (const String& s : scene.strings)
-        if (s.pluck && s.pluck->amplitude != 0 && s.pluck->start < scene.duration) end = std::max(end, s.pluck->start + s.pluck->duration);
+        if (s.pluck && s.pluck->amplitude != 0 && s.pluck->start < scene.duration)
+            end = std::max(end, s.pluck->start + s.pluck->duration);
     return end;
 }
 
@@ -36,14 +42,16 @@ double hann_smoothing(double beta, double s) {
     const double z = 0.5 * beta * s;
     if (z == 0) return 1;
     const double gap = 1 - z / pi;
-    if (std::abs(gap) < 1e-6) return 0.5 * (1 + 1.5 * gap);  // sin z/z/((1-z/pi)(1+z/pi)) about z = pi
+    // sin z/z/((1-z/pi)(1+z/pi)) about z = pi
+    if (std::abs(gap) < 1e-6) return 0.5 * (1 + 1.5 * gap);
     return std::sin(z) / z / (gap * (1 + z / pi));
 }
 
 double coefficient(const TriangleInitial& t, double length, int mode) {
-    const double beta = mode * pi / length, x0 = t.position, number = mode;  // its square passes what an int holds
-    return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) * std::sin(beta * x0) *
-           hann_smoothing(beta, t.smoothing);
+    // its square passes what an int holds
+    const double beta = mode * pi / length, x0 = t.position, number = mode;
+    return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) *
+           std::sin(beta * x0) * hann_smoothing(beta, t.smoothing);
 }
 
 namespace {
@@ -62,14 +70,16 @@ double pressed(double eta, double k, double exponent) {
 }
 
 double stored(const Modes& modes, const std::vector<double>& y, const LumpedBarrier& b) {
-    return pressed(b.height - at_start(footprint_weights(modes, b.position, b.width), y), b.stiffness.k, b.exponent);
+    return pressed(b.height - at_start(footprint_weights(modes, b.position, b.width), y),
+                   b.stiffness.k, b.exponent);
 }
 
 double stored(const Modes& modes, const std::vector<double>& y, const ProfileBarrier& b) {
     constexpr int parts = 256;
     double energy = 0;
     for (const LumpedBarrier& part : lumped(b, middles(b, parts), (b.to - b.from) / parts))
-        energy += pressed(part.height - at_start(displacement_weights(modes, part.position), y), part.stiffness.k, part.exponent);
+        energy += pressed(part.height - at_start(displacement_weights(modes, part.position), y),
+                          part.stiffness.k, part.exponent);
     return energy;
 }
 
@@ -81,20 +91,24 @@ double available_energy(const String& s, const Modes& modes) {
         stretch += 0.5 * s.length * modes.beta[i] * modes.beta[i] * y[i] * y[i];
     }
     energy += s.axial_stiffness * stretch * stretch / (8 * s.length);
-    for (const Barrier& barrier : s.barriers) energy += std::visit([&](const auto& b) { return stored(modes, y, b); }, barrier);
+    for (const Barrier& barrier : s.barriers)
+        energy += std::visit([&](const auto& b) { return stored(modes, y, b); }, barrier);
     if (const auto& t = s.thread) {
         const double lag = t->height - at_start(footprint_weights(modes, t->position, t->width), y);
         energy += 0.5 * t->stiffness * lag * lag;
     }
     if (const auto& p = s.pluck)
-        energy += 2 * p->amplitude * p->amplitude * static_compliance(modes, footprint_weights(modes, p->position, p->width));
+        energy += 2 * p->amplitude * p->amplitude *
+                  static_compliance(modes, footprint_weights(modes, p->position, p->width));
     return energy;
 }
 
 double bound_squared(const Tap& tap, const String& s, const Modes& modes, double energy) {
     switch (tap.quantity) {
-        case Quantity::displacement: return 2 * energy * static_compliance(modes, displacement_weights(modes, tap.position));
-        case Quantity::nut_force: return 2 * energy * static_compliance(modes, nut_force_weights(modes, s));
+        case Quantity::displacement:
+            return 2 * energy * static_compliance(modes, displacement_weights(modes, tap.position));
+        case Quantity::nut_force:
+            return 2 * energy * static_compliance(modes, nut_force_weights(modes, s));
         case Quantity::velocity: {
             const std::vector<double> w = displacement_weights(modes, tap.position);
             return 2 * energy * at_start(w, w) / modes.mass;
@@ -118,7 +132,8 @@ std::vector<double> tap_bounds(const Scene& scene, int modes) {
         const String& s = scene.strings[a];
         const Modes m = carried(s, modes);
         for (std::size_t k = 0; k < squared.size(); ++k)
-            if (hears(scene.taps[k], scene, a)) squared[k] += bound_squared(scene.taps[k], s, m, energy);
+            if (hears(scene.taps[k], scene, a))
+                squared[k] += bound_squared(scene.taps[k], s, m, energy);
     }
     for (double& b : squared) b = std::isfinite(b) && b > 0 ? std::sqrt(b) : unknown;
     return squared;

@@ -8,26 +8,33 @@ namespace jvari {
 // F_e(t) [N]   (van Walstijn et al. 2016, eqs 14-15); 0 outside [start, start + duration]
 double force(const Pluck&, double t);
 
-// The instant [s] from which on nothing pushes any more: the end of the last pluck that begins before the scene ends, 0 without one. The
-// windows of all errors begin there: while a finger holds the string every model of it moves alike.
+// The instant [s] from which on nothing pushes any more: the end of the last pluck that begins
+// before the scene ends, 0 without one. The windows of all errors begin there: while a finger holds
+// the string every model of it moves alike.
 double free_from(const Scene&);
 
-// Coefficient of sin(beta x) [m] of the smoothed triangle: 2AL^2/(i^2 pi^2 x0 (L-x0)) sin(beta x0) H(beta)
+// Coefficient of sin(beta x) [m] of the smoothed triangle: 2AL^2/(i^2 pi^2 x0 (L-x0)) sin(beta x0)
+// H(beta)
 double coefficient(const TriangleInitial&, double length, int mode);
 
-// H(beta) = [sin(beta s/2)/(beta s/2)]/[1 - (beta s/2 pi)^2]: spectrum of a Hann window of full width s, 1/2 at beta s = 2 pi
+// H(beta) = [sin(beta s/2)/(beta s/2)]/[1 - (beta s/2 pi)^2]: spectrum of a Hann window of full
+// width s, 1/2 at beta s = 2 pi
 double hann_smoothing(double beta, double s);
 
-// ---- What the energy of a scene can make of its strings: a run that goes far beyond has diverged, whether its scheme tells an energy or not.
+// ---- What the energy of a scene can make of its strings: a run that goes far beyond has diverged,
+// whether its scheme tells an energy or not.
 
-// No less than the energy [J] that strings, threads and barriers hold at t = 0 and plucks can supply. Modes i of the string, from rest, and a
-// force F with the static compliance C at its point: integrating F by parts, the energy is at most C (max|F| + integral of |F'|)^2/2 at any
-// time, so 2 C a_e^2 of a pluck (it rises to a_e and falls to 0). Contacts, threads and losses only take from it. Infinite where a rigid
-// barrier is penetrated, or where a body moves the strings' end.
+// No less than the energy [J] that strings, threads and barriers hold at t = 0 and plucks can
+// supply. Modes i of the string, from rest, and a force F with the static compliance C at its
+// point: integrating F by parts, the energy is at most C (max|F| + integral of |F'|)^2/2 at any
+// time, so 2 C a_e^2 of a pluck (it rises to a_e and falls to 0). Contacts, threads and losses only
+// take from it. Infinite where a rigid barrier is penetrated, or where a body moves the strings'
+// end.
 double available_energy(const Scene&, int modes);
 
-// The largest value of each tap that this energy allows to a string of so many modes, sqrt(2 E sum of w_i^2/(m omega_i^2)), where the tap is
-// the sum of w_i y_i, and sqrt(2 E sum of w_i^2/m), where it is that of the velocities. Infinite where it is unknown, as of contact forces.
+// The largest value of each tap that this energy allows to a string of so many modes, sqrt(2 E sum
+// of w_i^2/(m omega_i^2)), where the tap is the sum of w_i y_i, and sqrt(2 E sum of w_i^2/m), where
+// it is that of the velocities. Infinite where it is unknown, as of contact forces.
 std::vector<double> tap_bounds(const Scene&, int modes);
 
 }  // namespace jvari

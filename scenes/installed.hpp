@@ -16,11 +16,16 @@ namespace jvari {
 inline std::filesystem::path installed(const char* what) {
     std::error_code error;
     Dl_info in{};
-    const char* file = dladdr(reinterpret_cast<const void*>(&installed), &in) ? in.dli_fname : nullptr;
+    const char* file =
+        dladdr(reinterpret_cast<const void*>(&installed), &in) ? in.dli_fname : nullptr;
     if (!file || *file != '/')
-        file = reinterpret_cast<const char*>(getauxval(AT_EXECFN));  // as it was called  NOLINT(performance-no-int-to-ptr)
-    for (auto at = std::filesystem::canonical(file, error); at.has_relative_path(); at = at.parent_path())
-        if (auto place = at.parent_path() / "share" / "jvari" / what; std::filesystem::exists(place, error)) return place;
+        // as it was called  NOLINT(performance-no-int-to-ptr)
+        file = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+    for (auto at = std::filesystem::canonical(file, error); at.has_relative_path();
+         at = at.parent_path())
+        if (auto place = at.parent_path() / "share" / "jvari" / what;
+            std::filesystem::exists(place, error))
+            return place;
     return {};
 }
 

@@ -1,4 +1,5 @@
-// Modes of the free string: simply supported ends, v_i(x) = sin(beta_i x), beta_i = i pi/L (van Walstijn et al. 2016, section 2.2).
+// Modes of the free string: simply supported ends, v_i(x) = sin(beta_i x), beta_i = i pi/L (van
+// Walstijn et al. 2016, section 2.2).
 #pragma once
 
 #include <optional>
@@ -18,27 +19,33 @@ struct Modes {
 
 constexpr int most_modes = 1 << 20;  // no string has more
 
-// The first `count` modes. Throws BadScene if a table of measured modes has fewer rows, or if count > most_modes.
+// The first `count` modes. Throws BadScene if a table of measured modes has fewer rows, or if count
+// > most_modes.
 Modes modes_of(const String&, int count);
 
 // The number of measured modes; nothing if the string has no table of them.
 std::optional<int> modes_measured(const String&);
 
-// The number of modes whose undamped frequency is below `hertz`, at most most_modes + 1. It does not depend on the losses.
+// The number of modes whose undamped frequency is below `hertz`, at most most_modes + 1. It does
+// not depend on the losses.
 int modes_below(const String&, double hertz);
 
-double omega_squared_damped(double omega0, double sigma);  // omega0^2 - sigma^2 [rad^2/s^2], negative if the mode is overdamped
+// omega0^2 - sigma^2 [rad^2/s^2], negative if the mode is overdamped
+double omega_squared_damped(double omega0, double sigma);
 
 // Weights w_i of a quantity: it is sum_i w_i y_i, with the modal displacements y_i.
-std::vector<double> displacement_weights(const Modes&, double position);             // v_i(x)
-std::vector<double> footprint_weights(const Modes&, double position, double width);  // g_i, eq 20, limit at beta_i w = pi
-std::vector<double> nut_force_weights(const Modes&, const String&);                  // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
+std::vector<double> displacement_weights(const Modes&, double position);  // v_i(x)
+// g_i, eq 20, limit at beta_i w = pi
+std::vector<double> footprint_weights(const Modes&, double position, double width);
+// -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
+std::vector<double> nut_force_weights(const Modes&, const String&);
 
-// The coupled mass of each mode and the end at x = 0 [kg], the integral of mu v_i (1 - x/L): it multiplies the end's acceleration in the
-// equation of the mode, and the mode's in that of the end.
+// The coupled mass of each mode and the end at x = 0 [kg], the integral of mu v_i (1 - x/L): it
+// multiplies the end's acceleration in the equation of the mode, and the mode's in that of the end.
 std::vector<double> end_inertia(const Modes&, const String&);
 
-// The quantity of these weights under a steady force of 1 N through the same weights [m/N]: sum_i w_i^2/(m omega0_i^2).
+// The quantity of these weights under a steady force of 1 N through the same weights [m/N]: sum_i
+// w_i^2/(m omega0_i^2).
 double static_compliance(const Modes&, const std::vector<double>& weights);
 
 // Modal displacements at t = 0 [m]; zeros if the string has no initial shape.

@@ -35,7 +35,8 @@ double tension_for(const String& s, double hertz) {
 
 double pitch_of(const String& s) {
     const double beta = std::numbers::pi / s.length;
-    return beta / (2 * std::numbers::pi) * std::sqrt((s.tension + s.bending_stiffness * beta * beta) / s.linear_density);
+    return beta / (2 * std::numbers::pi) *
+           std::sqrt((s.tension + s.bending_stiffness * beta * beta) / s.linear_density);
 }
 
 double inharmonicity(const String& s) {
@@ -44,7 +45,8 @@ double inharmonicity(const String& s) {
 }
 
 std::string note_of(double hertz) {
-    constexpr const char* names[] = {"C", "C#", "D", "D#", "E", "F", "F#", "G", "G#", "A", "A#", "B"};
+    constexpr const char* names[] = {"C",  "C#", "D",  "D#", "E",  "F",
+                                     "F#", "G",  "G#", "A",  "A#", "B"};
     const double above_c_minus_1 = 69 + 12 * std::log2(hertz / 440);  // [semitones]
     if (!(above_c_minus_1 > -0.5 && above_c_minus_1 < 131.5)) return "";
     const int nearest = static_cast<int>(std::lround(above_c_minus_1)),

@@ -9,16 +9,20 @@
 
 namespace jvari {
 
-// The frequency of a note in equal temperament with A4 = 440 Hz: "C3", "F#2", "Bb4", from C-1 to B9. Nothing for any other text.
+// The frequency of a note in equal temperament with A4 = 440 Hz: "C3", "F#2", "Bb4", from C-1 to
+// B9. Nothing for any other text.
 std::optional<double> frequency_of_note(std::string_view note);  // [Hz]
 
-// The tension at which the first mode, without damping and with bending stiffness, has this frequency: T = mu (2 L f)^2 - EI (pi/L)^2.
-// It is not positive if the stiffness alone gives that frequency or a higher one.
+// The tension at which the first mode, without damping and with bending stiffness, has this
+// frequency: T = mu (2 L f)^2 - EI (pi/L)^2. It is not positive if the stiffness alone gives that
+// frequency or a higher one.
 double tension_for(const String&, double hertz);  // [N]
 double slack_pitch(const String&);                // of a string without tension [Hz]
 
-double pitch_of(const String&);       // of the first mode without damping [Hz]
-double inharmonicity(const String&);  // B = pi^2 EI/(T L^2), where f_n = n f_0 sqrt(1 + B n^2); infinite without tension
-std::string note_of(double hertz);    // the nearest note and the deviation: "E2", "C3 -14 cents"; "" outside C-1 to B9
+double pitch_of(const String&);  // of the first mode without damping [Hz]
+// B = pi^2 EI/(T L^2), where f_n = n f_0 sqrt(1 + B n^2); infinite without tension
+double inharmonicity(const String&);
+// the nearest note and the deviation: "E2", "C3 -14 cents"; "" outside C-1 to B9
+std::string note_of(double hertz);
 
 }  // namespace jvari

@@ -2,8 +2,9 @@
 //
 // The body is kept: its filters change only what is heard, and its modes stay as they are.
 //
-// Keys are those of scene files. Any of the reductions can be applied in the order of the list: first those that change a value, then those
-// that empty a part, then those that shorten an array, from its last entry on. So each key keeps its meaning.
+// Keys are those of scene files. Any of the reductions can be applied in the order of the list:
+// first those that change a value, then those that empty a part, then those that shorten an array,
+// from its last entry on. So each key keeps its meaning.
 #pragma once
 
 #include <functional>
@@ -39,7 +40,8 @@ struct Reduction {
     std::string said() const { return becomes.empty() ? key + " left out" : key + " = " + becomes; }
 };
 
-// All that apply to this scene. A contact whose exponent becomes 1 keeps its force at `penetration` [m].
+// All that apply to this scene. A contact whose exponent becomes 1 keeps its force at `penetration`
+// [m].
 std::vector<Reduction> reductions_of(const Scene&, double penetration = 1);
 
 // Removes taps of forces that nothing exerts any more, except the tap `kept`.

@@ -99,19 +99,27 @@ namespace {
 struct DampingNeeds {
     Features operator()(const NoDamping&) const { return {}; }
     Features operator()(const PolynomialDamping& d) const {
-        if (d.sigma1 != 0 || d.sigma3 != 0) return Feature::damping | Feature::frequency_dependent_damping;
+        if (d.sigma1 != 0 || d.sigma3 != 0)
+            return Feature::damping | Feature::frequency_dependent_damping;
         return d.sigma0 != 0 ? Features(Feature::damping) : Features();
     }
-    Features operator()(const QualityFactorDamping&) const { return Feature::damping | Feature::frequency_dependent_damping; }
-    Features operator()(const TableDamping&) const {
-        return Feature::damping | Feature::frequency_dependent_damping | Features(Feature::measured_modes);
+    Features operator()(const QualityFactorDamping&) const {
+        return Feature::damping | Feature::frequency_dependent_damping;
     }
-    Features operator()(const PerPeriodDamping& d) const { return d.factor != 1 ? Features(Feature::damping) : Features(); }
+    Features operator()(const TableDamping&) const {
+        return Feature::damping | Feature::frequency_dependent_damping |
+               Features(Feature::measured_modes);
+    }
+    Features operator()(const PerPeriodDamping& d) const {
+        return d.factor != 1 ? Features(Feature::damping) : Features();
+    }
 };
 
 Features needed_by(const Barrier& barrier) {
     const bool lumped = std::holds_alternative<LumpedBarrier>(barrier);
-    if (is_rigid(barrier)) return lumped ? Feature::lumped_barrier | Feature::rigid_barrier : Features(Feature::rigid_profile);
+    if (is_rigid(barrier))
+        return lumped ? Feature::lumped_barrier | Feature::rigid_barrier
+                      : Features(Feature::rigid_profile);
     Features f = lumped ? Feature::lumped_barrier : Feature::profile_barrier;
     std::visit(
         [&f](const auto& b) {
@@ -141,6 +149,9 @@ Features needed_by(const Scene& scene) {
 }
 
 BadScene::BadScene(std::string k, std::string f, std::string e)
-    : std::runtime_error(k + ": found " + f + ", expected " + e), key(std::move(k)), found(std::move(f)), expected(std::move(e)) {}
+    : std::runtime_error(k + ": found " + f + ", expected " + e),
+      key(std::move(k)),
+      found(std::move(f)),
+      expected(std::move(e)) {}
 
 }  // namespace jvari

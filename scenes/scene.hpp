@@ -1,6 +1,7 @@
 // Scene: the continuous problem in SI units, with no sample rate, grid or mode count in it.
 //
-// A plain value: every part is a struct, an absent part is an empty optional or vector. Reading from TOML: scene_file.hpp.
+// A plain value: every part is a struct, an absent part is an empty optional or vector. Reading
+// from TOML: scene_file.hpp.
 #pragma once
 
 #include <limits>
@@ -12,15 +13,17 @@
 
 namespace jvari {
 
-// ---- Losses of the free string: sigma(beta) or sigma(mode) [1/s]; the laws themselves are in damping.hpp.
+// ---- Losses of the free string: sigma(beta) or sigma(mode) [1/s]; the laws themselves are in
+// damping.hpp.
 
 struct NoDamping {
     bool operator==(const NoDamping&) const = default;
 };
-struct PolynomialDamping {  // sigma = sigma0 + sigma1 beta + sigma3 beta^3   (van Walstijn et al. 2016, eq 18)
-    double sigma0 = 0;      // [1/s]
-    double sigma1 = 0;      // [m/s]
-    double sigma3 = 0;      // [m^3/s]
+// sigma = sigma0 + sigma1 beta + sigma3 beta^3   (van Walstijn et al. 2016, eq 18)
+struct PolynomialDamping {
+    double sigma0 = 0;  // [1/s]
+    double sigma1 = 0;  // [m/s]
+    double sigma3 = 0;  // [m^3/s]
     bool operator==(const PolynomialDamping&) const = default;
 };
 struct QualityFactorDamping {       // Issanchou et al. 2016, eq 12 and below
@@ -37,15 +40,19 @@ struct TableDamping {                  // measured modes: replaces both frequenc
     std::vector<double> decay_rate;    // sigma [1/s]
     bool operator==(const TableDamping&) const = default;
 };
-struct PerPeriodDamping {  // amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
+// amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
+struct PerPeriodDamping {
     double factor = 1;
     bool operator==(const PerPeriodDamping&) const = default;
 };
-using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping, TableDamping, PerPeriodDamping>;
+using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping, TableDamping,
+                             PerPeriodDamping>;
 
-// ---- The obstacle. V(eta) = k [eta]^(exponent+1)/(exponent+1), eta = h - y the penetration, F = V'(eta) >= 0 on the string.
+// ---- The obstacle. V(eta) = k [eta]^(exponent+1)/(exponent+1), eta = h - y the penetration, F =
+// V'(eta) >= 0 on the string.
 
-inline constexpr double rigid = std::numeric_limits<double>::infinity();  // as a stiffness: the barrier does not give way at all
+// as a stiffness: the barrier does not give way at all
+inline constexpr double rigid = std::numeric_limits<double>::infinity();
 struct LumpedStiffness {
     double k = 0;  // [N/m^exponent], or rigid
     bool operator==(const LumpedStiffness&) const = default;
@@ -54,7 +61,8 @@ struct StiffnessDensity {
     double K = 0;  // [N/m^(exponent+1)], or rigid
     bool operator==(const StiffnessDensity&) const = default;
 };
-struct LumpedBarrier {    // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
+// one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
+struct LumpedBarrier {
     double position = 0;  // centre [m]
     double width = 0;     // footprint [m]; 0: a point
     double height = 0;    // [m]
@@ -88,12 +96,8 @@ struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et 
     double contact_loss = 0;  // [s/m]
     bool operator==(const ProfileBarrier&) const = default;
 };
-inline bool is_rigid(const LumpedBarrier& b) {
-    return b.stiffness.k == rigid;
-}
-inline bool is_rigid(const ProfileBarrier& b) {
-    return b.stiffness.K == rigid;
-}
+inline bool is_rigid(const LumpedBarrier& b) { return b.stiffness.k == rigid; }
+inline bool is_rigid(const ProfileBarrier& b) { return b.stiffness.K == rigid; }
 using Barrier = std::variant<LumpedBarrier, ProfileBarrier>;
 bool is_rigid(const Barrier&);
 
@@ -141,7 +145,8 @@ struct String {
     double linear_density = 0;     // mu [kg/m]
     double tension = 0;            // T [N]
     double bending_stiffness = 0;  // EI [N m^2]
-    double axial_stiffness = 0;    // EA [N]: the tension grows as the string stretches (Kirchhoff, Carrier); 0: it stays as it is
+    // EA [N]: the tension grows as the string stretches (Kirchhoff, Carrier); 0: it stays as it is
+    double axial_stiffness = 0;
     Damping damping;
     std::vector<Barrier> barriers;
     std::optional<Thread> thread;
@@ -153,7 +158,14 @@ struct String {
 
 // ---- What is listened to.
 
-enum class Quantity { displacement, velocity, nut_force, bridge_force, thread_force, driving_force };
+enum class Quantity {
+    displacement,
+    velocity,
+    nut_force,
+    bridge_force,
+    thread_force,
+    driving_force
+};
 const char* name_of(Quantity);
 const char* unit_of(Quantity);  // "N"
 
@@ -164,14 +176,16 @@ struct Tap {
     double position = 0;        // [m], displacement and velocity only
     bool operator==(const Tap&) const = default;
 };
-struct BodyMode {          // an oscillator that the bridge moves; what all strings pull at is the sum of their displacements
+// an oscillator that the bridge moves; what all strings pull at is the sum of their displacements
+struct BodyMode {
     double mass = 0;       // [kg], as felt at the bridge
     double stiffness = 0;  // [N/m]
     double damping = 0;    // [kg/s]
     bool operator==(const BodyMode&) const = default;
 };
 struct Body {
-    std::string bridge, nut;      // filters of what is heard of driving_force and nut_force: files of impulse responses; "": none
+    // filters of what is heard of driving_force and nut_force: files of impulse responses; "": none
+    std::string bridge, nut;
     std::vector<BodyMode> modes;  // none: the bridge does not move
     bool operator==(const Body&) const = default;
 };
@@ -194,7 +208,8 @@ bool hears(const Tap&, const Scene&, int string);
 
 Scene unfiltered(Scene);  // without the body's filters; what moves stays
 
-// ---- What a scene asks of a scheme: that there are several strings asks nothing, and a body that only filters asks nothing.
+// ---- What a scene asks of a scheme: that there are several strings asks nothing, and a body that
+// only filters asks nothing.
 
 enum class Feature : unsigned {
     bending_stiffness = 1u << 0,
@@ -221,19 +236,16 @@ const char* name_of(Feature);
 struct Features {
     unsigned bits = 0;
     constexpr Features() = default;
-    constexpr Features(Feature f) : bits(static_cast<unsigned>(f)) {}  // NOLINT: a feature is a set of one
+    // NOLINT: a feature is a set of one
+    constexpr Features(Feature f) : bits(static_cast<unsigned>(f)) {}
     constexpr explicit Features(unsigned b) : bits(b) {}
     constexpr bool has(Feature f) const { return (bits & static_cast<unsigned>(f)) != 0; }
     constexpr bool any(Features f) const { return (bits & f.bits) != 0; }
     constexpr bool empty() const { return bits == 0; }
     friend constexpr bool operator==(Features, Features) = default;
 };
-constexpr Features operator|(Features a, Features b) {
-    return Features(a.bits | b.bits);
-}
-constexpr Features operator|(Feature a, Feature b) {
-    return Features(a) | Features(b);
-}
+constexpr Features operator|(Features a, Features b) { return Features(a.bits | b.bits); }
+constexpr Features operator|(Feature a, Feature b) { return Features(a) | Features(b); }
 constexpr Features operator-(Features a, Features b) {
     return Features(a.bits & ~b.bits);
 }  // in a and not in b

@@ -22,42 +22,44 @@ fs::path library() {
     const char* set = std::getenv("JVARI_SCENES");
     std::error_code error;
     for (const fs::path& directory :
-         {fs::path(set ? set : ""), installed("scenes"), fs::path(JVARI_SOURCE_SCENES), fs::path(JVARI_INSTALLED_SCENES)})
+         {fs::path(set ? set : ""), installed("scenes"), fs::path(JVARI_SOURCE_SCENES),
+          fs::path(JVARI_INSTALLED_SCENES)})
         if (!directory.empty() && fs::is_directory(directory, error)) return directory;
     return {};
 }
 
-// "scenes/a.toml" and "./a" are files; "a" is one too where it lies in the working directory as a file.
+// "scenes/a.toml" and "./a" are files; "a" is one too where it lies in the working directory as a
+// file.
 std::string path_of(const std::string& name) {
     std::error_code error;
-    const bool plain = !name.empty() && name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
-    if (plain && fs::is_regular_file(library() / (name + ".toml"), error) && !fs::is_regular_file(name, error))
+    const bool plain = !name.empty() && name.find('/') == std::string::npos &&
+                       name.find('\0') == std::string::npos;
+    if (plain && fs::is_regular_file(library() / (name + ".toml"), error) &&
+        !fs::is_regular_file(name, error))
         return (library() / (name + ".toml")).string();
     if (!plain || fs::path(name).extension() == ".toml" || fs::exists(name, error)) return name;
     const auto known = library_scenes();
     const std::string near = nearest(name.substr(0, 100), known);
-    throw SceneFileError(found_text(name) + ": neither a file nor a scene of the library; " +
-                         (near.empty() ? "the library has " + list_of(known) : "did you mean " + quote(near) + "?"));
+    throw SceneFileError(
+        found_text(name) + ": neither a file nor a scene of the library; " +
+        (near.empty() ? "the library has " + list_of(known) : "did you mean " + quote(near) + "?"));
 }
 }  // namespace
 
-std::vector<std::string> library_scenes() {
-    return toml_names(library());
-}
+std::vector<std::string> library_scenes() { return toml_names(library()); }
 
 std::string library_text(const std::string& name) {
     const std::string path = (library() / (name + ".toml")).string();
     try {
         return text_of_file(path, largest_scene);
-    } catch (const std::exception& e) {
-        throw SceneFileError(found_text(path) + " " + e.what());
-    }
+    } catch (const std::exception& e) { throw SceneFileError(found_text(path) + " " + e.what()); }
 }
 
-Scene parse_scene(std::string_view text, const std::string& file_name, const std::vector<std::string>& overrides) {
+Scene parse_scene(std::string_view text, const std::string& file_name,
+                  const std::vector<std::string>& overrides) {
     if (text.size() > largest_scene)
-        throw SceneFileError(file_name + ":1: found " + std::to_string(text.size()) + " bytes, expected at most " +
-                             std::to_string(largest_scene));
+        throw SceneFileError(file_name + ":1: found " + std::to_string(text.size()) +
+                             " bytes, expected at most " + std::to_string(largest_scene));
     const Document document = parse_document(text, file_name, overrides);
     Scene scene = scene_of(document);
     try {
@@ -68,14 +70,13 @@ Scene parse_scene(std::string_view text, const std::string& file_name, const std
     return scene;
 }
 
-Scene read_scene(const std::string& file_or_library_name, const std::vector<std::string>& overrides) {
+Scene read_scene(const std::string& file_or_library_name,
+                 const std::vector<std::string>& overrides) {
     const std::string path = path_of(file_or_library_name);
     std::string text;
     try {
         text = text_of_file(path, largest_scene);
-    } catch (const std::exception& e) {
-        throw SceneFileError(found_text(path) + " " + e.what());
-    }
+    } catch (const std::exception& e) { throw SceneFileError(found_text(path) + " " + e.what()); }
     return parse_scene(text, path, overrides);
 }
 

@@ -1,4 +1,5 @@
-// Two passes over the schema: Names refuses unknown keys (and chooses the alternatives of variants), Reader takes the values.
+// Two passes over the schema: Names refuses unknown keys (and chooses the alternatives of
+// variants), Reader takes the values.
 #include "scenes/scene_reader.hpp"
 
 #include <algorithm>
@@ -37,7 +38,8 @@ void emplace(std::variant<T...>& v, std::size_t index) {
 
 constexpr const char* tension_keys[] = {"tension", "frequency", "note"};
 
-// ---- Which keys this table may have. Where the key that chooses an alternative is missing or wrong, those of every alternative.
+// ---- Which keys this table may have. Where the key that chooses an alternative is missing or
+// wrong, those of every alternative.
 struct Names {
     const Value& table;
     std::vector<std::string> names{};
@@ -75,7 +77,8 @@ struct Names {
             emplace(alternative, i);
             Names other{table};
             std::visit([&other](auto& a) { fields(other, a); }, alternative);
-            for (const std::string& name : other.names) index&& i != *index ? idle.push_back(name) : add(name.c_str());
+            for (const std::string& name : other.names)
+                index&& i != *index ? idle.push_back(name) : add(name.c_str());
             idle.insert(idle.end(), other.idle.begin(), other.idle.end());
             if (i == index) v = std::move(alternative);
         }
@@ -85,18 +88,21 @@ struct Names {
 // ---- The values of one table
 class Reader {
 public:
-    Reader(const Document& document, const Value& table, std::string path) : document_(document), table_(table), path_(std::move(path)) {}
+    Reader(const Document& document, const Value& table, std::string path)
+        : document_(document), table_(table), path_(std::move(path)) {}
 
     template <class Part>
     void read(Part& part) {
-        if (!std::holds_alternative<TomlTable>(table_.content)) fail(table_, path_, table_.found(), "a table");
+        if (!std::holds_alternative<TomlTable>(table_.content))
+            fail(table_, path_, table_.found(), "a table");
         Names names{table_};
         fields(names, part);
         for (const Member& m : std::get<TomlTable>(table_.content)) refuse_unknown(m, names);
         fields(*this, part);
     }
 
-    void number(const char* key, double& x, const Range& range, const char* unit, std::optional<double> absent = {}) {
+    void number(const char* key, double& x, const Range& range, const char* unit,
+                std::optional<double> absent = {}) {
         if (const auto given = wire_.find(key); given != wire_.end()) {
             x = given->second;
             return;
@@ -105,7 +111,8 @@ public:
         const Value* v = absent ? table_.find(key) : required(key, expected);
         if (!v) x = *absent;
         else if (const auto* d = std::get_if<double>(&v->content)) x = *d;
-        else if (const auto* i = std::get_if<std::int64_t>(&v->content)) x = static_cast<double>(*i);
+        else if (const auto* i = std::get_if<std::int64_t>(&v->content))
+            x = static_cast<double>(*i);
         else fail(*v, at(key), v->found(), expected);
     }
     void stiffness(const char* key, double& k, const char* unit) {
@@ -114,22 +121,27 @@ public:
         if (word && *word == "rigid") k = rigid;
         else number(key, k, positive_or_rigid, unit);
         const auto* d = v ? std::get_if<double>(&v->content) : nullptr;
-        if (d && *d == rigid) fail(*v, at(key), v->found(), std::string(positive_or_rigid.says) + " [" + unit + "]");
+        if (d && *d == rigid)
+            fail(*v, at(key), v->found(), std::string(positive_or_rigid.says) + " [" + unit + "]");
     }
-    // A wire of a material, or its two numbers: where an override brings one of them, those of the file stay unread.
+    // A wire of a material, or its two numbers: where an override brings one of them, those of the
+    // file stay unread.
     void material() {
         const Value *name = table_.find("material"), *width = table_.find("diameter");
         if (!name && !width) return;
         const Material& m = materials[index_of("material", material_names)];
         double diameter = 0;
         number("diameter", diameter, positive, "m");
-        if (!positive.holds(diameter)) fail(*width, at("diameter"), width->found(), std::string(positive.says) + " [m]");
+        if (!positive.holds(diameter))
+            fail(*width, at("diameter"), width->found(), std::string(positive.says) + " [m]");
         const bool overridden = name->place < 0 || width->place < 0;
         for (const auto& [key, value] :
-             {std::pair{"linear_density", linear_density_of(m, diameter)}, {"bending_stiffness", bending_stiffness_of(m, diameter)}}) {
+             {std::pair{"linear_density", linear_density_of(m, diameter)},
+              {"bending_stiffness", bending_stiffness_of(m, diameter)}}) {
             const Value* beside = table_.find(key);
             if (beside && (beside->place < 0) == overridden)
-                fail(*beside, at(key), beside->found(), "nothing beside material and diameter, which say as much");
+                fail(*beside, at(key), beside->found(),
+                     "nothing beside material and diameter, which say as much");
             if (!beside || overridden) wire_[key] = value;
         }
     }
@@ -141,10 +153,13 @@ public:
             if (!v) continue;
             const bool overridden = v->place < 0, before = chosen && table_.find(chosen)->place < 0;
             if (chosen && overridden == before)
-                fail(*v, at(key), v->found(), "nothing beside " + std::string(chosen) + ": give one of tension, frequency and note");
+                fail(*v, at(key), v->found(),
+                     "nothing beside " + std::string(chosen) +
+                         ": give one of tension, frequency and note");
             if (!chosen || overridden) chosen = key;
         }
-        if (!chosen || chosen == tension_keys[0]) return number(tension_keys[0], s.tension, positive, "N");
+        if (!chosen || chosen == tension_keys[0])
+            return number(tension_keys[0], s.tension, positive, "N");
         const Value& v = *table_.find(chosen);
         double hertz = 0;
         if (chosen == tension_keys[1]) number(chosen, hertz, positive, "Hz");
@@ -152,19 +167,27 @@ public:
             std::string note;
             text(chosen, note);
             const auto frequency = frequency_of_note(note);
-            if (!frequency) fail(v, at(chosen), v.found(), "a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"");
+            if (!frequency)
+                fail(v, at(chosen), v.found(),
+                     "a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"");
             hertz = *frequency;
         }
-        if (!positive.holds(hertz)) fail(v, at(chosen), v.found(), std::string(positive.says) + " [Hz]");
+        if (!positive.holds(hertz))
+            fail(v, at(chosen), v.found(), std::string(positive.says) + " [Hz]");
         number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
         s.tension = 1;  // where what it follows from is out of range validate() says so
-        if (!positive.holds(s.length) || !positive.holds(s.linear_density) || !not_negative.holds(s.bending_stiffness)) return;
+        if (!positive.holds(s.length) || !positive.holds(s.linear_density) ||
+            !not_negative.holds(s.bending_stiffness))
+            return;
         s.tension = tension_for(s, hertz);
         if (!positive.holds(s.tension))
             fail(v, at(chosen), v.found(),
-                 "a pitch that a tension gives: the bending stiffness alone gives " + number_text(slack_pitch(s)) + " Hz");
+                 "a pitch that a tension gives: the bending stiffness alone gives " +
+                     number_text(slack_pitch(s)) + " Hz");
     }
-    void count(const char* key, int& n) { n = integer(*required(key, "a whole number >= 1"), key, 1); }
+    void count(const char* key, int& n) {
+        n = integer(*required(key, "a whole number >= 1"), key, 1);
+    }
     void string_index(const char* key, std::optional<int>& n) {
         if (const Value* v = table_.find(key)) n = integer(*v, key, 0);
     }
@@ -190,11 +213,12 @@ public:
     void refused(const char* key, const char* expected) {
         if (const Value* v = table_.find(key)) fail(*v, at(key), v->found(), expected);
     }
-    void columns(const char* key, std::string& file, const Column& first, std::vector<double>& a, const Column& second,
-                 std::vector<double>& b) {
+    void columns(const char* key, std::string& file, const Column& first, std::vector<double>& a,
+                 const Column& second, std::vector<double>& b) {
         text(key, file);
         const std::string path = beside(file);
-        const std::string expected = "a CSV file with the columns " + list_of({first.name, second.name});
+        const std::string expected =
+            "a CSV file with the columns " + list_of({first.name, second.name});
         std::error_code error;
         if (file.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
             fail(*table_.find(key), at(key), found_text(file) + ", which is not a file", expected);
@@ -225,22 +249,27 @@ public:
         if (!v) return;
         const auto* items = std::get_if<Array>(&v->content);
         if (!items) fail(*v, at(key), v->found(), "an array of tables, [[...]]");
-        for (const Value& item : *items) Reader(document_, item, at(key) + "." + std::to_string(all.size())).read(all.emplace_back());
+        for (const Value& item : *items)
+            Reader(document_, item, at(key) + "." + std::to_string(all.size()))
+                .read(all.emplace_back());
     }
 
 private:
     std::string at(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
-    [[noreturn]] void fail(const Value& v, const std::string& key, const std::string& found, const std::string& expected) const {
-        throw SceneFileError(document_.place(v.place) + ": " + (key.empty() ? "" : key + ": ") + "found " + found + ", expected " +
-                             expected);
+    [[noreturn]] void fail(const Value& v, const std::string& key, const std::string& found,
+                           const std::string& expected) const {
+        throw SceneFileError(document_.place(v.place) + ": " + (key.empty() ? "" : key + ": ") +
+                             "found " + found + ", expected " + expected);
     }
     const Value* required(const char* key, const std::string& expected) const {
         const Value* v = table_.find(key);
         if (!v) fail(table_, at(key), "nothing", expected);
         return v;
     }
-    std::string beside(const std::string& file) const { return (std::filesystem::path(document_.file).parent_path() / file).string(); }
+    std::string beside(const std::string& file) const {
+        return (std::filesystem::path(document_.file).parent_path() / file).string();
+    }
     int integer(const Value& v, const char* key, int least) const {
         const auto i = v.whole();
         if (!i || *i < least || *i > std::numeric_limits<int>::max())
@@ -255,25 +284,32 @@ private:
         if (index) return *index;
         const auto* word = std::get_if<std::string>(&v->content);
         const std::string near = word ? nearest(word->substr(0, 100), words) : "";
-        fail(*v, at(key), v->found(), expected + (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
+        fail(*v, at(key), v->found(),
+             expected + (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
     }
     void refuse_unknown(const Member& m, const Names& names) const {
         const auto& known = names.names;
         if (std::find(known.begin(), known.end(), m.key) != known.end()) return;
-        if (m.value.place > 0 && std::find(names.idle.begin(), names.idle.end(), m.key) != names.idle.end()) return;
-        const bool bare =
-            !m.key.empty() &&
-            m.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos &&
-            m.key.size() <= 60;
+        if (m.value.place > 0 &&
+            std::find(names.idle.begin(), names.idle.end(), m.key) != names.idle.end())
+            return;
+        const bool bare = !m.key.empty() &&
+                          m.key.find_first_not_of(
+                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+                              std::string::npos &&
+                          m.key.size() <= 60;
         const std::string near = nearest(m.key.substr(0, 100), known);
-        throw SceneFileError(document_.place(m.value.place) + ": " + at(bare ? m.key : found_text(m.key)) + ": unknown key; " +
-                             (near.empty() ? "known here: " + list_of(known) : "did you mean " + quote(near) + "?"));
+        throw SceneFileError(
+            document_.place(m.value.place) + ": " + at(bare ? m.key : found_text(m.key)) +
+            ": unknown key; " +
+            (near.empty() ? "known here: " + list_of(known) : "did you mean " + quote(near) + "?"));
     }
 
     const Document& document_;
     const Value& table_;
     std::string path_;
-    std::map<std::string, double, std::less<>> wire_;  // numbers that follow from material and diameter
+    // numbers that follow from material and diameter
+    std::map<std::string, double, std::less<>> wire_;
 };
 }  // namespace
 

@@ -13,16 +13,22 @@ struct Writer {
     std::string& out;
     std::string path{};  // "string.barrier": a header names the last entry of every array
 
-    void line(const char* key, const std::string& value) { out += std::string(key) + " = " + value + "\n"; }
+    void line(const char* key, const std::string& value) {
+        out += std::string(key) + " = " + value + "\n";
+    }
     static std::string number_value(double x) {
         std::string text = number_text(x);
-        return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;  // a float, also beyond the range of integers
+        // a float, also beyond the range of integers
+        return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
     }
 
-    void number(const char* key, double x, const Range&, const char*, std::optional<double> absent = {}) {
+    void number(const char* key, double x, const Range&, const char*,
+                std::optional<double> absent = {}) {
         if (x != absent) line(key, number_value(x));
     }
-    void stiffness(const char* key, double k, const char* unit) { k == rigid ? line(key, quote("rigid")) : number(key, k, positive, unit); }
+    void stiffness(const char* key, double k, const char* unit) {
+        k == rigid ? line(key, quote("rigid")) : number(key, k, positive, unit);
+    }
     void material() {}  // what follows from it is written
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) { line(key, std::to_string(n)); }
@@ -79,8 +85,8 @@ struct Tables {
     void file(auto&&...) {}
     void choice(auto&&...) {}
     void refused(auto&&...) {}
-    void columns(const char*, const std::string&, const Column&, const std::vector<double>& a, const Column&,
-                 const std::vector<double>& b) {
+    void columns(const char*, const std::string&, const Column&, const std::vector<double>& a,
+                 const Column&, const std::vector<double>& b) {
         for (const auto* column : {&a, &b}) {
             for (const double x : *column) out += number_text(x) + ",";
             out += "\n";
@@ -118,7 +124,8 @@ std::string scene_hash(const Scene& scene) {
     std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bit
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     std::string hex(16, '0');
-    for (auto digit = hex.rbegin(); digit != hex.rend(); ++digit, hash >>= 4) *digit = "0123456789abcdef"[hash & 15];
+    for (auto digit = hex.rbegin(); digit != hex.rend(); ++digit, hash >>= 4)
+        *digit = "0123456789abcdef"[hash & 15];
     return hex;
 }
 

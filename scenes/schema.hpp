@@ -1,10 +1,12 @@
-// The schema of a scene file: the keys of every part in the order in which they are written, each with its unit, its range and its default.
-// Four passes use it: naming the keys, reading, writing, and checking ranges. validate.cpp checks what depends on several values, such as a
-// bridge beyond the end of the string.
+// The schema of a scene file: the keys of every part in the order in which they are written, each
+// with its unit, its range and its default. Four passes use it: naming the keys, reading, writing,
+// and checking ranges. validate.cpp checks what depends on several values, such as a bridge beyond
+// the end of the string.
 //
-// A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the scene),
-// choice, string_index, refused (a key without meaning here), columns (a CSV file), one_of (a variant and the key that chooses it),
-// material (with a diameter, in place of two numbers), tension (or a pitch), part (a table) and parts (an array of tables).
+// A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
+// scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), one_of
+// (a variant and the key that chooses it), material (with a diameter, in place of two numbers),
+// tension (or a pitch), part (a table) and parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -19,15 +21,18 @@ concept Is = std::same_as<std::remove_const_t<T>, Part>;
 
 struct Range {
     const char* says;
-    double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+    double low = -std::numeric_limits<double>::infinity(),
+           high = std::numeric_limits<double>::infinity();
     bool without_low = false;
     bool holds(double x) const {
         return x - x == 0 && x >= low && x <= high && !(without_low && x == low);
     }  // x - x: neither nan nor infinite
 };
 inline constexpr Range any{"a finite number"};
-inline constexpr Range positive{"a positive number", 0, std::numeric_limits<double>::infinity(), true};
-inline constexpr Range positive_or_rigid{"\"rigid\" or a positive number", 0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Range positive{"a positive number", 0, std::numeric_limits<double>::infinity(),
+                                true};
+inline constexpr Range positive_or_rigid{"\"rigid\" or a positive number", 0,
+                                         std::numeric_limits<double>::infinity(), true};
 inline constexpr Range not_negative{"a number >= 0", 0};
 inline constexpr Range one_or_more{"a number >= 1", 1};
 inline constexpr Range fraction{"a number above 0 and at most 1", 0, 1, true};
@@ -38,8 +43,10 @@ struct Column {  // of a CSV file
     Range range;
 };
 
-inline constexpr const char* quantity_names[] = {"displacement", "velocity", "nut_force", "bridge_force", "thread_force", "driving_force"};
-inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_factor", "table", "per_period"};
+inline constexpr const char* quantity_names[] = {"displacement", "velocity",     "nut_force",
+                                                 "bridge_force", "thread_force", "driving_force"};
+inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_factor", "table",
+                                                "per_period"};
 inline constexpr const char* barrier_names[] = {"lumped", "profile"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* initial_names[] = {"mode", "triangle"};
@@ -66,9 +73,7 @@ void fields(auto& pass, Is<TableDamping> auto& d) {
 void fields(auto& pass, Is<PerPeriodDamping> auto& d) {
     pass.number("factor", d.factor, fraction, "");
 }
-void fields(auto& pass, Is<Damping> auto& d) {
-    pass.one_of("law", d, damping_names);
-}
+void fields(auto& pass, Is<Damping> auto& d) { pass.one_of("law", d, damping_names); }
 
 // ---- The obstacle
 
@@ -80,7 +85,8 @@ void fields(auto& pass, Is<ParabolaCurve> auto& c) {
     pass.number("coefficient", c.coefficient, any, "1/m");
 }
 void fields(auto& pass, Is<TableCurve> auto& c) {
-    pass.columns("file", c.file, Column{"x_m", "x_m", any}, c.x, Column{"height_m", "height_m", any}, c.height);
+    pass.columns("file", c.file, Column{"x_m", "x_m", any}, c.x,
+                 Column{"height_m", "height_m", any}, c.height);
 }
 void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.number("position", b.position, any, "m");
@@ -98,9 +104,7 @@ void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
 }
-void fields(auto& pass, Is<Barrier> auto& b) {
-    pass.one_of("shape", b, barrier_names);
-}
+void fields(auto& pass, Is<Barrier> auto& b) { pass.one_of("shape", b, barrier_names); }
 
 void fields(auto& pass, Is<Thread> auto& t) {
     pass.number("position", t.position, any, "m");
@@ -121,9 +125,7 @@ void fields(auto& pass, Is<TriangleInitial> auto& t) {
     pass.number("amplitude", t.amplitude, any, "m");
     pass.number("smoothing", t.smoothing, not_negative, "m", 0.0);
 }
-void fields(auto& pass, Is<Initial> auto& i) {
-    pass.one_of("shape", i, initial_names);
-}
+void fields(auto& pass, Is<Initial> auto& i) { pass.one_of("shape", i, initial_names); }
 
 void fields(auto& pass, Is<Pluck> auto& p) {
     pass.number("amplitude", p.amplitude, any, "N");

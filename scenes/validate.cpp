@@ -1,4 +1,5 @@
-// What a scene may not say: the range of every number (a pass over the schema), then what no number tells alone.
+// What a scene may not say: the range of every number (a pass over the schema), then what no number
+// tells alone.
 #include <cmath>
 #include <optional>
 #include <set>
@@ -17,8 +18,11 @@ std::string joined(const std::string& path, const std::string& key) {
 struct Ranges {
     std::string path{};
 
-    void number(const char* key, double x, const Range& range, const char* unit, std::optional<double> = {}) {
-        if (!range.holds(x)) throw BadScene(joined(path, key), number_text(x), range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
+    void number(const char* key, double x, const Range& range, const char* unit,
+                std::optional<double> = {}) {
+        if (!range.holds(x))
+            throw BadScene(joined(path, key), number_text(x),
+                           range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
     }
     void stiffness(const char* key, double k, const char* unit) {
         if (k != rigid) number(key, k, positive_or_rigid, unit);
@@ -34,18 +38,24 @@ struct Ranges {
     void optional_text(auto&&...) {}
     void choice(auto&&...) {}
     void refused(auto&&...) {}
-    void columns(const char* key, const std::string&, const Column& first, const std::vector<double>& a, const Column& second,
-                 const std::vector<double>& b) {
+    void columns(const char* key, const std::string&, const Column& first,
+                 const std::vector<double>& a, const Column& second, const std::vector<double>& b) {
         const std::string at = joined(path, key);
         if (a.size() != b.size())
-            throw BadScene(at, std::to_string(a.size()) + " and " + std::to_string(b.size()) + " rows", "columns of one length");
+            throw BadScene(at,
+                           std::to_string(a.size()) + " and " + std::to_string(b.size()) + " rows",
+                           "columns of one length");
         if (a.empty()) throw BadScene(at, "no rows", "at least one");
         for (std::size_t i = 0; i < a.size(); ++i) {
             if (!first.range.holds(a[i]) || (i > 0 && !(a[i - 1] < a[i])))
-                throw BadScene(at, std::string(first.name) + " " + number_text(a[i]) + " in row " + std::to_string(i + 1),
+                throw BadScene(at,
+                               std::string(first.name) + " " + number_text(a[i]) + " in row " +
+                                   std::to_string(i + 1),
                                std::string(first.range.says) + ", above that of the row before");
             if (!second.range.holds(b[i]))
-                throw BadScene(at, std::string(second.name) + " " + number_text(b[i]) + " in row " + std::to_string(i + 1),
+                throw BadScene(at,
+                               std::string(second.name) + " " + number_text(b[i]) + " in row " +
+                                   std::to_string(i + 1),
                                second.range.says);
         }
     }
@@ -62,7 +72,8 @@ struct Ranges {
         if (p) part(key, *p);
     }
     void parts(const char* key, const auto& all) {
-        for (std::size_t i = 0; i < all.size(); ++i) part((key + ("." + std::to_string(i))).c_str(), all[i]);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            part((key + ("." + std::to_string(i))).c_str(), all[i]);
     }
 };
 
@@ -73,42 +84,59 @@ struct On {
     double slack = 1e-12 * string.length;  // a footprint of the whole string may round past its end
 
     std::string between(const char* sign) const {
-        return std::string("0 ") + sign + " x " + sign + " " + number_text(string.length) + " [m], on the string";
+        return std::string("0 ") + sign + " x " + sign + " " + number_text(string.length) +
+               " [m], on the string";
     }
 
     void inside(const std::string& part, double position) const {
-        if (!(position > 0 && position < string.length)) throw BadScene(path + part + ".position", number_text(position), between("<"));
+        if (!(position > 0 && position < string.length))
+            throw BadScene(path + part + ".position", number_text(position), between("<"));
     }
     void footprint(const std::string& part, double position, double width) const {
         inside(part, position);
         if (position - 0.5 * width < -slack || position + 0.5 * width > string.length + slack)
             throw BadScene(path + part + ".width", number_text(width),
-                           "at most " + number_text(2 * std::min(position, string.length - position)) +
+                           "at most " +
+                               number_text(2 * std::min(position, string.length - position)) +
                                " [m], so that the footprint ends on the string");
     }
     void curve(const std::string& part, const ProfileBarrier& b, const TableCurve& c) const {
-        if (c.x.size() < 2) throw BadScene(path + part + ".file", std::to_string(c.x.size()) + " rows", "at least two");
+        if (c.x.size() < 2)
+            throw BadScene(path + part + ".file", std::to_string(c.x.size()) + " rows",
+                           "at least two");
         if (c.x.front() > b.from || c.x.back() < b.to)
-            throw BadScene(path + part + ".file", "heights from " + number_text(c.x.front()) + " to " + number_text(c.x.back()) + " m",
+            throw BadScene(path + part + ".file",
+                           "heights from " + number_text(c.x.front()) + " to " +
+                               number_text(c.x.back()) + " m",
                            "them from " + number_text(b.from) + " to " + number_text(b.to) + " m");
     }
-    void barrier(const std::string& part, const LumpedBarrier& b) const { footprint(part, b.position, b.width); }
+    void barrier(const std::string& part, const LumpedBarrier& b) const {
+        footprint(part, b.position, b.width);
+    }
     void without_law(const std::string& part, const auto& b) const {
-        if (b.exponent != 1) throw BadScene(path + part + ".exponent", number_text(b.exponent), "none, as the barrier is rigid");
+        if (b.exponent != 1)
+            throw BadScene(path + part + ".exponent", number_text(b.exponent),
+                           "none, as the barrier is rigid");
         if (b.contact_loss != 0)
-            throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss), "none, as the barrier is rigid");
+            throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss),
+                           "none, as the barrier is rigid");
     }
     void barrier(const std::string& part, const ProfileBarrier& b) const {
-        if (b.from < 0 || b.from >= string.length) throw BadScene(path + part + ".from", number_text(b.from), between("<="));
-        if (b.to < 0 || b.to > string.length + slack) throw BadScene(path + part + ".to", number_text(b.to), between("<="));
-        if (b.from >= b.to) throw BadScene(path + part + ".to", number_text(b.to), "a number above from, " + number_text(b.from) + " [m]");
+        if (b.from < 0 || b.from >= string.length)
+            throw BadScene(path + part + ".from", number_text(b.from), between("<="));
+        if (b.to < 0 || b.to > string.length + slack)
+            throw BadScene(path + part + ".to", number_text(b.to), between("<="));
+        if (b.from >= b.to)
+            throw BadScene(path + part + ".to", number_text(b.to),
+                           "a number above from, " + number_text(b.from) + " [m]");
         if (const auto* table = std::get_if<TableCurve>(&b.curve)) curve(part, b, *table);
     }
     void all() const {
         for (std::size_t i = 0; i < string.barriers.size(); ++i) {
             const std::string part = "barrier." + std::to_string(i);
             std::visit([&](const auto& b) { barrier(part, b); }, string.barriers[i]);
-            if (is_rigid(string.barriers[i])) std::visit([&](const auto& b) { without_law(part, b); }, string.barriers[i]);
+            if (is_rigid(string.barriers[i]))
+                std::visit([&](const auto& b) { without_law(part, b); }, string.barriers[i]);
         }
         if (string.thread) footprint("thread", string.thread->position, string.thread->width);
         if (string.pluck) footprint("pluck", string.pluck->position, string.pluck->width);
@@ -117,26 +145,31 @@ struct On {
         if (!triangle) return;
         inside("initial", triangle->position);
         if (triangle->smoothing > string.length)
-            throw BadScene(path + "initial.smoothing", number_text(triangle->smoothing),
-                           "at most the length of the string, " + number_text(string.length) + " [m]");
+            throw BadScene(
+                path + "initial.smoothing", number_text(triangle->smoothing),
+                "at most the length of the string, " + number_text(string.length) + " [m]");
     }
 };
 
 // ---- Taps
 bool name_is_plain(const std::string& name) {  // it heads a column of CSV files
     return !name.empty() &&
-           name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") == std::string::npos &&
+           name.find_first_not_of(
+               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") ==
+               std::string::npos &&
            name != "time_s" && name.rfind("energy_", 0) != 0;
 }
 
 void check(const Tap& tap, const Scene& scene, const std::string& path) {
     if (!name_is_plain(tap.name))
-        throw BadScene(path + "name", found_text(tap.name), "letters, digits, _ . and -, neither time_s nor energy_...");
+        throw BadScene(path + "name", found_text(tap.name),
+                       "letters, digits, _ . and -, neither time_s nor energy_...");
     if (tap.string && (*tap.string < 0 || *tap.string >= static_cast<int>(scene.strings.size())))
         throw BadScene(path + "string", std::to_string(*tap.string),
                        "a string of the scene, 0 to " + std::to_string(scene.strings.size() - 1));
     if (!tap.string && has_position(tap.quantity))
-        throw BadScene(path + "string", "nothing", "the string whose " + std::string(name_of(tap.quantity)) + " is meant");
+        throw BadScene(path + "string", "nothing",
+                       "the string whose " + std::string(name_of(tap.quantity)) + " is meant");
     const char* lack = nullptr;
     if (tap.string) {
         const String& s = scene.strings[static_cast<std::size_t>(*tap.string)];
@@ -148,25 +181,32 @@ void check(const Tap& tap, const Scene& scene, const std::string& path) {
             if (!(lack = lacks(s, tap.quantity))) break;
     }
     if (lack)
-        throw BadScene(path + "quantity", quote(name_of(tap.quantity)) + " of a string without " + lack, "a quantity that the string has");
+        throw BadScene(path + "quantity",
+                       quote(name_of(tap.quantity)) + " of a string without " + lack,
+                       "a quantity that the string has");
 }
 }  // namespace
 
 void validate(const Scene& scene) {
     Ranges ranges;
     fields(ranges, scene);
-    if (const std::string wrong = scene.name.empty() ? "" : unfit_as_file(scene.name); !wrong.empty())
-        throw BadScene("name", found_text(scene.name) + ", which " + wrong, "a name that files can be called by");
+    if (const std::string wrong = scene.name.empty() ? "" : unfit_as_file(scene.name);
+        !wrong.empty())
+        throw BadScene("name", found_text(scene.name) + ", which " + wrong,
+                       "a name that files can be called by");
     if (scene.strings.empty()) throw BadScene("string", "no string", "at least one [[string]]");
-    for (std::size_t i = 0; i < scene.strings.size(); ++i) On{scene.strings[i], "string." + std::to_string(i) + "."}.all();
+    for (std::size_t i = 0; i < scene.strings.size(); ++i)
+        On{scene.strings[i], "string." + std::to_string(i) + "."}.all();
     std::set<std::string> names;
     for (std::size_t i = 0; i < scene.taps.size(); ++i) {
         const std::string path = "tap." + std::to_string(i) + ".";
         check(scene.taps[i], scene, path);
         if (!names.insert(scene.taps[i].name).second)
-            throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time", "a unique name");
+            throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time",
+                           "a unique name");
     }
-    if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() && scene.body->modes.empty())
+    if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() &&
+        scene.body->modes.empty())
         throw BadScene("body", "neither bridge nor nut nor mode", "at least one of them");
 }
 

@@ -36,7 +36,8 @@ std::optional<double> number_of(std::string_view text) {
         if (error == std::errc()) x = static_cast<double>(wide);
         if (std::isinf(x)) return std::nullopt;
     }
-    return error == std::errc() && end == text.data() + text.size() ? std::optional(x) : std::nullopt;
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(x)
+                                                                    : std::nullopt;
 }
 #else  // a standard library that has both for whole numbers alone: Emscripten's
 std::string number_text(double x) {
@@ -55,7 +56,9 @@ std::string number_text(double x) {
 std::optional<double> number_of(std::string_view text) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     const std::string copy(text);
-    if (copy.find_first_not_of("+-.0123456789eEinfatyINFATY") != std::string::npos || copy.empty() || copy[0] == '+') return std::nullopt;
+    if (copy.find_first_not_of("+-.0123456789eEinfatyINFATY") != std::string::npos ||
+        copy.empty() || copy[0] == '+')
+        return std::nullopt;
     char* end = nullptr;
     errno = 0;
     const double x = std::strtod(copy.c_str(), &end);
@@ -83,20 +86,25 @@ std::string quote(std::string_view s) {
 std::string unfit_as_file(std::string_view name) {
     constexpr std::size_t longest = 100;  // of 255 bytes that a file's name may have
     if (name.empty()) return "is empty";
-    if (name.size() > longest) return "has " + std::to_string(name.size()) + " bytes, and at most " + std::to_string(longest) + " fit";
+    if (name.size() > longest)
+        return "has " + std::to_string(name.size()) + " bytes, and at most " +
+               std::to_string(longest) + " fit";
     if (name.front() == '.') return "begins with a point";
     const auto odd = std::find_if(name.begin(), name.end(), [](char c) {
         const auto code = static_cast<unsigned char>(c);
         return code < 0x20 || code == 0x7f || c == '/' || c == '\\';
     });
-    return odd == name.end() ? "" : *odd == '/' || *odd == '\\' ? "has a slash" : "has a control character";
+    return odd == name.end()             ? ""
+           : *odd == '/' || *odd == '\\' ? "has a slash"
+                                         : "has a control character";
 }
 
 std::string found_text(std::string_view s) {
     constexpr std::size_t longest = 60;
     if (s.size() <= longest) return quote(s);
     std::size_t end = longest;
-    while (end > 0 && (static_cast<unsigned char>(s[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 sequence
+    // not inside a UTF-8 sequence
+    while (end > 0 && (static_cast<unsigned char>(s[end]) & 0xc0) == 0x80) --end;
     return quote(s.substr(0, end)) + "... (" + std::to_string(s.size()) + " bytes)";
 }
 
@@ -115,7 +123,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
             row[j] = std::min({last[j - 1] + (a[i - 1] != b[j - 1]), last[j] + 1, row[j - 1] + 1});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
         }
         before = std::exchange(last, row);
     }
@@ -128,7 +137,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
     std::size_t least = word.size();
     for (const std::string& k : known) {
         const std::size_t distance = edit_distance(word, k);
-        if (distance < least && 2 * distance <= std::max(word.size(), k.size())) least = distance, best = k;
+        if (distance < least && 2 * distance <= std::max(word.size(), k.size()))
+            least = distance, best = k;
     }
     return best;
 }

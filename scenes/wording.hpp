@@ -10,14 +10,18 @@ namespace jvari {
 
 std::string number_text(double);  // the shortest decimal that reads back as the same double
 
-// Of a text that is one decimal number and nothing else: 10, 010, +1e3, -.5, inf, nan. None of 0x10, 1_000, 1e400, 1,5 and "1 ". A number
-// too small for a double is 0. Whoever reads numbers from options, overrides of scenes or CSV files asks here.
+// Of a text that is one decimal number and nothing else: 10, 010, +1e3, -.5, inf, nan. None of
+// 0x10, 1_000, 1e400, 1,5 and "1 ". A number too small for a double is 0. Whoever reads numbers
+// from options, overrides of scenes or CSV files asks here.
 std::optional<double> number_of(std::string_view);
-inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // what spreadsheets put before a CSV file
-std::string quote(std::string_view);  // a TOML basic string: quotes, backslashes and control characters escaped
+// what spreadsheets put before a CSV file
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+// a TOML basic string: quotes, backslashes and control characters escaped
+std::string quote(std::string_view);
 // "" where a name can be a part of the name of a file; else what is wrong with it.
 std::string unfit_as_file(std::string_view name);
-std::string found_text(std::string_view);                    // quoted, and cut to the length of a line
+// quoted, and cut to the length of a line
+std::string found_text(std::string_view);
 std::string list_of(const std::vector<std::string>& words);  // "a", "b", "c"
 
 // The known word at the smallest edit distance; empty if half of the letters would have to change.

@@ -15,7 +15,9 @@ struct LineAllocator {
     LineAllocator() = default;
     template <class U>
     LineAllocator(const LineAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line_alignment)); }
+    T* allocate(std::size_t n) {
+        return static_cast<T*>(::operator new(n * sizeof(T), line_alignment));
+    }
     void deallocate(T* p, std::size_t) { ::operator delete(p, line_alignment); }
     bool operator==(const LineAllocator&) const = default;
 };

@@ -1,6 +1,8 @@
-// The rows of a run whose energy is looked at: one in `rows_between_looks`, and the last two. A row's energy costs as much as many steps.
-// While a pluck supplies energy, some `samples` rows tell how much that is: each stands for those between it and the next. The rows follow
-// from the scene alone, so that what a run is called depends neither on its caller's energy probe nor on the size of its blocks.
+// The rows of a run whose energy is looked at: one in `rows_between_looks`, and the last two. A
+// row's energy costs as much as many steps. While a pluck supplies energy, some `samples` rows tell
+// how much that is: each stands for those between it and the next. The rows follow from the scene
+// alone, so that what a run is called depends neither on its caller's energy probe nor on the size
+// of its blocks.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +22,21 @@ struct Look {
 class Looks {
 public:
     Looks(const Scene& scene, double tap_rate, long rows) : rows_(rows) {
-        const auto row = [&](double seconds) { return static_cast<long>(std::clamp(seconds * tap_rate, 0.0, static_cast<double>(rows))); };
+        const auto row = [&](double seconds) {
+            return static_cast<long>(
+                std::clamp(seconds * tap_rate, 0.0, static_cast<double>(rows)));
+        };
         for (const String& s : scene.strings)  // a row tells what was supplied since the row before
-            if (s.pluck) plucks_.push_back({row(s.pluck->start) - 1, std::min(row(s.pluck->start + s.pluck->duration) + 3, rows)});
-        std::sort(plucks_.begin(), plucks_.end(), [](const Pluck& a, const Pluck& b) { return a.from < b.from; });
+            if (s.pluck)
+                plucks_.push_back({row(s.pluck->start) - 1,
+                                   std::min(row(s.pluck->start + s.pluck->duration) + 3, rows)});
+        std::sort(plucks_.begin(), plucks_.end(),
+                  [](const Pluck& a, const Pluck& b) { return a.from < b.from; });
         for (std::size_t k = 1; k < plucks_.size();)
             if (plucks_[k].from > plucks_[k - 1].to) ++k;
-            else plucks_[k - 1].to = std::max(plucks_[k - 1].to, plucks_[k].to), plucks_.erase(plucks_.begin() + static_cast<long>(k));
+            else
+                plucks_[k - 1].to = std::max(plucks_[k - 1].to, plucks_[k].to),
+                            plucks_.erase(plucks_.begin() + static_cast<long>(k));
     }
     Look at(long row) const {
         if (row == 0) return {true, 1};
@@ -35,16 +45,20 @@ public:
         if (const Pluck* p = pluck_at(row)) {
             if (p->each() == 1) return {true, p->to};
             const long after = (row - p->from) % p->each();
-            if (after < 2) return {true, std::min(row - after + 2, p->to)};  // two, for the first tells nothing of what was before it
+            // two, for the first tells nothing of what was before it
+            if (after < 2) return {true, std::min(row - after + 2, p->to)};
             return {false, std::min({row - after + p->each(), p->to, until})};
         }
         if (row % rows_between_looks == 0) return {true, row + 1};
         return {false, std::min(row - row % rows_between_looks + rows_between_looks, until)};
     }
-    // For how many rows this one tells what was supplied; 0: not even for itself, and its energy is not judged.
+    // For how many rows this one tells what was supplied; 0: not even for itself, and its energy is
+    // not judged.
     long stands_for(long row) const {
         const Pluck* p = pluck_at(row);
-        return !p || p->each() == 1 || row + 1 == rows_ ? 1 : (row - p->from) % p->each() == 1 ? p->each() : 0;
+        return !p || p->each() == 1 || row + 1 == rows_ ? 1
+               : (row - p->from) % p->each() == 1       ? p->each()
+                                                        : 0;
     }
     // Rows that tell all that was supplied, and the energy of each from `since` on.
     Look back_at(long row, long since) const {

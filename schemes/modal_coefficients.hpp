@@ -1,6 +1,8 @@
-// One mode stepped over dt, in the two forms that the papers use; exact for free motion, also where a mode is overdamped.
+// One mode stepped over dt, in the two forms that the papers use; exact for free motion, also where
+// a mode is overdamped.
 //
-// With R = exp(-sigma dt), Omega = cos(omega dt) (cosh where overdamped), num = 1 - 2 R Omega + R^2 and den = 1 + 2 R Omega + R^2:
+// With R = exp(-sigma dt), Omega = cos(omega dt) (cosh where overdamped), num = 1 - 2 R Omega + R^2
+// and den = 1 + 2 R Omega + R^2:
 //     two-point   A = num/den, B = 2 (1 - R^2)/den     van Walstijn et al. 2016, eq 33
 //     three-point C = 2 R Omega, C~ = R^2              Issanchou et al. 2016, eq 14
 // num and den are formed without cancellation, so that low modes stay exact at high rates.
@@ -26,23 +28,32 @@ inline ModeStep exact_step(double omega0, double sigma, double dt) {
     const double square = (omega0 - sigma) * (omega0 + sigma);  // omega^2
     const double loss = -std::expm1(-2 * sigma * dt);
     if (square >= 0) {
-        const double R = std::exp(-sigma * dt), E = std::expm1(-sigma * dt), half = 0.5 * std::sqrt(square) * dt;
+        const double R = std::exp(-sigma * dt), E = std::expm1(-sigma * dt),
+                     half = 0.5 * std::sqrt(square) * dt;
         const double s = std::sin(half), c = std::cos(half);
         return {E * E + 4 * R * s * s, E * E + 4 * R * c * c, loss};
     }
-    const double gamma = std::sqrt(-square), slow = omega0 * omega0 / (sigma + gamma), fast = sigma + gamma;  // the two real roots
-    return {std::expm1(-slow * dt) * std::expm1(-fast * dt), (1 + std::exp(-slow * dt)) * (1 + std::exp(-fast * dt)), loss};
+    // the two real roots
+    const double gamma = std::sqrt(-square), slow = omega0 * omega0 / (sigma + gamma),
+                 fast = sigma + gamma;
+    return {std::expm1(-slow * dt) * std::expm1(-fast * dt),
+            (1 + std::exp(-slow * dt)) * (1 + std::exp(-fast * dt)), loss};
 }
 
-// The root of (1 + A + B) z^2 - 2 (1 - A) z + 1 + A - B = 0, the two-point recursion with coefficients A, B (eqs 34-35).
+// The root of (1 + A + B) z^2 - 2 (1 - A) z + 1 + A - B = 0, the two-point recursion with
+// coefficients A, B (eqs 34-35).
 inline FreeMode two_point_mode(double A, double B, double dt) {
-    return {std::atan2(std::sqrt(std::max(0.0, 4 * A - B * B)), 1 - A) / dt, -0.5 * std::log1p(-2 * B / (1 + A + B)) / dt};
+    return {std::atan2(std::sqrt(std::max(0.0, 4 * A - B * B)), 1 - A) / dt,
+            -0.5 * std::log1p(-2 * B / (1 + A + B)) / dt};
 }
 
-// The root of z^2 - C z + C~ = 0, the three-point recursion, from num = 1 + C~ - C and loss = 1 - C~.
+// The root of z^2 - C z + C~ = 0, the three-point recursion, from num = 1 + C~ - C and loss = 1 -
+// C~.
 inline FreeMode three_point_mode(double num, double loss, double dt) {
-    const double R = std::sqrt(1 - loss), lost = loss / (1 + R), C = 2 - loss - num;  // lost = 1 - R
-    return {std::atan2(std::sqrt(std::max(0.0, (num - lost * lost) * (2 * R + C))), C) / dt, -0.5 * std::log1p(-loss) / dt};
+    // lost = 1 - R
+    const double R = std::sqrt(1 - loss), lost = loss / (1 + R), C = 2 - loss - num;
+    return {std::atan2(std::sqrt(std::max(0.0, (num - lost * lost) * (2 * R + C))), C) / dt,
+            -0.5 * std::log1p(-loss) / dt};
 }
 
 }  // namespace jvari

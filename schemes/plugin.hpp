@@ -1,10 +1,11 @@
-// A table of Descriptor as a shared object, for schemes that are written as those of the tree are and linked with jvari's libraries.
-// Its source ends with
+// A table of Descriptor as a shared object, for schemes that are written as those of the tree are
+// and linked with jvari's libraries. Its source ends with
 //
 //     JVARI_PLUGIN(table)    // an array of Descriptor
 //
-// What crosses is C alone (open/jvari_scheme.h): the scene is read again from its text, so its tables of obstacles must be found from where
-// the program runs. open/jvari_scheme.hpp is for schemes that need the arrays of the problem and no library. Leaves out: limits.
+// What crosses is C alone (open/jvari_scheme.h): the scene is read again from its text, so its
+// tables of obstacles must be found from where the program runs. open/jvari_scheme.hpp is for
+// schemes that need the arrays of the problem and no library. Leaves out: limits.
 #pragma once
 
 #include <deque>
@@ -23,13 +24,15 @@ namespace jvari::plugin {
 inline Scene scene_of(const jvari_problem& p) {
     if (p.measured == 0) return parse_scene(p.scene, p.name);
     Scene scene = parse_scene(p.scene, p.name, {"string.0.damping.law=none"});
-    scene.strings.front().damping =
-        TableDamping{"", {p.measured_hz, p.measured_hz + p.measured}, {p.measured_decay, p.measured_decay + p.measured}};
+    scene.strings.front().damping = TableDamping{"",
+                                                 {p.measured_hz, p.measured_hz + p.measured},
+                                                 {p.measured_decay, p.measured_decay + p.measured}};
     return scene;
 }
 inline Settings settings_of(const jvari_problem& p) {
     Settings s{p.sample_rate, p.tap_rate, static_cast<int>(p.modes_asked), {}};
-    for (std::int64_t k = 0; k < p.options; ++k) s.options.emplace_back(p.option_names[k], p.option_values[k]);
+    for (std::int64_t k = 0; k < p.options; ++k)
+        s.options.emplace_back(p.option_names[k], p.option_values[k]);
     return s;
 }
 
@@ -49,27 +52,32 @@ inline void* make(const jvari_scheme* table, const jvari_problem* problem, jvari
         auto state = std::make_unique<State>();
         const auto& d = *static_cast<const Descriptor*>(table->own);
         state->scheme = d.make(d, scene_of(*problem), settings_of(*problem));
-        if (!state->scheme) return tell(*made, std::string(d.name) + " makes no scheme, and does not refuse it either", true), nullptr;
-        for (const FreeMode& m : state->scheme->free_modes()) state->omega.push_back(m.omega), state->decay.push_back(m.sigma);
+        if (!state->scheme)
+            return tell(*made,
+                        std::string(d.name) + " makes no scheme, and does not refuse it either",
+                        true),
+                   nullptr;
+        for (const FreeMode& m : state->scheme->free_modes())
+            state->omega.push_back(m.omega), state->decay.push_back(m.sigma);
         made->dofs = state->scheme->dofs();
         made->free_modes = static_cast<std::int64_t>(state->omega.size());
         made->omega = state->omega.data(), made->decay = state->decay.data();
         return state.release();
-    } catch (const Refusal& e) {
+    } catch (const Refusal& e) { tell(*made, e.what(), false); } catch (const BadScene& e) {
         tell(*made, e.what(), false);
-    } catch (const BadScene& e) {
-        tell(*made, e.what(), false);
-    } catch (const std::exception& e) {
-        tell(*made, e.what(), true);
-    } catch (...) {
+    } catch (const std::exception& e) { tell(*made, e.what(), true); } catch (...) {
         tell(*made, "the scheme throws something that is no std::exception while it is made", true);
     }
     return nullptr;
 }
 inline int advance(void* self, jvari_rows* rows) {
-    Block out{static_cast<int>(rows->rows), static_cast<int>(rows->taps), static_cast<long>(rows->stride), rows->tap, rows->energy};
+    Block out{static_cast<int>(rows->rows), static_cast<int>(rows->taps),
+              static_cast<long>(rows->stride), rows->tap, rows->energy};
     if (rows->stop) {
-        out.stop = [](void* caller) { return static_cast<jvari_rows*>(caller)->stop(static_cast<jvari_rows*>(caller)->caller) != 0; };
+        out.stop = [](void* caller) {
+            return static_cast<jvari_rows*>(caller)->stop(
+                       static_cast<jvari_rows*>(caller)->caller) != 0;
+        };
         out.caller = rows;
     }
     const Status status = static_cast<State*>(self)->scheme->advance(out);
@@ -80,15 +88,15 @@ inline std::int64_t facts(void* self, jvari_fact* to, std::int64_t room) {
     State& state = *static_cast<State*>(self);
     try {
         state.facts = state.scheme->facts();
-        for (std::int64_t k = 0; k < std::min(room, static_cast<std::int64_t>(state.facts.size())); ++k) {
+        for (std::int64_t k = 0; k < std::min(room, static_cast<std::int64_t>(state.facts.size()));
+             ++k) {
             const Fact& f = state.facts[static_cast<std::size_t>(k)];
             to[k] = {f.name.c_str(), f.unit.c_str(), f.value};
         }
         return static_cast<std::int64_t>(state.facts.size());
-    } catch (const std::exception& e) {
-        state.failure = e.what();
-    } catch (...) {
-        state.failure = "the scheme throws something that is no std::exception while it tells its facts";
+    } catch (const std::exception& e) { state.failure = e.what(); } catch (...) {
+        state.failure =
+            "the scheme throws something that is no std::exception while it tells its facts";
     }
     to[0].name = state.failure.c_str();
     return -1;
@@ -99,7 +107,9 @@ public:
     explicit Tables(std::span<const Descriptor> all, const char* flags, bool optimised) {
         for (const Descriptor& d : all) add(d);
         for (const jvari_scheme& s : schemes_) pointers_.push_back(&s);
-        plugin_ = {sizeof plugin_, JVARI_SCHEME_VERSION, pointers_.data(), static_cast<std::int64_t>(pointers_.size()), __VERSION__, flags,
+        plugin_ = {sizeof plugin_,   JVARI_SCHEME_VERSION,
+                   pointers_.data(), static_cast<std::int64_t>(pointers_.size()),
+                   __VERSION__,      flags,
                    optimised};
     }
     Tables(const Tables&) = delete;
@@ -113,16 +123,21 @@ private:
         s.size = sizeof s;
         s.name = d.name, s.source = d.source, s.note = d.note, s.own = &d;
         s.represents = keep(names_of(d.represents));
-        s.balance = d.balance == Balance::exact ? "exact" : d.balance == Balance::none ? "none" : "to tolerance";
+        s.balance = d.balance == Balance::exact  ? "exact"
+                    : d.balance == Balance::none ? "none"
+                                                 : "to tolerance";
         std::string approximates;
         for (const Approximation& a : d.approximates)
-            approximates += (approximates.empty() ? "" : ", ") + std::string(name_of(a.feature)) + ": " + a.fact.name;
+            approximates += (approximates.empty() ? "" : ", ") + std::string(name_of(a.feature)) +
+                            ": " + a.fact.name;
         s.approximates = keep(approximates);
         auto& options = options_.emplace_back();
         for (const Option& o : d.options) {
             std::string words;
-            for (const char* word : o.words()) words += (words.empty() ? "" : " ") + std::string(word);
-            options.push_back({o.name, o.fallback, o.meaning, words.empty() ? nullptr : keep(words)});
+            for (const char* word : o.words())
+                words += (words.empty() ? "" : " ") + std::string(word);
+            options.push_back(
+                {o.name, o.fallback, o.meaning, words.empty() ? nullptr : keep(words)});
         }
         s.options = options.data(), s.option_count = static_cast<std::int64_t>(options.size());
         if (d.make) s.make = make;
@@ -168,10 +183,11 @@ inline const std::string& compiled_with() {  // the flags of the plugin
 }
 
 // Exported although all else is compiled with -fvisibility=hidden.
-#define JVARI_PLUGIN(schemes)                                                                                                 \
-    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                                                         \
-        static const jvari::plugin::Tables tables(schemes, jvari::plugin::compiled_with().c_str(), jvari::plugin::optimised); \
-        return &tables.table();                                                                                               \
+#define JVARI_PLUGIN(schemes)                                                                      \
+    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                              \
+        static const jvari::plugin::Tables tables(schemes, jvari::plugin::compiled_with().c_str(), \
+                                                  jvari::plugin::optimised);                       \
+        return &tables.table();                                                                    \
     }
 
 }  // namespace jvari::plugin

@@ -33,8 +33,9 @@ bool is_control(const Descriptor& d) {
     };
 #undef JVARI_BUILTIN
 #undef JVARI_CONTROL
-    const auto place =
-        std::find_if(schemes().begin(), schemes().end(), [&d](const Descriptor& one) { return &one == &d; }) - schemes().begin();
+    const auto place = std::find_if(schemes().begin(), schemes().end(),
+                                    [&d](const Descriptor& one) { return &one == &d; }) -
+                       schemes().begin();
     return place < static_cast<std::ptrdiff_t>(std::size(controls)) && controls[place];
 }
 
@@ -45,12 +46,11 @@ std::vector<const Guest*>& all_guests() {
 }
 }  // namespace
 
-std::span<const Guest* const> guests() {
-    return all_guests();
-}
+std::span<const Guest* const> guests() { return all_guests(); }
 
 const Guest* find_guest(const std::string& path) {
-    const auto found = std::find_if(all_guests().begin(), all_guests().end(), [&path](const Guest* g) { return g->path == path; });
+    const auto found = std::find_if(all_guests().begin(), all_guests().end(),
+                                    [&path](const Guest* g) { return g->path == path; });
     return found == all_guests().end() ? nullptr : *found;
 }
 
@@ -59,18 +59,22 @@ namespace {
 void check_name(const std::string& path, std::string_view name) {
     std::string wrong = unfit_as_file(name);
     if (name == "reference") wrong = "is what results call the reference";
-    if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
+    if (std::any_of(name.begin(), name.end(),
+                    [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
         wrong = "has letters beyond ASCII";
     if (!wrong.empty())
-        throw std::runtime_error(path + ": the scheme's name " + found_text(name) + " " + wrong +
-                                 ". Names are of letters, digits and _, for files are called by them");
+        throw std::runtime_error(
+            path + ": the scheme's name " + found_text(name) + " " + wrong +
+            ". Names are of letters, digits and _, for files are called by them");
 }
 }  // namespace
 
 const Guest& add_guest(Guest guest) {
     for (const Descriptor& d : guest.schemes) check_name(guest.path, d.name);
-    const auto* added = new Guest(std::move(guest));  // NOLINT(cppcoreguidelines-owning-memory): for the life of the process
-    const auto same = std::find_if(all_guests().begin(), all_guests().end(), [added](const Guest* g) { return g->path == added->path; });
+    // NOLINT(cppcoreguidelines-owning-memory): for the life of the process
+    const auto* added = new Guest(std::move(guest));
+    const auto same = std::find_if(all_guests().begin(), all_guests().end(),
+                                   [added](const Guest* g) { return g->path == added->path; });
     if (same == all_guests().end()) all_guests().push_back(added);
     else *same = added;
     return *added;

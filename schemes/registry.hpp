@@ -1,4 +1,5 @@
-// The table of schemes: those of this tree, then those from outside: of shared objects (open/jvari_scheme.h), and whatever a caller adds.
+// The table of schemes: those of this tree, then those from outside: of shared objects
+// (open/jvari_scheme.h), and whatever a caller adds.
 #pragma once
 
 #include <span>
@@ -19,11 +20,14 @@ struct Guest {
     std::string compiler = {}, flags = {};
     bool optimised = true;
 };
-std::span<const Guest* const> guests();  // in the order in which they came; to be asked between loads
-const Guest& add_guest(Guest);           // in the place of one of the same path. Throws std::runtime_error: unfit names
+// in the order in which they came; to be asked between loads
+std::span<const Guest* const> guests();
+// in the place of one of the same path. Throws std::runtime_error: unfit names
+const Guest& add_guest(Guest);
 const Guest* find_guest(const std::string& path);
 
-// The guest of that path, else what a shared object brings. Throws std::runtime_error with the reason.
+// The guest of that path, else what a shared object brings. Throws std::runtime_error with the
+// reason.
 const Guest& load_plugin(const std::string& path);
 
 }  // namespace jvari

@@ -22,9 +22,7 @@ namespace jvari {
 FlushDenormals::FlushDenormals() noexcept : saved_(_mm_getcsr()) {
     _mm_setcsr(saved_ | 0x8040u);
 }  // FTZ | DAZ
-FlushDenormals::~FlushDenormals() {
-    _mm_setcsr(saved_);
-}
+FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
 #else
 FlushDenormals::FlushDenormals() noexcept : saved_(0) {}
 FlushDenormals::~FlushDenormals() = default;
@@ -33,12 +31,15 @@ FlushDenormals::~FlushDenormals() = default;
 namespace {
 using Steady = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::milliseconds(20);  // between two calls of progress
-constexpr double most_rows = std::min(0x1p40, 0.5 * static_cast<double>(std::numeric_limits<long>::max()));
+constexpr double most_rows =
+    std::min(0x1p40, 0.5 * static_cast<double>(std::numeric_limits<long>::max()));
 
-// Tells the caller's progress how far the run is, and keeps what it throws out of a scheme's noexcept code.
+// Tells the caller's progress how far the run is, and keeps what it throws out of a scheme's
+// noexcept code.
 class Teller {
 public:
-    Teller(const std::function<void(long, long)>& progress, long rows) : progress_(progress), rows_(rows) {}
+    Teller(const std::function<void(long, long)>& progress, long rows)
+        : progress_(progress), rows_(rows) {}
     long done = 0;
 
     void into(Block& block) {
@@ -46,7 +47,9 @@ public:
         block.stop = [](void* self) { return static_cast<Teller*>(self)->tell(); };
         block.caller = this;
     }
-    bool tell() noexcept {  // true: the run is to end. The clock costs as much as some steps: where questions come fast, few look at it
+    // true: the run is to end. The clock costs as much as some steps: where questions come fast,
+    // few look at it
+    bool tell() noexcept {
         if (!thrown_ && ++asked_ < each_) return false;
         asked_ = 0;
         const auto now = Steady::now();
@@ -56,9 +59,7 @@ public:
         last_ = now;
         try {
             progress_(done, rows_);
-        } catch (...) {
-            thrown_ = std::current_exception();
-        }
+        } catch (...) { thrown_ = std::current_exception(); }
         return thrown_ != nullptr;
     }
     void rethrow() const {
@@ -76,23 +77,28 @@ private:
     std::exception_ptr thrown_;
 };
 
-// A scheme's word about the block it has just made, whose first step is `first` and whose rows have `steps` each.
+// A scheme's word about the block it has just made, whose first step is `first` and whose rows have
+// `steps` each.
 void check(const Status& status, long first, const Block& block, double steps) {
     if (status.outcome == Outcome::ok) return;
     const double last = static_cast<double>(first) + block.rows * steps;
     if (status.outcome != Outcome::diverged && status.outcome != Outcome::not_converged)
-        throw BadScheme("the scheme says how a run ended by the number " + std::to_string(static_cast<int>(status.outcome)) +
+        throw BadScheme("the scheme says how a run ended by the number " +
+                        std::to_string(static_cast<int>(status.outcome)) +
                         ", which has no meaning");
     if (status.step < first || static_cast<double>(status.step) > last)
-        throw BadScheme("the scheme says that step " + std::to_string(status.step) + " failed, in the block of steps " +
-                        std::to_string(first) + " to " + std::to_string(std::lround(last)));
+        throw BadScheme("the scheme says that step " + std::to_string(status.step) +
+                        " failed, in the block of steps " + std::to_string(first) + " to " +
+                        std::to_string(std::lround(last)));
 }
 
-// Makes the rows of a trace, and knows which of them are sound: their taps are within what `energy_budget` times the scene's energy could
-// make of them, and they store no more than `energy_budget` times the energy that was there at the start and has been supplied since.
+// Makes the rows of a trace, and knows which of them are sound: their taps are within what
+// `energy_budget` times the scene's energy could make of them, and they store no more than
+// `energy_budget` times the energy that was there at the start and has been supplied since.
 class Stepper {
 public:
-    Stepper(Scheme& scheme, Trace& trace, const Scene& scene, int modes, const RunOptions& options, Teller& teller)
+    Stepper(Scheme& scheme, Trace& trace, const Scene& scene, int modes, const RunOptions& options,
+            Teller& teller)
         : scheme_(scheme),
           trace_(trace),
           options_(options),
@@ -101,7 +107,8 @@ public:
           kept_(options.energy),
           bounds_(tap_bounds(scene, modes)),
           beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {
-        for (double& b : bounds_) b = std::min(std::sqrt(energy_budget) * b, std::numeric_limits<double>::max());
+        for (double& b : bounds_)
+            b = std::min(std::sqrt(energy_budget) * b, std::numeric_limits<double>::max());
     }
 
     // The next rows, as many at most: their energy is looked at, or it is that of none of them.
@@ -113,24 +120,26 @@ public:
     }
     Status advance(const Block& block) { return advance(block, trace_.rows); }
 
-    // The end of the rows up to `end` that are sound, once a block of them was made. Where one does not seem so, or the scheme has failed,
-    // the supply is summed row by row, and the rows since the last look are looked at as well.
+    // The end of the rows up to `end` that are sound, once a block of them was made. Where one does
+    // not seem so, or the scheme has failed, the supply is summed row by row, and the rows since
+    // the last look are looked at as well.
     long sound_until(const Block& block, long end, bool failed) {
         double given = given_;
         const auto stands_for = [this](long row) { return looks_.stands_for(row); };
-        const long sound =
-            looked_ ? first_unsound(block, trace_.rows, end, given, stands_for) : first_out_of_bounds(block, trace_.rows, end);
+        const long sound = looked_ ? first_unsound(block, trace_.rows, end, given, stands_for)
+                                   : first_out_of_bounds(block, trace_.rows, end);
         if (options_.timed) return sound;
         if (sound < end || failed) return look_back(end);
         if (looked_) given_ = given, unlooked_ = end;
         return end;
     }
 
-    // Makes the rows up to `end` once more: what a block went on to do beyond those that are sound is in none of the scheme's facts, which
-    // would else be a matter of how long the block was.
+    // Makes the rows up to `end` once more: what a block went on to do beyond those that are sound
+    // is in none of the scheme's facts, which would else be a matter of how long the block was.
     void make_anew(long end) {
         scheme_.reset();
-        for (long row = 0; row < end; row += options_.block_rows) make(row, std::min(row + options_.block_rows, end), false);
+        for (long row = 0; row < end; row += options_.block_rows)
+            make(row, std::min(row + options_.block_rows, end), false);
     }
 
 private:
@@ -154,7 +163,8 @@ private:
         teller_.into(asking);
         const Status status = scheme_.advance(asking);
         for (int k = 0; block.tap == beside_.data() && k < block.taps; ++k)
-            std::copy_n(block.tap + k * block.stride, block.rows, trace_.tap.data() + k * trace_.stride + row);
+            std::copy_n(block.tap + k * block.stride, block.rows,
+                        trace_.tap.data() + k * trace_.stride + row);
         return status;
     }
     Block make(long row, long end, bool probed) {
@@ -168,15 +178,19 @@ private:
     long first_out_of_bounds(const Block& block, long row, long end) const {
         for (long n = row; n < end; ++n)
             for (int k = 0; k < block.taps; ++k)
-                if (!(std::abs(block.tap[k * block.stride + n - row]) <= bounds_[static_cast<std::size_t>(k)])) return n;
+                if (!(std::abs(block.tap[k * block.stride + n - row]) <=
+                      bounds_[static_cast<std::size_t>(k)]))
+                    return n;
         return end;
     }
     // Likewise, where its energy was asked for; `given` sums the supply.
     template <class StandsFor>
-    long first_unsound(const Block& block, long row, long end, double& given, const StandsFor& stands_for) const {
+    long first_unsound(const Block& block, long row, long end, double& given,
+                       const StandsFor& stands_for) const {
         end = first_out_of_bounds(block, row, end);
         for (long n = row; n < end; ++n) {
-            const double rows = n == 0 ? 1 : static_cast<double>(stands_for(n)), stored = block.energy[n - row];
+            const double rows = n == 0 ? 1 : static_cast<double>(stands_for(n)),
+                         stored = block.energy[n - row];
             if (rows == 0) continue;
             given += rows * std::abs(n == 0 ? stored : block.energy[block.stride + n - row]);
             if (!std::isfinite(stored) || stored > energy_budget * given) return n;
@@ -191,7 +205,9 @@ private:
             to = std::min({row + options_.block_rows, look.until, end});
             const Block block = kept_ ? block_at(row, to, true) : make(row, to, look.now);
             if (!look.now) continue;
-            if (const long sound = first_unsound(block, row, to, given, [](long) { return 1; }); sound < to) return sound;
+            if (const long sound = first_unsound(block, row, to, given, [](long) { return 1; });
+                sound < to)
+                return sound;
         }
         given_ = given, unlooked_ = end;
         return end;
@@ -207,7 +223,8 @@ private:
     long unlooked_ = 0;           // the first row since the last look
     double given_ = 0;            // energy until then [J]
     std::vector<double> bounds_;  // of the taps; finite, so that what is not finite is beyond
-    std::vector<double> beside_;  // rows that are looked at where the trace keeps no energy: taps, then energy
+    // rows that are looked at where the trace keeps no energy: taps, then energy
+    std::vector<double> beside_;
 };
 }  // namespace
 
@@ -216,10 +233,12 @@ long rows_of(const Scene& scene, const Settings& settings) {
     const double intervals = scene.duration * settings.tap_rate;
     if (!(intervals > 1 - rounding))
         throw BadScene("duration", number_text(scene.duration) + " s",
-                       "no less than a row, which is " + number_text(1 / settings.tap_rate) + " s at this tap rate");
+                       "no less than a row, which is " + number_text(1 / settings.tap_rate) +
+                           " s at this tap rate");
     if (!(intervals < most_rows))
-        throw Refusal(std::to_string(scene.duration) + " s at " + std::to_string(settings.tap_rate) +
-                      " rows a second: expected no more than " + std::to_string(static_cast<long>(most_rows)) + " rows");
+        throw Refusal(std::to_string(scene.duration) + " s at " +
+                      std::to_string(settings.tap_rate) + " rows a second: expected no more than " +
+                      std::to_string(static_cast<long>(most_rows)) + " rows");
     return std::lround(intervals) + 1;
 }
 
@@ -251,25 +270,30 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
         const auto took = Steady::now() - start;
         stepping += took;
         if (trace.rows > 0 && block.rows == options.block_rows)
-            result.worst_block = std::max(result.worst_block, std::chrono::duration<double>(took).count());
+            result.worst_block =
+                std::max(result.worst_block, std::chrono::duration<double>(took).count());
         if (!listened) rows = options.block_rows;
         else if (took > patience) rows = std::max(1, rows / 2);
         else if (took < patience / 4) rows = std::min(options.block_rows, 2 * rows);
 
         teller.rethrow();
-        check(result.status, std::lround(static_cast<double>(trace.rows) * steps_per_row), block, steps_per_row);
+        check(result.status, std::lround(static_cast<double>(trace.rows) * steps_per_row), block,
+              steps_per_row);
         const bool failed = result.status.outcome != Outcome::ok;
         long end = trace.rows + block.rows;
         if (failed) end = std::min(end, static_cast<long>(result.status.step / steps_per_row) + 1);
         trace.rows = teller.done = stepper.sound_until(block, end, failed);
         if (trace.rows < end) {
-            result.status = {Outcome::diverged, std::lround(static_cast<double>(trace.rows) * steps_per_row)};
+            result.status = {Outcome::diverged,
+                             std::lround(static_cast<double>(trace.rows) * steps_per_row)};
             stepper.make_anew(trace.rows);
         }
         teller.block_done();
-        if (options.slow && !told && stepping > std::chrono::duration<double>(long_run) && trace.rows < trace.stride) {
+        if (options.slow && !told && stepping > std::chrono::duration<double>(long_run) &&
+            trace.rows < trace.stride) {
             told = true;
-            options.slow(trace.rows, trace.stride, with_context("tells its facts", [&] { return scheme.facts(); }));
+            options.slow(trace.rows, trace.stride,
+                         with_context("tells its facts", [&] { return scheme.facts(); }));
         }
     }
     if (!continuous) result.steps = std::lround(steps_per_row * static_cast<double>(trace.rows));
@@ -278,7 +302,8 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     return result;
 }
 
-Run run(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const RunOptions& options) {
+Run run(const Descriptor& descriptor, const Scene& scene, const Settings& settings,
+        const RunOptions& options) {
     Settings own = settings;
     if (descriptor.clock == Clock::continuous) own.sample_rate = 0;
     return run(*make_scheme(descriptor, scene, own), scene, own, options);

@@ -31,7 +31,8 @@ namespace {
 void refuse_missing(const Descriptor& scheme, const Scene& scene) {
     const Features missing = needed_by(scene) - scheme.represents;
     if (!missing.empty())
-        throw Refusal(std::string(scheme.name) + " cannot represent scene " + scene.name + ": it has no " + names_of(missing));
+        throw Refusal(std::string(scheme.name) + " cannot represent scene " + scene.name +
+                      ": it has no " + names_of(missing));
 }
 
 template <class Items, class Word>
@@ -44,8 +45,10 @@ std::string listed(const Items& items, Word word) {
 void refuse_bad_options(const Descriptor& scheme, const Settings& settings) {
     for (const auto& [name, value] : settings.options) {
         if (!declares(scheme, name)) {
-            const std::string known = listed(scheme.options, [](const Option& o) { return o.name; });
-            throw BadOption("unknown option " + name + "; this scheme has " + (known.empty() ? "none" : known));
+            const std::string known =
+                listed(scheme.options, [](const Option& o) { return o.name; });
+            throw BadOption("unknown option " + name + "; this scheme has " +
+                            (known.empty() ? "none" : known));
         }
         const auto same = [&name = name](const auto& o) { return o.first == name; };
         if (std::count_if(settings.options.begin(), settings.options.end(), same) > 1)
@@ -61,7 +64,8 @@ double fact_of(const std::vector<Fact>& facts, const std::string& name) {
     for (const Fact& f : facts) {
         if (f.name == name) return f.value;
         if (!f.name.starts_with("string.") || !f.name.ends_with("." + name)) continue;
-        worst = name == facts::smallest_contact_force.name ? std::fmin(worst, f.value) : std::fmax(worst, f.value);
+        worst = name == facts::smallest_contact_force.name ? std::fmin(worst, f.value)
+                                                           : std::fmax(worst, f.value);
     }
     return worst;
 }
@@ -71,7 +75,8 @@ bool represents(const Descriptor& scheme, const Scene& scene) {
 }
 
 bool declares(const Descriptor& scheme, const std::string& name) {
-    return std::any_of(scheme.options.begin(), scheme.options.end(), [&name](const Option& o) { return name == o.name; });
+    return std::any_of(scheme.options.begin(), scheme.options.end(),
+                       [&name](const Option& o) { return name == o.name; });
 }
 
 Features approximated(const Descriptor& scheme) {
@@ -80,32 +85,39 @@ Features approximated(const Descriptor& scheme) {
     return all;
 }
 
-std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& scene,
+                                    const Settings& settings) {
     refuse_missing(descriptor, scene);
     refuse_bad_options(descriptor, settings);
-    if (scene.strings.size() > 1 && !needed_by(scene).has(Feature::moving_body) && !descriptor.all_strings)
+    if (scene.strings.size() > 1 && !needed_by(scene).has(Feature::moving_body) &&
+        !descriptor.all_strings)
         return several_strings(descriptor, scene, settings);
-    auto scheme = with_context("is made", [&] { return descriptor.make(descriptor, scene, settings); });
+    auto scheme =
+        with_context("is made", [&] { return descriptor.make(descriptor, scene, settings); });
     if (!scheme)
-        throw BadScheme(std::string(descriptor.name) + " makes no scheme of scene " + scene.name + ", and does not refuse it either");
+        throw BadScheme(std::string(descriptor.name) + " makes no scheme of scene " + scene.name +
+                        ", and does not refuse it either");
     return scheme;
 }
 
 double margin_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     double least = std::numeric_limits<double>::quiet_NaN();
     for (int k = 0; descriptor.limit.margin && k < static_cast<int>(scene.strings.size()); ++k)
-        least = std::fmin(least, descriptor.limit.margin(alone(scene, k), settings));  // of a number and NaN the number
+        // of a number and NaN the number
+        least = std::fmin(least, descriptor.limit.margin(alone(scene, k), settings));
     return least;
 }
 
 int steps_per_row(const Settings& s) {
     const double ratio = s.sample_rate / s.tap_rate, whole = std::round(ratio);
     if (!(whole >= 1) || std::abs(ratio - whole) > 1e-9 * whole)
-        throw Refusal("the sample rate " + std::to_string(s.sample_rate) + " Hz is no whole multiple of the tap rate " +
-                      std::to_string(s.tap_rate) + " Hz");
+        throw Refusal("the sample rate " + std::to_string(s.sample_rate) +
+                      " Hz is no whole multiple of the tap rate " + std::to_string(s.tap_rate) +
+                      " Hz");
     if (whole > std::numeric_limits<int>::max())
-        throw Refusal("the sample rate is " + std::to_string(whole) + " times the tap rate; no more than " +
-                      std::to_string(std::numeric_limits<int>::max()) + " steps fit between two rows");
+        throw Refusal(
+            "the sample rate is " + std::to_string(whole) + " times the tap rate; no more than " +
+            std::to_string(std::numeric_limits<int>::max()) + " steps fit between two rows");
     return static_cast<int>(whole);
 }
 
@@ -123,7 +135,8 @@ int modes_for(const Scene& scene, const Settings& s) {
     int most = 0;
     for (const String& string : scene.strings) most = std::max(most, modes_for(string, s));
     for (const String& string : scene.strings)
-        if (const auto measured = modes_measured(string); measured && s.modes == 0) most = std::min(most, *measured);
+        if (const auto measured = modes_measured(string); measured && s.modes == 0)
+            most = std::min(most, *measured);
     return most;
 }
 
@@ -131,9 +144,13 @@ Modes modes_of(const String& string, const Settings& s) {
     const int count = modes_for(string, s);
     if (count > 0 && count <= most_modes) return modes_of(string, count);
     const std::string limit = std::to_string(std::llround(default_limit(s))) + " Hz";
-    if (count == 0) throw Refusal("the string has no mode below " + limit + ", where a scheme stops unasked: say how many it is to carry");
-    throw Refusal("the string has " + (s.modes > 0 ? std::to_string(count) + " modes" : "too many modes below " + limit) +
-                  "; no more than " + std::to_string(most_modes) + " are carried");
+    if (count == 0)
+        throw Refusal("the string has no mode below " + limit +
+                      ", where a scheme stops unasked: say how many it is to carry");
+    throw Refusal(
+        "the string has " +
+        (s.modes > 0 ? std::to_string(count) + " modes" : "too many modes below " + limit) +
+        "; no more than " + std::to_string(most_modes) + " are carried");
 }
 
 std::string option(const Settings& s, const Option& o) {
@@ -146,7 +163,8 @@ std::string choice_option(const Settings& s, const Option& o) {
     const std::string text = option(s, o);
     const auto words = o.words();
     if (std::find(words.begin(), words.end(), text) == words.end())
-        throw Refusal("option " + std::string(o.name) + ": found \"" + text + "\", expected one of " +
+        throw Refusal("option " + std::string(o.name) + ": found \"" + text +
+                      "\", expected one of " +
                       listed(words, [](const char* word) { return word; }));
     return text;
 }
@@ -154,7 +172,9 @@ std::string choice_option(const Settings& s, const Option& o) {
 double number_option(const Settings& s, const Option& o) {
     const std::string text = option(s, o);
     const auto value = number_of(text);
-    if (!value || !std::isfinite(*value)) throw Refusal("option " + std::string(o.name) + ": found \"" + text + "\", expected a number");
+    if (!value || !std::isfinite(*value))
+        throw Refusal("option " + std::string(o.name) + ": found \"" + text +
+                      "\", expected a number");
     return *value;
 }
 

@@ -1,7 +1,8 @@
 // The seam: everything a scheme has to offer, and all that the rest of the program knows of one.
 //
-// A scheme is made once for a scene and a setting (the only place that allocates or throws), then steps block by block into a
-// window of the caller's trace. Checks and values for `make`: making.hpp. Out-of-tree schemes come as shared objects: plugin.hpp.
+// A scheme is made once for a scene and a setting (the only place that allocates or throws), then
+// steps block by block into a window of the caller's trace. Checks and values for `make`:
+// making.hpp. Out-of-tree schemes come as shared objects: plugin.hpp.
 #pragma once
 
 #include <memory>
@@ -19,18 +20,23 @@ namespace jvari {
 // A window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
-    long stride = 0;           // rows of the whole trace
-    double* tap = nullptr;     // one column per tap of the scene
-    double* energy = nullptr;  // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
+    long stride = 0;        // rows of the whole trace
+    double* tap = nullptr;  // one column per tap of the scene
+    // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
+    double* energy = nullptr;
 
-    // Whether the caller wants no more of this run: advance() then returns at once, and nobody looks at what it returns or wrote. A scheme
-    // asks within a row, every few milliseconds of work, so that a long row can be ended; between blocks the caller sees to it itself.
+    // Whether the caller wants no more of this run: advance() then returns at once, and nobody
+    // looks at what it returns or wrote. A scheme asks within a row, every few milliseconds of
+    // work, so that a long row can be ended; between blocks the caller sees to it itself.
     bool (*stop)(void* caller) = nullptr;  // nullptr: never
     void* caller = nullptr;
     bool stopped() const noexcept { return stop && stop(caller); }
-    bool stopped(long step, long every) const noexcept { return step % every == every - 1 && stopped(); }
+    bool stopped(long step, long every) const noexcept {
+        return step % every == every - 1 && stopped();
+    }
 };
-inline void write_energy(const Block& out, int row, double stored, double supplied, double dissipated) noexcept {
+inline void write_energy(const Block& out, int row, double stored, double supplied,
+                         double dissipated) noexcept {
     out.energy[row] = stored;
     out.energy[out.stride + row] = supplied;
     out.energy[2 * out.stride + row] = dissipated;
@@ -45,23 +51,27 @@ struct Status {
     long step = 0;  // where it failed
 };
 
-// One number a scheme reports about its run: what it approximated, how hard it worked, what contact did.
+// One number a scheme reports about its run: what it approximated, how hard it worked, what contact
+// did.
 struct Fact {
     Fact(const FactName& known, double v) : name(known.name), value(v), unit(known.unit) {}
-    Fact(std::string n, double v, std::string u) : name(std::move(n)), value(v), unit(std::move(u)) {}  // a plugin's own
+    // a plugin's own
+    Fact(std::string n, double v, std::string u)
+        : name(std::move(n)), value(v), unit(std::move(u)) {}
     std::string name;
     double value;
     std::string unit;  // "N"
 };
 
-// The value of a fact, NaN where the scheme does not report it. Where each of several strings has its own: the least of smallest contact
-// forces, of any other the largest.
+// The value of a fact, NaN where the scheme does not report it. Where each of several strings has
+// its own: the least of smallest contact forces, of any other the largest.
 double fact_of(const std::vector<Fact>&, const std::string& name);
 inline double fact_of(const std::vector<Fact>& all, const FactName& known) {
     return fact_of(all, known.name);
 }
 
-// A mode of the free string as a scheme's own recursion has it: z = exp((i omega - sigma) dt) is a root of it.
+// A mode of the free string as a scheme's own recursion has it: z = exp((i omega - sigma) dt) is a
+// root of it.
 struct FreeMode {
     double omega = 0;  // damped angular frequency [rad/s]; 0 where overdamped
     double sigma = 0;  // decay rate [1/s]
@@ -72,13 +82,16 @@ public:
     virtual ~Scheme() = default;
     virtual void reset() noexcept = 0;  // back to t = 0
 
-    // For each row: write the state of this instant, then make the steps to the next row's (sample_rate/tap_rate of them).
-    // So the first row after reset() is the initial state. Contact forces are means over the interval that ends at the row, 0 in row 0;
-    // supplied and dissipated energy are sums over the same interval. Allocates nothing.
+    // For each row: write the state of this instant, then make the steps to the next row's
+    // (sample_rate/tap_rate of them). So the first row after reset() is the initial state. Contact
+    // forces are means over the interval that ends at the row, 0 in row 0; supplied and dissipated
+    // energy are sums over the same interval. Allocates nothing.
     virtual Status advance(const Block& out) noexcept = 0;
 
-    virtual int dofs() const = 0;                           // doubles of state carried: no more than the scene needs
-    virtual std::vector<Fact> facts() const { return {}; }  // of the run so far; between blocks only
+    // doubles of state carried: no more than the scene needs
+    virtual int dofs() const = 0;
+    // of the run so far; between blocks only
+    virtual std::vector<Fact> facts() const { return {}; }
 
     // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread;
     // none where the scheme has no relation in closed form.
@@ -86,48 +99,60 @@ public:
 };
 
 struct Settings {
-    double sample_rate = 0;                                    // [Hz]; a reference in continuous time ignores it
-    double tap_rate = 44100;                                   // [Hz]
-    int modes = 0;                                             // modes, or interior nodes for a scheme on a grid; 0: the scheme's default
-    std::vector<std::pair<std::string, std::string>> options;  // of this scheme alone; an unknown one is refused
+    // [Hz]; a reference in continuous time ignores it
+    double sample_rate = 0;
+    double tap_rate = 44100;  // [Hz]
+    // modes, or interior nodes for a scheme on a grid; 0: the scheme's default
+    int modes = 0;
+    // of this scheme alone; an unknown one is refused
+    std::vector<std::pair<std::string, std::string>> options;
 };
 
-// The scheme cannot represent this scene, or not with these settings; the text names what is missing.
+// The scheme cannot represent this scene, or not with these settings; the text names what is
+// missing.
 struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What a scheme can be told beside its settings. Its value is a word where there are choices, else what the meaning says.
+// What a scheme can be told beside its settings. Its value is a word where there are choices, else
+// what the meaning says.
 struct Option {
     const char* name;
-    const char* fallback;         // as it would be written; "": depends on scene and settings as `meaning` tells
+    // as it would be written; "": depends on scene and settings as `meaning` tells
+    const char* fallback;
     const char* meaning;          // with the unit
     const char* choices[6] = {};  // the words that it takes; none: a number or another text
     std::span<const char* const> words() const;
 };
 
-// A feature that a scheme takes and changes, at any rate and with any number of modes. Where a scene needs the feature the scheme reports
-// the fact, which says how; of several facts for one feature at least one.
+// A feature that a scheme takes and changes, at any rate and with any number of modes. Where a
+// scene needs the feature the scheme reports the fact, which says how; of several facts for one
+// feature at least one.
 struct Approximation {
     Feature feature;
     FactName fact;
 };
 
-// A boundary of soundness that is known: positive on the sound side, 0 on it, NaN where it has nothing to say of the scene.
+// A boundary of soundness that is known: positive on the sound side, 0 on it, NaN where it has
+// nothing to say of the scene.
 struct Limit {
-    const char* name = nullptr;                                 // as maps call it, "grid_limit"
-    double (*margin)(const Scene&, const Settings&) = nullptr;  // of a scene of one string; margin_of asks for all
+    const char* name = nullptr;  // as maps call it, "grid_limit"
+    // of a scene of one string; margin_of asks for all
+    double (*margin)(const Scene&, const Settings&) = nullptr;
 };
 
 // How a reference confirms itself in a certificate: options to run it with.
 using OptionValues = std::vector<std::pair<std::string, std::string>>;
 struct Confirmation {
-    std::vector<OptionValues> accuracies = {{}};   // of its own accuracy; {} is what it does unasked
-    std::vector<OptionValues> other_methods = {};  // another method, for a scene that no other reference represents
+    // of its own accuracy; {} is what it does unasked
+    std::vector<OptionValues> accuracies = {{}};
+    // another method, for a scene that no other reference represents
+    std::vector<OptionValues> other_methods = {};
 };
 
 enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
-enum class Clock { stepped, continuous };          // continuous: a reference that has no sample rate
+// continuous: a reference that has no sample rate
+enum class Clock { stepped, continuous };
 
 struct Descriptor {
     const char* name;
@@ -135,22 +160,29 @@ struct Descriptor {
     Features represents;  // what it takes, those that it approximates among them
     Balance balance;
     Clock clock;
-    // Called by make_scheme alone, for one string or for all on a moving body; throws Refusal or BadScene.
+    // Called by make_scheme alone, for one string or for all on a moving body; throws Refusal or
+    // BadScene.
     std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&, const Settings&);
     std::span<const Option> options = {};
     std::span<const Approximation> approximates = {};
-    const char* note = "";  // what the features cannot express, one sentence for the capability table
+    // what the features cannot express, one sentence for the capability table
+    const char* note = "";
     Limit limit = {};
-    int stand_in_rank = 1;                                 // of those able the highest stands in where there is no reference
+    // of those able the highest stands in where there is no reference
+    int stand_in_rank = 1;
     Confirmation (*confirmation)(const Scene&) = nullptr;  // of a reference
-    bool all_strings = false;                              // `make` gets all strings of a scene also where nothing couples them
-    const void* own = nullptr;                             // of a scheme from outside: what its `make` knows it by
-    const char* untimed = "";                              // why its cost is no measure: "interpreted, not compared"
+    // `make` gets all strings of a scene also where nothing couples them
+    bool all_strings = false;
+    // of a scheme from outside: what its `make` knows it by
+    const void* own = nullptr;
+    // why its cost is no measure: "interpreted, not compared"
+    const char* untimed = "";
 };
 
-// The only way to make a scheme: refuses features that the scheme does not represent, options that it does not
-// declare or finds twice and words that an option does not take, then calls `make`, once for each string of the scene, or for all on a
-// moving body. Throws Refusal, BadScene, or BadScheme.
+// The only way to make a scheme: refuses features that the scheme does not represent, options that
+// it does not declare or finds twice and words that an option does not take, then calls `make`,
+// once for each string of the scene, or for all on a moving body. Throws Refusal, BadScene, or
+// BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
 }  // namespace jvari

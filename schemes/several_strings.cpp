@@ -20,7 +20,8 @@ void put(double* to, const double* from, int rows, bool first) noexcept {
 
 class SeveralStrings final : public Scheme {
 public:
-    SeveralStrings(std::vector<OneOfSeveral> strings, double steps_per_row) : strings_(std::move(strings)), steps_per_row_(steps_per_row) {
+    SeveralStrings(std::vector<OneOfSeveral> strings, double steps_per_row)
+        : strings_(std::move(strings)), steps_per_row_(steps_per_row) {
         std::size_t taps = 0;
         for (const OneOfSeveral& s : strings_) taps += s.taps.size();
         tap_.resize(rows_at_a_time * taps);
@@ -51,10 +52,13 @@ public:
     std::vector<Fact> facts() const override {
         std::vector<Fact> all;
         for (std::size_t k = 0; k < strings_.size(); ++k)
-            for (Fact& f : facts_of_string(static_cast<int>(k), strings_[k].scheme->facts())) all.push_back(std::move(f));
+            for (Fact& f : facts_of_string(static_cast<int>(k), strings_[k].scheme->facts()))
+                all.push_back(std::move(f));
         return all;
     }
-    std::vector<FreeMode> free_modes() const override { return strings_.front().scheme->free_modes(); }
+    std::vector<FreeMode> free_modes() const override {
+        return strings_.front().scheme->free_modes();
+    }
 
 private:
     void advance_each(const Block& out, int rows) noexcept {
@@ -79,22 +83,29 @@ private:
         Status failed;
         int rows = out.rows;  // to the row of the first failure
         for (const auto& [own, status] : of_each_) {
-            if (status.outcome == Outcome::ok || (failed.outcome != Outcome::ok && status.step >= failed.step)) continue;
+            if (status.outcome == Outcome::ok ||
+                (failed.outcome != Outcome::ok && status.step >= failed.step))
+                continue;
             failed = status;
-            rows = std::clamp(static_cast<int>(static_cast<long>(failed.step / steps_per_row_) + 1 - done_), 0, rows);
+            rows = std::clamp(
+                static_cast<int>(static_cast<long>(failed.step / steps_per_row_) + 1 - done_), 0,
+                rows);
         }
         for (std::size_t k = 0; k < strings_.size(); ++k) {
             const Block& own = of_each_[k].first;
             for (std::size_t t = 0; t < strings_[k].taps.size(); ++t)
-                put(out.tap + strings_[k].taps[t].column * out.stride, own.tap + t * own.stride, rows, strings_[k].taps[t].first);
-            for (int c = 0; own.energy && c < 3; ++c) put(out.energy + c * out.stride, own.energy + c * own.stride, rows, k == 0);
+                put(out.tap + strings_[k].taps[t].column * out.stride, own.tap + t * own.stride,
+                    rows, strings_[k].taps[t].first);
+            for (int c = 0; own.energy && c < 3; ++c)
+                put(out.energy + c * out.stride, own.energy + c * own.stride, rows, k == 0);
         }
         done_ += rows;
         if (rows < out.rows) step_anew(out);
         return failed;
     }
 
-    // To the end of the rows that count: what a string went on to do beyond the failure of another is in none of its facts.
+    // To the end of the rows that count: what a string went on to do beyond the failure of another
+    // is in none of its facts.
     void step_anew(const Block& out) noexcept {
         for (auto& s : strings_) s.scheme->reset();
         for (long row = 0; row < done_; row += rows_at_a_time) {
@@ -110,11 +121,10 @@ private:
     std::vector<std::pair<Block, Status>> of_each_;  // what each wrote last, and how it ended
 };
 
-std::string of_string(int k) {
-    return "string." + std::to_string(k);
-}
+std::string of_string(int k) { return "string." + std::to_string(k); }
 
-std::string renamed(const std::string& key, int k) {  // of the one string a scheme was made for: "string.0.tension", "string.damping.file"
+// of the one string a scheme was made for: "string.0.tension", "string.damping.file"
+std::string renamed(const std::string& key, int k) {
     for (const std::string own : {"string.0.", "string."})
         if (key.starts_with(own)) return of_string(k) + "." + key.substr(own.size());
     return key;
@@ -137,23 +147,24 @@ std::vector<Fact> facts_of_string(int k, std::vector<Fact> facts) {
     return facts;
 }
 
-std::string named_after_string(int k, const char* refusal) {
-    return of_string(k) + ": " + refusal;
-}
+std::string named_after_string(int k, const char* refusal) { return of_string(k) + ": " + refusal; }
 
 BadScene named_after_string(int k, const BadScene& e) {
     return {renamed(e.key, k), e.found, e.expected};
 }
 
-std::unique_ptr<Scheme> several_strings(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> several_strings(const Descriptor& descriptor, const Scene& scene,
+                                        const Settings& settings) {
     std::vector<OneOfSeveral> strings;
     std::vector<bool> heard_already(scene.taps.size(), false);
     for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) {
-        auto scheme = made_of_string(scene, k, [&](const Scene& one) { return make_scheme(descriptor, one, settings); });
+        auto scheme = made_of_string(
+            scene, k, [&](const Scene& one) { return make_scheme(descriptor, one, settings); });
         strings.push_back({std::move(scheme), heard_taps(scene, k, heard_already)});
     }
     const bool continuous = descriptor.clock == Clock::continuous;
-    return std::make_unique<SeveralStrings>(std::move(strings), continuous ? 1 : settings.sample_rate / settings.tap_rate);
+    return std::make_unique<SeveralStrings>(
+        std::move(strings), continuous ? 1 : settings.sample_rate / settings.tap_rate);
 }
 
 }  // namespace jvari

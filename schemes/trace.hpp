@@ -1,5 +1,6 @@
 // Trace: what a run produced. Column-major; row n is at t = n/tap_rate, row 0 the initial state.
-// And how far two columns are apart: the two sums that references are certified by and errors are measured with.
+// And how far two columns are apart: the two sums that references are certified by and errors are
+// measured with.
 #pragma once
 
 #include <span>
@@ -17,19 +18,25 @@ struct Trace {
     std::vector<double> energy;      // stride x 3 (stored, supplied, dissipated [J]) or empty
 
     int taps() const { return static_cast<int>(names.size()); }
-    std::span<const double> column(int k) const { return {tap.data() + k * stride, static_cast<std::size_t>(rows)}; }
-    std::span<const double> energy_column(int k) const { return {energy.data() + k * stride, static_cast<std::size_t>(rows)}; }
+    std::span<const double> column(int k) const {
+        return {tap.data() + k * stride, static_cast<std::size_t>(rows)};
+    }
+    std::span<const double> energy_column(int k) const {
+        return {energy.data() + k * stride, static_cast<std::size_t>(rows)};
+    }
 };
 
-// First row with t >= seconds. An instant within 1e-6 of a row is that row: 0.05 s x 44100 Hz is row 2205 whatever it rounds to.
+// First row with t >= seconds. An instant within 1e-6 of a row is that row: 0.05 s x 44100 Hz is
+// row 2205 whatever it rounds to.
 long row_at(double seconds, double rate);
 
-// ||a - b||/||b|| over the rows that both have; 0 where both are zero, +inf where b alone is. Sums are taken relative to the largest value
-// of b, so that nothing under- or overflows.
+// ||a - b||/||b|| over the rows that both have; 0 where both are zero, +inf where b alone is. Sums
+// are taken relative to the largest value of b, so that nothing under- or overflows.
 double relative_difference(std::span<const double> a, std::span<const double> b);
 
-// The first instant t [s] at which ||a - b||_[0,t] passes level x max(||b||_[0,t], max |b|), [0,t] with its last row; the last row of b
-// where it never does. An a that stops early or is not finite agrees until its last sound row.
+// The first instant t [s] at which ||a - b||_[0,t] passes level x max(||b||_[0,t], max |b|), [0,t]
+// with its last row; the last row of b where it never does. An a that stops early or is not finite
+// agrees until its last sound row.
 double agree_until(std::span<const double> a, std::span<const double> b, double rate, double level);
 
 }  // namespace jvari

@@ -9,9 +9,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
-const char* name_of_target() {
-    return hwy::TargetName(HWY_TARGET);
-}
+const char* name_of_target() { return hwy::TargetName(HWY_TARGET); }
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
 HWY_AFTER_NAMESPACE();
@@ -20,8 +18,6 @@ HWY_AFTER_NAMESPACE();
 namespace jvari {
 HWY_EXPORT(name_of_target);
 
-std::string vector_instructions() {
-    return HWY_DYNAMIC_DISPATCH(name_of_target)();
-}
+std::string vector_instructions() { return HWY_DYNAMIC_DISPATCH(name_of_target)(); }
 }  // namespace jvari
 #endif

@@ -1,5 +1,5 @@
-// Plugins that break the contract, for the tests of the command line: one table of schemes that throw, make nothing or report what cannot
-// be, and, by JVARI_BAD_TABLE, tables that are none.
+// Plugins that break the contract, for the tests of the command line: one table of schemes that
+// throw, make nothing or report what cannot be, and, by JVARI_BAD_TABLE, tables that are none.
 #include <stdexcept>
 
 #include "schemes/plugin.hpp"
@@ -7,7 +7,13 @@
 namespace {
 using namespace jvari;
 
-enum class Fault { none, throws_in_facts, throws_a_number_in_facts, unknown_outcome, step_before_the_start };
+enum class Fault {
+    none,
+    throws_in_facts,
+    throws_a_number_in_facts,
+    unknown_outcome,
+    step_before_the_start
+};
 
 template <Fault fault>
 class Bad final : public Scheme {
@@ -35,32 +41,46 @@ std::unique_ptr<Scheme> make(const Descriptor&, const Scene&, const Settings&) {
     return std::make_unique<Bad<fault>>();
 }
 
-constexpr Features all =
-    Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping | Feature::initial_shape;
+constexpr Features all = Features(Feature::bending_stiffness) | Feature::damping |
+                         Feature::frequency_dependent_damping | Feature::initial_shape;
 constexpr auto stepped = Clock::stepped;
 
 [[maybe_unused]] const Descriptor table[] = {
     {"bad_throws", "a test", all, Balance::none, stepped,
-     [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw std::runtime_error("not made today"); }},
+     [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+         throw std::runtime_error("not made today");
+     }},
     {"bad_throws_a_number", "a test", all, Balance::none, stepped,
      [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw 42; }},
     {"bad_makes_nothing", "a test", all, Balance::none, stepped,
-     [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return nullptr; }},
+     [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+         return nullptr;
+     }},
     {"bad_facts", "a test", all, Balance::none, stepped, make<Fault::throws_in_facts>},
-    {"bad_facts_of_a_number", "a test", all, Balance::none, stepped, make<Fault::throws_a_number_in_facts>},
+    {"bad_facts_of_a_number", "a test", all, Balance::none, stepped,
+     make<Fault::throws_a_number_in_facts>},
     {"bad_outcome", "a test", all, Balance::none, stepped, make<Fault::unknown_outcome>},
     {"bad_step", "a test", all, Balance::none, stepped, make<Fault::step_before_the_start>},
 };
-[[maybe_unused]] const Descriptor nameless[] = {{nullptr, "a test", all, Balance::none, stepped, make<Fault::none>}};
-[[maybe_unused]] const Descriptor sourceless[] = {{"bad_sourceless", nullptr, all, Balance::none, stepped, make<Fault::none>}};
-[[maybe_unused]] const Descriptor makeless[] = {{"bad_makeless", "a test", all, Balance::none, stepped, nullptr}};
+[[maybe_unused]] const Descriptor nameless[] = {
+    {nullptr, "a test", all, Balance::none, stepped, make<Fault::none>}};
+[[maybe_unused]] const Descriptor sourceless[] = {
+    {"bad_sourceless", nullptr, all, Balance::none, stepped, make<Fault::none>}};
+[[maybe_unused]] const Descriptor makeless[] = {
+    {"bad_makeless", "a test", all, Balance::none, stepped, nullptr}};
 }  // namespace
 
 #if JVARI_BAD_TABLE == 0
 JVARI_PLUGIN(table)
 #elif JVARI_BAD_TABLE == 1 || JVARI_BAD_TABLE == 2
 JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {
-    static const jvari_plugin plugin = {sizeof plugin, JVARI_SCHEME_VERSION, nullptr, JVARI_BAD_TABLE == 1 ? 3 : -1, "none", "none", 1};
+    static const jvari_plugin plugin = {sizeof plugin,
+                                        JVARI_SCHEME_VERSION,
+                                        nullptr,
+                                        JVARI_BAD_TABLE == 1 ? 3 : -1,
+                                        "none",
+                                        "none",
+                                        1};
     return &plugin;
 }
 #elif JVARI_BAD_TABLE == 3

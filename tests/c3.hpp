@@ -1,4 +1,5 @@
-// The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1 with x_c = 5 mm, as tests and benchmarks use it.
+// The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1 with x_c = 5 mm, as tests and
+// benchmarks use it.
 #pragma once
 
 #include "scenes/scene.hpp"

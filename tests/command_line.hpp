@@ -45,26 +45,36 @@ struct Outcome {
     std::string out, err;
 };
 
-inline testing::AssertionResult ends(const Outcome& of, int code, const std::string& said) {  // a failure says it on standard error
-    if (of.code != code) return testing::AssertionFailure() << "ends with " << of.code << ":\n" << of.out << of.err;
+// a failure says it on standard error
+inline testing::AssertionResult ends(const Outcome& of, int code, const std::string& said) {
+    if (of.code != code)
+        return testing::AssertionFailure() << "ends with " << of.code << ":\n" << of.out << of.err;
     return says(code ? of.err : of.out, said);
 }
 
-inline Outcome jvari(const Scratch& scratch, const std::string& arguments, const std::string& environment = "") {
+inline Outcome jvari(const Scratch& scratch, const std::string& arguments,
+                     const std::string& environment = "") {
     const std::string out = scratch / "stdout", err = scratch / "stderr";
-    const int status = std::system((environment + " " JVARI_PROGRAM " " + arguments + " >" + out + " 2>" + err + " </dev/null").c_str());
+    const int status = std::system(
+        (environment + " " JVARI_PROGRAM " " + arguments + " >" + out + " 2>" + err + " </dev/null")
+            .c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
-// Runs lines of bash in the folder of the test, without charts and without kept runs; $J is the program.
+// Runs lines of bash in the folder of the test, without charts and without kept runs; $J is the
+// program.
 inline Outcome shell(const Scratch& scratch, const std::string& lines) {
     const std::string script = scratch / "script";
-    std::ofstream(script) << "export J=" JVARI_PROGRAM " JVARI_CACHE= JVARI_NODE_MODULES=/nowhere\nulimit -c 0\ncd "
+    std::ofstream(script) << "export J=" JVARI_PROGRAM
+                             " JVARI_CACHE= JVARI_NODE_MODULES=/nowhere\nulimit -c 0\ncd "
                           << scratch.path.string() << "\n"
                           << lines << "\n";
-    const int status = std::system(("bash " + script + " >" + (scratch / "stdout") + " 2>" + (scratch / "stderr") + " </dev/null").c_str());
+    const int status = std::system(("bash " + script + " >" + (scratch / "stdout") + " 2>" +
+                                    (scratch / "stderr") + " </dev/null")
+                                       .c_str());
     std::filesystem::remove(script);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(scratch / "stdout"), content(scratch / "stderr")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(scratch / "stdout"),
+            content(scratch / "stderr")};
 }
 
 }  // namespace jvari::test

@@ -1,4 +1,5 @@
-// Every scheme and reference keeps every promise of bench/check, on every scene: each promise, scheme and scene is a test.
+// Every scheme and reference keeps every promise of bench/check, on every scene: each promise,
+// scheme and scene is a test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,8 @@ public:
     void TestBody() override {
         const Verdict v = ask(promise_, case_);
         EXPECT_FALSE(v.broken()) << case_.scheme.name << ": " << v.why;
-        if (v.answer == Verdict::Answer::excused || v.answer == Verdict::Answer::not_asked) GTEST_SKIP() << v.why;
+        if (v.answer == Verdict::Answer::excused || v.answer == Verdict::Answer::not_asked)
+            GTEST_SKIP() << v.why;
     }
 
 private:
@@ -28,13 +30,16 @@ private:
 };
 
 void register_all() {
-    for (const auto table : {schemes(), references(), std::span<const Descriptor>(schemes_of_pairings())})
+    for (const auto table :
+         {schemes(), references(), std::span<const Descriptor>(schemes_of_pairings())})
         for (const Descriptor& d : table)
             for (const Promise& p : promises())
                 for (const Case& one : cases_of(d, p.asked)) {
-                    const std::string name = std::string(d.name) + (one.scene.name.empty() ? "" : "__" + one.scene.name);
-                    testing::RegisterTest(p.name, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
-                                          [&p, one]() -> testing::Test* { return new Kept(p, one); });
+                    const std::string name =
+                        std::string(d.name) + (one.scene.name.empty() ? "" : "__" + one.scene.name);
+                    testing::RegisterTest(
+                        p.name, name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+                        [&p, one]() -> testing::Test* { return new Kept(p, one); });
                 }
 }
 
@@ -46,12 +51,15 @@ TEST(Allocations, AreCounted) {
 
 TEST(Excuses, AreOfControlsThatNeedThem) {
     for (const Excuse& e : excuses()) {
-        const auto d = std::ranges::find_if(schemes(), [&e](const Descriptor& one) { return one.name == std::string(e.scheme); });
-        const auto p = std::ranges::find_if(promises(), [&e](const Promise& one) { return one.name == std::string(e.promise); });
+        const auto d = std::ranges::find_if(
+            schemes(), [&e](const Descriptor& one) { return one.name == std::string(e.scheme); });
+        const auto p = std::ranges::find_if(
+            promises(), [&e](const Promise& one) { return one.name == std::string(e.promise); });
         ASSERT_TRUE(d != schemes().end() && p != promises().end()) << e.scheme << " " << e.promise;
         EXPECT_TRUE(is_control(*d)) << e.scheme;
-        EXPECT_TRUE(
-            std::ranges::any_of(cases_of(*d, p->asked), [&](const Case& c) { return ask(*p, c).answer == Verdict::Answer::excused; }))
+        EXPECT_TRUE(std::ranges::any_of(
+            cases_of(*d, p->asked),
+            [&](const Case& c) { return ask(*p, c).answer == Verdict::Answer::excused; }))
             << e.scheme << " keeps " << e.promise;
     }
 }

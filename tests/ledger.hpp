@@ -1,4 +1,5 @@
-// How far the energy columns of a trace are from balance, row by row and summed. Independent of analysis/energy, which is tested as well.
+// How far the energy columns of a trace are from balance, row by row and summed. Independent of
+// analysis/energy, which is tested as well.
 #pragma once
 
 #include <algorithm>

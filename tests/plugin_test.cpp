@@ -1,4 +1,5 @@
-// The example plugin under tests/plugin, built out of tree against the install tree by the tests that this one depends on.
+// The example plugin under tests/plugin, built out of tree against the install tree by the tests
+// that this one depends on.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,11 +23,13 @@ TEST(Plugin, BuiltAgainstTheInstallTreeGivesTheBuiltInSchemesTrace) {
     for (Scene scene : {c3_release(), c3_pluck()}) {
         scene.duration = 0.06;
         const Settings settings{88200, 44100, 133, {}};
-        const auto ours = run(schemes()[0], scene, settings), theirs = run(loaded[0], scene, settings);
+        const auto ours = run(schemes()[0], scene, settings),
+                   theirs = run(loaded[0], scene, settings);
         for (int k = 0; k < ours.trace.taps(); ++k) {
             double difference = 0, largest = 0;
             for (long n = 0; n < ours.trace.rows; ++n) {
-                difference = std::max(difference, std::abs(ours.trace.column(k)[n] - theirs.trace.column(k)[n]));
+                difference = std::max(
+                    difference, std::abs(ours.trace.column(k)[n] - theirs.trace.column(k)[n]));
                 largest = std::max(largest, std::abs(ours.trace.column(k)[n]));
             }
             EXPECT_LT(difference, 1e-9 * largest) << ours.trace.names[k];

@@ -1,5 +1,5 @@
-// A penalty whose force begins smoothly: V' of (eta + sqrt(eta^2 + s^2))/2 in place of max(eta, 0), s = 1e-9 m. Made for a test: a rule is
-// one file like this and one row of rules.hpp.
+// A penalty whose force begins smoothly: V' of (eta + sqrt(eta^2 + s^2))/2 in place of max(eta, 0),
+// s = 1e-9 m. Made for a test: a rule is one file like this and one row of rules.hpp.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,9 @@ public:
     bool acts(const BeforeStep&) const { return !smooth_.empty(); }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
         for (std::size_t a = 0; a < smooth_.size(); ++a)
-            smooth_[a] = at.now[a] > -1e-6 ? 0.5 * (at.now[a] + std::sqrt(at.now[a] * at.now[a] + 1e-18)) : 0;
+            smooth_[a] = at.now[a] > -1e-6
+                             ? 0.5 * (at.now[a] + std::sqrt(at.now[a] * at.now[a] + 1e-18))
+                             : 0;
         return ExplicitRule::solve({at.older, smooth_.data(), at.b}, r, force);
     }
 

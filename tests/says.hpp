@@ -8,7 +8,8 @@
 namespace jvari {
 
 inline testing::AssertionResult says(const std::string& text, const std::string& what) {
-    if (text.find(what) != std::string::npos) return testing::AssertionSuccess() << "says " << what << ":\n" << text;
+    if (text.find(what) != std::string::npos)
+        return testing::AssertionSuccess() << "says " << what << ":\n" << text;
     return testing::AssertionFailure() << "does not say " << what << ":\n" << text;
 }
 

@@ -1,5 +1,5 @@
-// The sitar scenes of the tests: C5 on a fretted string, the paper's pitch and loss; its other figures are ours
-// (scenes/sitar_c5.toml says which).
+// The sitar scenes of the tests: C5 on a fretted string, the paper's pitch and loss; its other
+// figures are ours (scenes/sitar_c5.toml says which).
 #pragma once
 
 #include <optional>
@@ -54,8 +54,8 @@ inline const Descriptor& scheme_named(const std::string& name) {
 
 using SchemeOptions = std::vector<std::pair<std::string, std::string>>;
 
-inline Run run_sitar(const char* name, const Scene& scene, const SchemeOptions& options = {}, double sample_rate = 44100,
-                     double tap_rate = 44100) {
+inline Run run_sitar(const char* name, const Scene& scene, const SchemeOptions& options = {},
+                     double sample_rate = 44100, double tap_rate = 44100) {
     Settings settings;
     settings.sample_rate = sample_rate;
     settings.tap_rate = tap_rate;

@@ -1,8 +1,11 @@
-// A made-up body, for the measured responses of tanpuras are not published: what van Walstijn et al. 2016, fig. 5, describe in words.
+// A made-up body, for the measured responses of tanpuras are not published: what van Walstijn et
+// al. 2016, fig. 5, describe in words.
 //
-// A simply supported plate, its lowest mode at 200 Hz, driven where the bridge or the nut stands; each mode loses f/30 a second. What
-// lies below 200 Hz is taken away by a high pass of second order. Synthetic: no instrument has it.
-// scenes/synthetic_bridge.wav and synthetic_nut.wav are what this makes; `jvari new body` hands them out.
+// A simply supported plate, its lowest mode at 200 Hz, driven where the bridge or the nut stands;
+// each mode loses f/30 a second. What lies below 200 Hz is taken away by a high pass of second
+// order. Synthetic: no instrument has it.
+// scenes/synthetic_bridge.wav and synthetic_nut.wav are what this makes; `jvari new body` hands
+// them out.
 #pragma once
 
 #include <algorithm>
@@ -35,19 +38,24 @@ inline double shape(int m, int n, const Place& p) {
 inline std::vector<double> plate(const Place& driven) {
     std::vector<double> h(rows, 0.0);
     for (int m = 1;; ++m) {
-        const auto frequency = [m](int n) { return lowest * (m * m * ratio * ratio + n * n) / (ratio * ratio + 1); };
+        const auto frequency = [m](int n) {
+            return lowest * (m * m * ratio * ratio + n * n) / (ratio * ratio + 1);
+        };
         if (frequency(1) > highest) return h;
         for (int n = 1; frequency(n) <= highest; ++n) {
             const double w = 2 * pi * frequency(n) / synthetic_rate, decay = w / (2 * quality);
-            const double strength = w * shape(m, n, driven) * shape(m, n, listener) / (m * n);  // large waves are heard best
-            for (int k = 0; k < rows; ++k) h[k] += strength * std::exp(-decay * k) * std::sin(w * k);
+            // large waves are heard best
+            const double strength = w * shape(m, n, driven) * shape(m, n, listener) / (m * n);
+            for (int k = 0; k < rows; ++k)
+                h[k] += strength * std::exp(-decay * k) * std::sin(w * k);
         }
     }
 }
 
 // Butterworth of second order by the bilinear transform.
 inline void high_pass(std::vector<double>& x, double corner) {
-    const double k = std::tan(pi * corner / synthetic_rate), a0 = 1 + std::numbers::sqrt2 * k + k * k;
+    const double k = std::tan(pi * corner / synthetic_rate),
+                 a0 = 1 + std::numbers::sqrt2 * k + k * k;
     const double a1 = 2 * (k * k - 1) / a0, a2 = (1 - std::numbers::sqrt2 * k + k * k) / a0;
     double x1 = 0, x2 = 0, y1 = 0, y2 = 0;
     for (double& v : x) {
@@ -76,7 +84,8 @@ inline std::vector<double> unscaled(const Place& driven) {
 }
 }  // namespace detail
 
-// 2048 rows at 44.1 kHz; the strongest mode of the bridge's answers a force with as much pressure [1/1].
+// 2048 rows at 44.1 kHz; the strongest mode of the bridge's answers a force with as much pressure
+// [1/1].
 inline std::vector<double> synthetic_response(BodyEnd end) {
     std::vector<double> h = detail::unscaled(detail::bridge);
     const double scale = 1 / detail::largest_gain(h);

@@ -1,5 +1,6 @@
-// The core behind plain C calls, for a page's worker: texts and numbers in, a run's handle or 0 out. After a 0 `jv_said` holds the sentence
-// of the refusal, which is that of the program; after a call that returns a text, the text stays valid until the next call.
+// The core behind plain C calls, for a page's worker: texts and numbers in, a run's handle or 0
+// out. After a 0 `jv_said` holds the sentence of the refusal, which is that of the program; after a
+// call that returns a text, the text stays valid until the next call.
 #include <emscripten.h>
 
 #include <cmath>
@@ -34,10 +35,10 @@ auto tried(Do act) -> decltype(act()) {
     try {
         return act();
     } catch (const std::bad_alloc&) {
-        said = "The page has no more memory for this: ask for a shorter run or fewer modes, or use the program `jvari run`.";
-    } catch (const std::exception& e) {
-        said = e.what();
-    }
+        said =
+            "The page has no more memory for this: ask for a shorter run or fewer modes, or use "
+            "the program `jvari run`.";
+    } catch (const std::exception& e) { said = e.what(); }
     return {};
 }
 
@@ -54,12 +55,17 @@ const Descriptor& scheme_of(const std::string& name) {
     for (const auto& list : {schemes(), references()})
         for (const Descriptor& d : list)
             if (name == d.name) return d;
-    throw Refusal("unknown scheme " + quote(name) +
-                  (name == "sundials" ? ": it is not part of the page; use the program `jvari run`" : ""));
+    throw Refusal(
+        "unknown scheme " + quote(name) +
+        (name == "sundials" ? ": it is not part of the page; use the program `jvari run`" : ""));
 }
 
-Settings settings_of(const Descriptor& d, double rate, double tap_rate, int modes, const char* options) {
-    Settings s{.sample_rate = d.clock == Clock::continuous ? 0 : rate, .tap_rate = tap_rate, .modes = modes, .options = {}};
+Settings settings_of(const Descriptor& d, double rate, double tap_rate, int modes,
+                     const char* options) {
+    Settings s{.sample_rate = d.clock == Clock::continuous ? 0 : rate,
+               .tap_rate = tap_rate,
+               .modes = modes,
+               .options = {}};
     for (const std::string& o : lines_of(options)) {
         const auto at = o.find('=');
         if (at == std::string::npos) throw Refusal("option " + quote(o) + ": expected NAME=VALUE");
@@ -68,10 +74,12 @@ Settings settings_of(const Descriptor& d, double rate, double tap_rate, int mode
     return s;
 }
 
-// Displacements of the first string at these parts of its length, a line each: what a picture of it is drawn from.
+// Displacements of the first string at these parts of its length, a line each: what a picture of it
+// is drawn from.
 void add_shape(Scene& scene, const char* places) {
     for (const std::string& place : lines_of(places))
-        scene.taps.push_back({"at " + place, Quantity::displacement, 0, scene.strings[0].length * number_of(place).value_or(0.5)});
+        scene.taps.push_back({"at " + place, Quantity::displacement, 0,
+                              scene.strings[0].length * number_of(place).value_or(0.5)});
 }
 }  // namespace
 
@@ -81,11 +89,14 @@ struct Kept {
     Settings settings{};
     Balance promised = Balance::none;
 
-    std::span<const double> free(int tap) const { return rows_from(run.trace.column(tap), free_from(scene), run.trace.tap_rate); }
+    std::span<const double> free(int tap) const {
+        return rows_from(run.trace.column(tap), free_from(scene), run.trace.tap_rate);
+    }
     double power_above(double hertz, int tap) const {
         const PowerSpectrum s = power_spectrum(free(tap), run.trace.tap_rate);
         const auto first = static_cast<std::size_t>(std::ceil(hertz / s.bin_hz));
-        return std::accumulate(s.power.begin() + static_cast<long>(std::min(first, s.power.size())), s.power.end(), 0.0);
+        return std::accumulate(s.power.begin() + static_cast<long>(std::min(first, s.power.size())),
+                               s.power.end(), 0.0);
     }
 };
 }  // namespace jvari::web
@@ -93,34 +104,36 @@ struct Kept {
 using namespace jvari;
 using namespace jvari::web;
 
-JV const char* jv_said() {
-    return said.c_str();
-}
+JV const char* jv_said() { return said.c_str(); }
 
-JV const char* jv_list() {
-    return (said = list_text()).c_str();
-}
+JV const char* jv_list() { return (said = list_text()).c_str(); }
 
 // What the scene says once it is read, for those who draw it; nullptr: refused.
 JV const char* jv_scene(const char* text, const char* overrides) {
-    const bool done = tried([&] { return !(said = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty(); });
-    return done ? said.c_str() : nullptr;
-}
-
-// The problem as arrays, for a scheme typed into the page; nullptr: refused.
-JV const char* jv_problem(const char* text, const char* overrides, double rate, int modes, double duration) {
     const bool done = tried([&] {
-        Scene scene = parse_scene(text, "scene", lines_of(overrides));
-        scene.duration = duration;
-        return !(said = problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}})).empty();
+        return !(said = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty();
     });
     return done ? said.c_str() : nullptr;
 }
 
-// `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each. `shape`: places of the first string, as
-// parts of its length, a line each, whose displacement is read beside the scene's taps and after them.
-JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, double rate, double tap_rate, int modes, const char* options,
-                double duration, const char* shape, int energy) {
+// The problem as arrays, for a scheme typed into the page; nullptr: refused.
+JV const char* jv_problem(const char* text, const char* overrides, double rate, int modes,
+                          double duration) {
+    const bool done = tried([&] {
+        Scene scene = parse_scene(text, "scene", lines_of(overrides));
+        scene.duration = duration;
+        return !(said = problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}}))
+                    .empty();
+    });
+    return done ? said.c_str() : nullptr;
+}
+
+// `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each.
+// `shape`: places of the first string, as parts of its length, a line each, whose displacement is
+// read beside the scene's taps and after them.
+JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, double rate,
+                double tap_rate, int modes, const char* options, double duration, const char* shape,
+                int energy) {
     return tried([&]() -> Kept* {
         auto kept = std::make_unique<Kept>();
         Scene& scene = kept->scene = parse_scene(text, "scene", lines_of(overrides));
@@ -128,9 +141,12 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
         add_shape(scene, shape);
         const Descriptor& d = scheme_of(scheme);
         const Settings settings = settings_of(d, rate, tap_rate, modes, options);
-        if (static_cast<double>(rows_of(scene, settings)) * static_cast<double>(scene.taps.size() + 3) > most_values)
-            throw Refusal("A run of " + number_text(scene.duration) + " s is too long for the page: use the program, `jvari run " +
-                          scene.name + " --scheme " + d.name + "`.");
+        if (static_cast<double>(rows_of(scene, settings)) *
+                static_cast<double>(scene.taps.size() + 3) >
+            most_values)
+            throw Refusal("A run of " + number_text(scene.duration) +
+                          " s is too long for the page: use the program, `jvari run " + scene.name +
+                          " --scheme " + d.name + "`.");
         kept->settings = settings;
         kept->promised = d.balance;
         const auto made = make_scheme(d, scene, settings);
@@ -140,28 +156,28 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
 }
 
 JV const char* jv_about(const Kept* k) {
-    return (said = run_text(k->run, k->scene, modes_for(k->scene, k->settings), k->promised)).c_str();
+    return (said = run_text(k->run, k->scene, modes_for(k->scene, k->settings), k->promised))
+        .c_str();
 }
-JV const double* jv_tap(const Kept* k, int tap) {
-    return k->run.trace.column(tap).data();
-}
+JV const double* jv_tap(const Kept* k, int tap) { return k->run.trace.column(tap).data(); }
 JV const double* jv_energy(const Kept* k, int column) {  // stored, supplied, dissipated
     return k->run.trace.energy.empty() ? nullptr : k->run.trace.energy_column(column).data();
 }
-JV void jv_free(Kept* k) {
-    delete k;
-}
+JV void jv_free(Kept* k) { delete k; }
 
-// How far two runs of one scene are apart on a tap after its last pluck: ||a - b||/||b||, for how long the two agree within 10 %,
-// in third octaves within `range` [dB] of the loudest [dB], and how much louder a is above a frequency [dB].
+// How far two runs of one scene are apart on a tap after its last pluck: ||a - b||/||b||, for how
+// long the two agree within 10 %, in third octaves within `range` [dB] of the loudest [dB], and how
+// much louder a is above a frequency [dB].
 JV double jv_error(const Kept* a, const Kept* b, int tap) {
-    return relative_l2(a->free(tap), b->free(tap), b->run.trace.tap_rate, {0, b->scene.duration - free_from(b->scene)});
+    return relative_l2(a->free(tap), b->free(tap), b->run.trace.tap_rate,
+                       {0, b->scene.duration - free_from(b->scene)});
 }
 JV double jv_horizon(const Kept* a, const Kept* b, int tap) {
     return horizon(a->free(tap), b->free(tap), b->run.trace.tap_rate);
 }
 JV double jv_third_octaves(const Kept* a, const Kept* b, int tap, double range) {
-    return third_octave_difference(a->free(tap), b->free(tap), b->run.trace.tap_rate, {.range = range});
+    return third_octave_difference(a->free(tap), b->free(tap), b->run.trace.tap_rate,
+                                   {.range = range});
 }
 JV double jv_louder(const Kept* a, const Kept* b, int tap, double hertz) {
     return 10 * std::log10(a->power_above(hertz, tap) / b->power_above(hertz, tap));
@@ -170,11 +186,13 @@ JV double jv_left_after(double last, double before, int matched) {
     return left_after(last, before, matched != 0);
 }
 
-// Of runs by these schemes, a line each: `figures` holds error, its uncertainty, the cost and its quartiles of each.
+// Of runs by these schemes, a line each: `figures` holds error, its uncertainty, the cost and its
+// quartiles of each.
 JV const char* jv_cheapest(const char* schemes, const double* figures, double accuracy) {
     std::vector<Offer> offers;
     for (const std::string& name : lines_of(schemes)) {
-        offers.push_back({name, at_most(figures[0], figures[1]), at_least(figures[0], figures[1]), figures[2], figures[3], figures[4]});
+        offers.push_back({name, at_most(figures[0], figures[1]), at_least(figures[0], figures[1]),
+                          figures[2], figures[3], figures[4]});
         figures += 5;
     }
     return (said = choice_text(cheapest_within(accuracy, offers))).c_str();

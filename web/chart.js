@@ -1,109 +1,312 @@
-// Error against cost, recomputed for the string as it stands: a line for each scheme, a point for each sample rate. Costs are of this browser.
+// Error against cost, recomputed for the string as it stands: a line for each scheme, a point for
+// each sample rate. Costs are of this browser.
 const chart = {points: [], own: []};
-const chart_schemes = [["modal_two_point", "own"], ["modal_two_point", "matched"], ["modal_quadratised", "matched"], ["modal_spatial_newton", "own"], ["finite_difference_explicit", "own"],
-    ["finite_difference_theta", "own"], ["sitar_waveguide", "own"]];
-const chart_lines = 5, chart_rates = [1, 2, 4, 8].map(k => 44100 * k);
-const colours = {modal_two_point: "#0072b2", modal_quadratised: "#7a4fb5", modal_spatial_newton: "#00805a", finite_difference_explicit: "#b07800", finite_difference_theta: "#8a5a1a",
-    sitar_waveguide: "#aa3377", mine: "#c4261d"};
+const chart_schemes = [
+  ["modal_two_point", "own"],
+  ["modal_two_point", "matched"],
+  ["modal_quadratised", "matched"],
+  ["modal_spatial_newton", "own"],
+  ["finite_difference_explicit", "own"],
+  ["finite_difference_theta", "own"],
+  ["sitar_waveguide", "own"],
+];
+const chart_lines = 5,
+  chart_rates = [1, 2, 4, 8].map(k => 44100 * k);
+const colours = {
+  modal_two_point: "#0072b2",
+  modal_quadratised: "#7a4fb5",
+  modal_spatial_newton: "#00805a",
+  finite_difference_explicit: "#b07800",
+  finite_difference_theta: "#8a5a1a",
+  sitar_waveguide: "#aa3377",
+  mine: "#c4261d",
+};
 const colour_of = name => colours[name] ?? "#777";
 
 // Twenty cells: five lines that the scene allows, the chosen scheme among them, at four rates.
 function chart_cells() {
-    const able = new Set(shown.scene?.able ?? chart_schemes.map(([name]) => name)), lines = chart_schemes.filter(([name]) => able.has(name)).slice(0, chart_lines);
-    const chosen = [state.scheme, state.compliance];
-    const same = ([name, compliance]) => name === chosen[0] && (compliance === chosen[1] || !options_of(name, compliance).length);
-    if (!lines.some(same)) lines.splice(Math.min(lines.length, chart_lines - 1), 1, chosen);
-    return lines.flatMap(([scheme, compliance]) => chart_rates.map(rate => ({scheme, compliance, rate})));
+  const able = new Set(shown.scene?.able ?? chart_schemes.map(([name]) => name)),
+    lines = chart_schemes.filter(([name]) => able.has(name)).slice(0, chart_lines);
+  const chosen = [state.scheme, state.compliance];
+  const same = ([name, compliance]) =>
+    name === chosen[0] && (compliance === chosen[1] || !options_of(name, compliance).length);
+  if (!lines.some(same)) lines.splice(Math.min(lines.length, chart_lines - 1), 1, chosen);
+  return lines.flatMap(([scheme, compliance]) =>
+    chart_rates.map(rate => ({scheme, compliance, rate})),
+  );
 }
 
-const error_text = p => p.uncertainty > 0.1 * p.error ? `\u2264 ${percent(p.error + p.uncertainty)}` : percent(p.error);
+const error_text = p =>
+  p.uncertainty > 0.1 * p.error ? `\u2264 ${percent(p.error + p.uncertainty)}` : percent(p.error);
 const sound_point = p => p.outcome === "ok" && Number.isFinite(p.error);
 const label_of = p => p.scheme + (p.compliance === "matched" ? ", matched" : "");
 function percent(x) {
-    if (!Number.isFinite(x)) return "not known";
-    const p = 100 * x;
-    return `${p >= 10 ? p.toFixed(0) : p >= 0.01 ? p.toPrecision(2) : p.toExponential(1)} %`;
+  if (!Number.isFinite(x)) return "not known";
+  const p = 100 * x;
+  return `${p >= 10 ? p.toFixed(0) : p >= 0.01 ? p.toPrecision(2) : p.toExponential(1)} %`;
 }
 const two_digits = x => String(Number(x.toPrecision(2)));
-const time_text = s => s >= 1 ? `${two_digits(s)} s` : s >= 1e-3 ? `${two_digits(1e3 * s)} ms` : `${two_digits(1e6 * s)} µs`;
+const time_text = s =>
+  s >= 1
+    ? `${two_digits(s)} s`
+    : s >= 1e-3
+      ? `${two_digits(1e3 * s)} ms`
+      : `${two_digits(1e6 * s)} µs`;
 
-// The cheapest within an accuracy, by the rules of `jvari compare` (analysis/cheapest.hpp). Costs are of this browser, and its clock is coarse.
+// The cheapest within an accuracy, by the rules of `jvari compare` (analysis/cheapest.hpp). Costs
+// are of this browser, and its clock is coarse.
 async function verdict(points, accuracy) {
-    const all = points.filter(p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p)), found = await ask("cheapest", {points: all, accuracy});
-    return {best: all[found.best], ties: found.ties.map(k => all[k]), perhaps: found.perhaps.map(k => all[k])};
+  const all = points.filter(
+      p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p),
+    ),
+    found = await ask("cheapest", {points: all, accuracy});
+  return {
+    best: all[found.best],
+    ties: found.ties.map(k => all[k]),
+    perhaps: found.perhaps.map(k => all[k]),
+  };
 }
-const run_name = p => `${label_of(p)} at ${p.rate / 1e3} kHz`, run_names = list => list.map(run_name).join("; ");
+const run_name = p => `${label_of(p)} at ${p.rate / 1e3} kHz`,
+  run_names = list => list.map(run_name).join("; ");
 
 function answer_of({best, ties, perhaps}, done) {
-    if (!best && !done) return ["…"];
-    if (!best) return perhaps.length ? ["cannot be decided", `the reference is known to ${percent(perhaps[0].uncertainty)} only`, `candidates: ${run_names(perhaps)}`] : ["none"];
-    return [label_of(best), `${best.rate / 1e3} kHz, ${error_text(best)} error, ${time_text(best.cost)} per second in this browser`,
-        ties.length && `a tie with ${run_names(ties)}`, perhaps.length && `perhaps for less ${run_names(perhaps)}`].filter(Boolean);
+  if (!best && !done) return ["…"];
+  if (!best)
+    return perhaps.length
+      ? [
+          "cannot be decided",
+          `the reference is known to ${percent(perhaps[0].uncertainty)} only`,
+          `candidates: ${run_names(perhaps)}`,
+        ]
+      : ["none"];
+  return [
+    label_of(best),
+    `${best.rate / 1e3} kHz, ${error_text(best)} error, ${time_text(best.cost)} per second ` +
+      "in this browser",
+    ties.length && `a tie with ${run_names(ties)}`,
+    perhaps.length && `perhaps for less ${run_names(perhaps)}`,
+  ].filter(Boolean);
 }
 async function draw_answers(done) {
-    const asked = ++draw_answers.count, accuracies = [0.1, 0.01, 0.001];
-    const told = await Promise.all(accuracies.map(accuracy => verdict(chart.points, accuracy))).catch(error => { if (!(error instanceof Stale_question)) throw error; });
-    if (!told || asked !== draw_answers.count) return;  // the worker was replaced, or there are newer points
-    document.getElementById("answers").replaceChildren(...told.map((v, k) => {
-        const [found, ...more] = answer_of(v, done), card = element("div", {className: "card"});
-        card.append(element("p", {className: "soft"}, `within ${100 * accuracies[k]} %`), element("p", {}, found), ...more.map(text => element("p", {className: "soft"}, text)));
-        if (v.best) card.style.borderLeftColor = colour_of(v.best.scheme);
-        return card;
-    }));
+  const asked = ++draw_answers.count,
+    accuracies = [0.1, 0.01, 0.001];
+  const told = await Promise.all(accuracies.map(accuracy => verdict(chart.points, accuracy))).catch(
+    error => {
+      if (!(error instanceof Stale_question)) throw error;
+    },
+  );
+  // the worker was replaced, or there are newer points
+  if (!told || asked !== draw_answers.count) return;
+  document.getElementById("answers").replaceChildren(
+    ...told.map((v, k) => {
+      const [found, ...more] = answer_of(v, done),
+        card = element("div", {className: "card"});
+      card.append(
+        element("p", {className: "soft"}, `within ${100 * accuracies[k]} %`),
+        element("p", {}, found),
+        ...more.map(text => element("p", {className: "soft"}, text)),
+      );
+      if (v.best) card.style.borderLeftColor = colour_of(v.best.scheme);
+      return card;
+    }),
+  );
 }
 draw_answers.count = 0;
 
 function svg(name, attributes, ...inside) {
-    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    made.append(...inside);
-    return made;
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...inside);
+  return made;
 }
 
 function draw_chart(done) {
-    draw_answers(done);
-    const box = document.getElementById("chart"), width = Math.max(300, box.clientWidth), height = Math.min(380, Math.max(260, width * 0.55)), points = [...chart.points, ...chart.own].filter(sound_point);
-    const left = 52, right = 12, top = 10, bottom = 40, errors = points.map(p => Math.max(1e-6, p.error)), costs = points.map(p => p.cost);
-    const [y0, y1] = [Math.floor(Math.log10(Math.min(1e-3, ...errors))), Math.ceil(Math.log10(Math.min(1e3, Math.max(0.3, ...errors))))];
-    const [x0, x1] = [Math.log10(Math.min(5e-3, ...costs)) - 0.1, Math.log10(Math.max(0.2, ...costs)) + 0.1];
-    const X = cost => left + (width - left - right) * (Math.log10(cost) - x0) / (x1 - x0), Y = error => top + (height - top - bottom) * (y1 - Math.log10(Math.min(1e3, Math.max(1e-6, error)))) / (y1 - y0);
-    const art = svg("svg", {viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "error against computing time: the table below has the numbers"});
-    for (let k = y0; k <= y1; ++k) art.append(svg("line", {x1: left, x2: width - right, y1: Y(10 ** k), y2: Y(10 ** k), class: "grid"}), svg("text", {x: left - 6, y: Y(10 ** k) + 4, "text-anchor": "end"}, `${digits(100 * 10 ** k)} %`));
-    for (let k = Math.ceil(x0); k <= x1; ++k) art.append(svg("line", {x1: X(10 ** k), x2: X(10 ** k), y1: top, y2: height - bottom, class: k === 0 ? "real-time" : "grid"}), svg("text", {x: X(10 ** k), y: height - bottom + 16, "text-anchor": "middle"}, time_text(10 ** k)));
-    art.append(svg("text", {x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle"}, "computing time for one second of sound, in this browser"));
-    const uncertainty = points[0]?.uncertainty;
-    if (uncertainty > 10 ** y0) art.append(svg("rect", {x: left, y: Y(uncertainty), width: width - left - right, height: Math.max(0, Y(10 ** y0) - Y(uncertainty)), class: "uncertain"}));
-    const lines = new Map();
-    for (const p of points) lines.set(label_of(p), [...lines.get(label_of(p)) ?? [], p]);
-    for (const [label, line] of lines) {
-        const stroke = colour_of(line[0].scheme), dash = line[0].compliance === "own" ? "5 4" : "none";
-        line.sort((a, b) => a.rate - b.rate);
-        art.append(svg("polyline", {points: line.map(p => `${X(p.cost)},${Y(p.error)}`).join(" "), fill: "none", stroke, "stroke-dasharray": dash, "stroke-width": 1.6}));
-        for (const p of line) {
-            const chosen = p.scheme === state.scheme && p.rate === state.rate && (p.compliance || "own") === state.compliance;
-            const dot = svg("circle", {cx: X(p.cost), cy: Y(p.error), r: chosen ? 7 : 4.5, fill: p.compliance === "own" ? "var(--paper)" : stroke, stroke, "stroke-width": chosen ? 3 : 1.5, class: "point"}, svg("title", {}, `${label}, ${p.rate / 1e3} kHz: ${percent(p.error)}, ${time_text(p.cost)} per second`));
-            if (p.scheme !== "mine") dot.onclick = () => choose({scheme: p.scheme, rate: p.rate, compliance: p.compliance || "own", modes: 0});
-            art.append(dot);
-        }
+  draw_answers(done);
+  const box = document.getElementById("chart"),
+    width = Math.max(300, box.clientWidth),
+    height = Math.min(380, Math.max(260, width * 0.55)),
+    points = [...chart.points, ...chart.own].filter(sound_point);
+  const left = 52,
+    right = 12,
+    top = 10,
+    bottom = 40,
+    errors = points.map(p => Math.max(1e-6, p.error)),
+    costs = points.map(p => p.cost);
+  const [y0, y1] = [
+    Math.floor(Math.log10(Math.min(1e-3, ...errors))),
+    Math.ceil(Math.log10(Math.min(1e3, Math.max(0.3, ...errors)))),
+  ];
+  const [x0, x1] = [
+    Math.log10(Math.min(5e-3, ...costs)) - 0.1,
+    Math.log10(Math.max(0.2, ...costs)) + 0.1,
+  ];
+  const X = cost => left + ((width - left - right) * (Math.log10(cost) - x0)) / (x1 - x0),
+    Y = error =>
+      top +
+      ((height - top - bottom) * (y1 - Math.log10(Math.min(1e3, Math.max(1e-6, error))))) /
+        (y1 - y0);
+  const art = svg("svg", {
+    viewBox: `0 0 ${width} ${height}`,
+    width: "100%",
+    role: "img",
+    "aria-label": "error against computing time: the table below has the numbers",
+  });
+  for (let k = y0; k <= y1; ++k)
+    art.append(
+      svg("line", {x1: left, x2: width - right, y1: Y(10 ** k), y2: Y(10 ** k), class: "grid"}),
+      svg(
+        "text",
+        {x: left - 6, y: Y(10 ** k) + 4, "text-anchor": "end"},
+        `${digits(100 * 10 ** k)} %`,
+      ),
+    );
+  for (let k = Math.ceil(x0); k <= x1; ++k)
+    art.append(
+      svg("line", {
+        x1: X(10 ** k),
+        x2: X(10 ** k),
+        y1: top,
+        y2: height - bottom,
+        class: k === 0 ? "real-time" : "grid",
+      }),
+      svg(
+        "text",
+        {x: X(10 ** k), y: height - bottom + 16, "text-anchor": "middle"},
+        time_text(10 ** k),
+      ),
+    );
+  art.append(
+    svg(
+      "text",
+      {x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle"},
+      "computing time for one second of sound, in this browser",
+    ),
+  );
+  const uncertainty = points[0]?.uncertainty;
+  if (uncertainty > 10 ** y0)
+    art.append(
+      svg("rect", {
+        x: left,
+        y: Y(uncertainty),
+        width: width - left - right,
+        height: Math.max(0, Y(10 ** y0) - Y(uncertainty)),
+        class: "uncertain",
+      }),
+    );
+  const lines = new Map();
+  for (const p of points) lines.set(label_of(p), [...(lines.get(label_of(p)) ?? []), p]);
+  for (const [label, line] of lines) {
+    const stroke = colour_of(line[0].scheme),
+      dash = line[0].compliance === "own" ? "5 4" : "none";
+    line.sort((a, b) => a.rate - b.rate);
+    art.append(
+      svg("polyline", {
+        points: line.map(p => `${X(p.cost)},${Y(p.error)}`).join(" "),
+        fill: "none",
+        stroke,
+        "stroke-dasharray": dash,
+        "stroke-width": 1.6,
+      }),
+    );
+    for (const p of line) {
+      const chosen =
+        p.scheme === state.scheme &&
+        p.rate === state.rate &&
+        (p.compliance || "own") === state.compliance;
+      const dot = svg(
+        "circle",
+        {
+          cx: X(p.cost),
+          cy: Y(p.error),
+          r: chosen ? 7 : 4.5,
+          fill: p.compliance === "own" ? "var(--paper)" : stroke,
+          stroke,
+          "stroke-width": chosen ? 3 : 1.5,
+          class: "point",
+        },
+        svg(
+          "title",
+          {},
+          `${label}, ${p.rate / 1e3} kHz: ${percent(p.error)}, ${time_text(p.cost)} per second`,
+        ),
+      );
+      if (p.scheme !== "mine")
+        dot.onclick = () =>
+          choose({scheme: p.scheme, rate: p.rate, compliance: p.compliance || "own", modes: 0});
+      art.append(dot);
     }
-    const legend = element("p", {className: "legend"});
-    for (const [label, line] of lines) legend.append(element("span", {}, swatch(line[0]), label), " ");
-    box.replaceChildren(art, legend, table_of_points(done));
+  }
+  const legend = element("p", {className: "legend"});
+  for (const [label, line] of lines)
+    legend.append(element("span", {}, swatch(line[0]), label), " ");
+  box.replaceChildren(art, legend, table_of_points(done));
 }
 
 function swatch(p) {
-    const stroke = colour_of(p.scheme);
-    return svg("svg", {width: 26, height: 10, "aria-hidden": "true"}, svg("line", {x1: 0, x2: 26, y1: 5, y2: 5, stroke, "stroke-width": 1.6, "stroke-dasharray": p.compliance === "own" ? "5 4" : "none"}),
-        svg("circle", {cx: 13, cy: 5, r: 4, stroke, fill: p.compliance === "own" ? "var(--paper)" : stroke}));
+  const stroke = colour_of(p.scheme);
+  return svg(
+    "svg",
+    {width: 26, height: 10, "aria-hidden": "true"},
+    svg("line", {
+      x1: 0,
+      x2: 26,
+      y1: 5,
+      y2: 5,
+      stroke,
+      "stroke-width": 1.6,
+      "stroke-dasharray": p.compliance === "own" ? "5 4" : "none",
+    }),
+    svg("circle", {
+      cx: 13,
+      cy: 5,
+      r: 4,
+      stroke,
+      fill: p.compliance === "own" ? "var(--paper)" : stroke,
+    }),
+  );
 }
 
 function table_of_points(done) {
-    const rows = [...chart.points, ...chart.own].map(p => [label_of(p), `${p.rate / 1e3} kHz`, p.refused ?? (p.outcome !== "ok" ? p.outcome.replace("_", " ") : percent(p.error)), p.cost ? time_text(p.cost) : ""]);
-    const table = element("table", {}, element("thead", {}, element("tr", {}, ...["scheme", "sample rate", "error", "time per second"].map(t => element("th", {scope: "col"}, t)))),
-        element("tbody", {}, ...rows.map(row => element("tr", {}, ...row.map(t => element("td", {}, t))))));
-    const was_open = document.querySelector("#chart details")?.open, scroll = element("div", {className: "scroll", tabIndex: 0}, table);
-    scroll.setAttribute("role", "region"), scroll.setAttribute("aria-label", "table of the chart's points");
-    const folded = element("details", {}, element("summary", {}, `${chart.points.length} points as a table${done ? "" : ", more to come"}`), scroll);
-    folded.open = Boolean(was_open);
-    return folded;
+  const rows = [...chart.points, ...chart.own].map(p => [
+    label_of(p),
+    `${p.rate / 1e3} kHz`,
+    p.refused ?? (p.outcome !== "ok" ? p.outcome.replace("_", " ") : percent(p.error)),
+    p.cost ? time_text(p.cost) : "",
+  ]);
+  const table = element(
+    "table",
+    {},
+    element(
+      "thead",
+      {},
+      element(
+        "tr",
+        {},
+        ...["scheme", "sample rate", "error", "time per second"].map(t =>
+          element("th", {scope: "col"}, t),
+        ),
+      ),
+    ),
+    element(
+      "tbody",
+      {},
+      ...rows.map(row => element("tr", {}, ...row.map(t => element("td", {}, t)))),
+    ),
+  );
+  const was_open = document.querySelector("#chart details")?.open,
+    scroll = element("div", {className: "scroll", tabIndex: 0}, table);
+  (scroll.setAttribute("role", "region"),
+    scroll.setAttribute("aria-label", "table of the chart's points"));
+  const folded = element(
+    "details",
+    {},
+    element(
+      "summary",
+      {},
+      `${chart.points.length} points as a table${done ? "" : ", more to come"}`,
+    ),
+    scroll,
+  );
+  folded.open = Boolean(was_open);
+  return folded;
 }

@@ -1,59 +1,106 @@
-// The worker as the page sees it. The newest state wins: a worker that is still busy with an older one after `patience` is replaced.
-const client = {worker: null, module: null, id: 0, waiting: new Map(), busy: false, ready: null, list: null, since: 0};
-const patience = 1500;  // [ms]
+// The worker as the page sees it. The newest state wins: a worker that is still busy with an older
+// one after `patience` is replaced.
+const client = {
+  worker: null,
+  module: null,
+  id: 0,
+  waiting: new Map(),
+  busy: false,
+  ready: null,
+  list: null,
+  since: 0,
+};
+const patience = 1500; // [ms]
 
 async function unpacked(base64) {
-    const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
 
-const script_of = (...ids) => URL.createObjectURL(new Blob(ids.map(id => document.getElementById(id).textContent + "\n"), {type: "text/javascript"}));
+const script_of = (...ids) =>
+  URL.createObjectURL(
+    new Blob(
+      ids.map(id => document.getElementById(id).textContent + "\n"),
+      {type: "text/javascript"},
+    ),
+  );
 
 function start_worker() {
-    client.worker?.terminate();
-    for (const {reject} of client.waiting.values()) reject(new Stale_question());
-    client.waiting.clear();
-    client.busy = false;
-    const url = script_of("glue", "core", "worker"), worker = client.worker = new Worker(url);
-    client.ready = new Promise((resolve, reject) => {
-        worker.onerror = e => { e.preventDefault(); reject(new Error(e.message)); failed(e.message); };
-        worker.onmessage = ({data}) => {
-            if (data.kind === "ready") { client.list = data.list; URL.revokeObjectURL(url); resolve(); }
-            else if (data.kind === "answer") {
-                const waiting = client.waiting.get(data.id);
-                client.waiting.delete(data.id);
-                if (data.refused !== undefined) waiting?.reject(new Error(data.refused));
-                else waiting?.resolve(data.answer);
-            } else if (data.id === client.id) {
-                if (["charted", "refused", "unreferenced"].includes(data.kind)) client.busy = false;
-                shows[data.kind]?.(data);
-            }
-        };
-    });
-    worker.postMessage({wasm: client.module});
-    return client.ready;
+  client.worker?.terminate();
+  for (const {reject} of client.waiting.values()) reject(new Stale_question());
+  client.waiting.clear();
+  client.busy = false;
+  const url = script_of("glue", "core", "worker"),
+    worker = (client.worker = new Worker(url));
+  client.ready = new Promise((resolve, reject) => {
+    worker.onerror = e => {
+      e.preventDefault();
+      reject(new Error(e.message));
+      failed(e.message);
+    };
+    worker.onmessage = ({data}) => {
+      if (data.kind === "ready") {
+        client.list = data.list;
+        URL.revokeObjectURL(url);
+        resolve();
+      } else if (data.kind === "answer") {
+        const waiting = client.waiting.get(data.id);
+        client.waiting.delete(data.id);
+        if (data.refused !== undefined) waiting?.reject(new Error(data.refused));
+        else waiting?.resolve(data.answer);
+      } else if (data.id === client.id) {
+        if (["charted", "refused", "unreferenced"].includes(data.kind)) client.busy = false;
+        shows[data.kind]?.(data);
+      }
+    };
+  });
+  worker.postMessage({wasm: client.module});
+  return client.ready;
 }
 class Stale_question extends Error {}
 
 async function send_state() {
-    if (client.busy && performance.now() - client.since > patience) start_worker();
-    client.busy = true;
-    client.since = performance.now();
-    client.worker.postMessage({id: ++client.id, state: {text: scene_text(), overrides: overrides_of(state.set), scheme: state.scheme, rate: state.rate, modes: state.modes,
-        options: options_of(state.scheme, state.compliance), window: window_seconds, heard: heard_seconds, shape: shape_points, chart: chart_cells()}});
+  if (client.busy && performance.now() - client.since > patience) start_worker();
+  client.busy = true;
+  client.since = performance.now();
+  client.worker.postMessage({
+    id: ++client.id,
+    state: {
+      text: scene_text(),
+      overrides: overrides_of(state.set),
+      scheme: state.scheme,
+      rate: state.rate,
+      modes: state.modes,
+      options: options_of(state.scheme, state.compliance),
+      window: window_seconds,
+      heard: heard_seconds,
+      shape: shape_points,
+      chart: chart_cells(),
+    },
+  });
 }
-const options_of = (name, compliance) => descriptor(name)?.options.some(o => o.name === "compliance") ? [`compliance=${compliance}`] : [];
-const descriptor = name => [...client.list.schemes, ...client.list.references].find(d => d.name === name);
+const options_of = (name, compliance) =>
+  descriptor(name)?.options.some(o => o.name === "compliance") ? [`compliance=${compliance}`] : [];
+const descriptor = name =>
+  [...client.list.schemes, ...client.list.references].find(d => d.name === name);
 
 // A single question; it waits for what the worker has in hand.
 function ask(question, more = {}) {
-    const id = `q${++ask.count}`;
-    return new Promise((resolve, reject) => {
-        client.waiting.set(id, {resolve, reject});
-        client.worker.postMessage({question, id, ...more});
-    });
+  const id = `q${++ask.count}`;
+  return new Promise((resolve, reject) => {
+    client.waiting.set(id, {resolve, reject});
+    client.worker.postMessage({question, id, ...more});
+  });
 }
 ask.count = 0;
-const run_of = more => ({scene: scene_text(), overrides: overrides_of(state.set), scheme: state.scheme, rate: state.rate, modes: state.modes,
-    options: options_of(state.scheme, state.compliance), duration: run_seconds(), ...more});
+const run_of = more => ({
+  scene: scene_text(),
+  overrides: overrides_of(state.set),
+  scheme: state.scheme,
+  rate: state.rate,
+  modes: state.modes,
+  options: options_of(state.scheme, state.compliance),
+  duration: run_seconds(),
+  ...more,
+});

@@ -23,18 +23,10 @@ namespace {
 std::string text_of(double x) {  // JSON has no infinity: a number too large to be one reads as such
     return std::isnan(x) ? "null" : std::isinf(x) ? (x < 0 ? "-1e999" : "1e999") : number_text(x);
 }
-std::string text_of(const std::string& s) {
-    return quote(s);
-}
-std::string text_of(const char* s) {
-    return quote(s);
-}
-std::string text_of(bool b) {
-    return b ? "true" : "false";
-}
-std::string text_of(std::int64_t n) {
-    return std::to_string(n);
-}
+std::string text_of(const std::string& s) { return quote(s); }
+std::string text_of(const char* s) { return quote(s); }
+std::string text_of(bool b) { return b ? "true" : "false"; }
+std::string text_of(std::int64_t n) { return std::to_string(n); }
 
 template <class List, class Of>
 std::string array(const List& list, Of of) {
@@ -44,7 +36,8 @@ std::string array(const List& list, Of of) {
 }
 std::string text_of(const Matrix& m) {
     const auto row = [&m](std::int64_t r) {
-        return array(std::span(m.data + r * m.columns, static_cast<std::size_t>(m.columns)), [](double x) { return text_of(x); });
+        return array(std::span(m.data + r * m.columns, static_cast<std::size_t>(m.columns)),
+                     [](double x) { return text_of(x); });
     };
     if (m.rows < 0) return row(0);
     std::string rows;
@@ -93,7 +86,8 @@ std::string barrier_text(const Barrier& b, double length) {
             .text();
     const auto& profile = std::get<ProfileBarrier>(b);
     std::vector<double> x;
-    for (int k = 0; k <= 64; ++k) x.push_back(profile.from + (std::min(profile.to, length) - profile.from) * k / 64);
+    for (int k = 0; k <= 64; ++k)
+        x.push_back(profile.from + (std::min(profile.to, length) - profile.from) * k / 64);
     const std::vector<double> h = heights(profile.curve, x);
     return o.with("shape", "profile")
         .with("from", profile.from)
@@ -106,10 +100,18 @@ std::string barrier_text(const Barrier& b, double length) {
 }
 
 std::string initial_text(const ModeInitial& m) {
-    return Object().with("shape", "mode").with("number", static_cast<double>(m.number)).with("amplitude", m.amplitude).text();
+    return Object()
+        .with("shape", "mode")
+        .with("number", static_cast<double>(m.number))
+        .with("amplitude", m.amplitude)
+        .text();
 }
 std::string initial_text(const TriangleInitial& t) {
-    return Object().with("shape", "triangle").with("position", t.position).with("amplitude", t.amplitude).text();
+    return Object()
+        .with("shape", "triangle")
+        .with("position", t.position)
+        .with("amplitude", t.amplitude)
+        .text();
 }
 
 std::string string_text(const String& s) {
@@ -119,9 +121,15 @@ std::string string_text(const String& s) {
         .with("tension", s.tension)
         .with("bending_stiffness", s.bending_stiffness);
     o.with("pitch", pitch_of(s)).with("note", note_of(pitch_of(s)));
-    o.raw("barrier", array(s.barriers, [&s](const Barrier& b) { return barrier_text(b, s.length); }));
-    if (s.thread) o.raw("thread", Object().with("position", s.thread->position).with("height", s.thread->height).text());
-    if (s.initial) o.raw("initial", std::visit([](const auto& shape) { return initial_text(shape); }, *s.initial));
+    o.raw("barrier",
+          array(s.barriers, [&s](const Barrier& b) { return barrier_text(b, s.length); }));
+    if (s.thread)
+        o.raw(
+            "thread",
+            Object().with("position", s.thread->position).with("height", s.thread->height).text());
+    if (s.initial)
+        o.raw("initial",
+              std::visit([](const auto& shape) { return initial_text(shape); }, *s.initial));
     if (s.pluck)
         o.raw("pluck", Object()
                            .with("position", s.pluck->position)
@@ -134,13 +142,20 @@ std::string string_text(const String& s) {
 }  // namespace
 
 std::string list_text() {
-    return Object().raw("schemes", array(schemes(), scheme_text)).raw("references", array(references(), scheme_text)).text();
+    return Object()
+        .raw("schemes", array(schemes(), scheme_text))
+        .raw("references", array(references(), scheme_text))
+        .text();
 }
 
 std::string scene_text(const Scene& scene) {
     const Descriptor* reference = best_reference(scene);
     const auto tap = [](const Tap& t) {
-        return Object().with("name", t.name).with("quantity", name_of(t.quantity)).with("unit", unit_of(t.quantity)).text();
+        return Object()
+            .with("name", t.name)
+            .with("quantity", name_of(t.quantity))
+            .with("unit", unit_of(t.quantity))
+            .text();
     };
     std::vector<std::string> able;
     for (const Descriptor& d : schemes())
@@ -157,18 +172,22 @@ std::string scene_text(const Scene& scene) {
         .text();
 }
 
-// The string as arrays, for a scheme typed into the page: the members that every reader of arrays gets.
+// The string as arrays, for a scheme typed into the page: the members that every reader of arrays
+// gets.
 std::string problem_text(const Scene& scene, const Settings& settings) {
     refuse_beyond_arrays(scene);
     Object o;
     const Problem problem(scene, settings);
-    each_member(problem.arrays(), [&o](const char* name, const auto& value) { o.with(name, value); });
+    each_member(problem.arrays(),
+                [&o](const char* name, const auto& value) { o.with(name, value); });
     return o.text();
 }
 
 std::string run_text(const Run& r, const Scene& scene, int modes, Balance promised) {
     const Figures figures = figures_of(promised, scene, modes, r);
-    const auto fact = [](const Fact& f) { return Object().with("name", f.name).with("value", f.value).with("unit", f.unit).text(); };
+    const auto fact = [](const Fact& f) {
+        return Object().with("name", f.name).with("value", f.value).with("unit", f.unit).text();
+    };
     return Object()
         .with("outcome", name_of(r.status.outcome))
         .with("step", static_cast<double>(r.status.step))
@@ -178,7 +197,8 @@ std::string run_text(const Run& r, const Scene& scene, int modes, Balance promis
         .with("dofs", static_cast<double>(r.dofs))
         .with("wall", r.wall_seconds)
         .with("residual", figures.energy_residual_accumulated)
-        .with("verdict", name_of(verdict_of(figures, promised, std::numeric_limits<double>::quiet_NaN())))
+        .with("verdict",
+              name_of(verdict_of(figures, promised, std::numeric_limits<double>::quiet_NaN())))
         .raw("taps", array(r.trace.names, [](const std::string& n) { return quote(n); }))
         .raw("facts", array(r.facts, fact))
         .text();

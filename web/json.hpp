@@ -9,10 +9,14 @@
 
 namespace jvari::web {
 
-std::string list_text();                                                      // schemes and references with their options
-std::string scene_text(const Scene&);                                         // what is drawn and moved of it
-std::string problem_text(const Scene&, const Settings&);                      // its modes, contacts, thread, pluck and taps as arrays
-std::string run_text(const Run&, const Scene&, int modes, Balance promised);  // how it ended and is judged, its cost here, its facts
-std::string choice_text(const Choice&);                                       // by places
+// schemes and references with their options
+std::string list_text();
+// what is drawn and moved of it
+std::string scene_text(const Scene&);
+// its modes, contacts, thread, pluck and taps as arrays
+std::string problem_text(const Scene&, const Settings&);
+// how it ended and is judged, its cost here, its facts
+std::string run_text(const Run&, const Scene&, int modes, Balance promised);
+std::string choice_text(const Choice&);  // by places
 
 }  // namespace jvari::web

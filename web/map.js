@@ -1,64 +1,127 @@
-// Where a scheme fails: its outcome over the stiffness of the obstacle and the sample rate, filled column by column while you watch.
+// Where a scheme fails: its outcome over the stiffness of the obstacle and the sample rate, filled
+// column by column while you watch.
 const map = {number: 0, columns: [], stiffness: [], rates: [], running: false};
-const map_size = {columns: 28, rows: 13}, map_seconds = 0.02;
+const map_size = {columns: 28, rows: 13},
+  map_seconds = 0.02;
 
 async function fill_map() {
-    const number = ++map.number, base = shown.scene?.string[0].barrier[0];
-    map.columns = [];
-    if (!base) return draw_map("This string has no obstacle.");
-    const middle = Math.log10(map.around ??= base.stiffness);
-    map.stiffness = Array.from({length: map_size.columns}, (_, k) => 10 ** (middle - 3 + 5 * k / (map_size.columns - 1)));
-    map.rates = Array.from({length: map_size.rows}, (_, k) => Math.round(22050 * 2 ** (k / 3)));
-    map.running = true;
-    for (const stiffness of map.stiffness) {
-        const overrides = overrides_of({...state.set, "string.0.barrier.0.stiffness": stiffness.toPrecision(6)});
-        try {
-            const runs = map.rates.map(rate => run_of({overrides, rate, tap_rate: rate, duration: map_seconds}));
-            const column = await ask("outcomes", {runs});
-            if (number !== map.number) return;
-            map.columns.push(column);
-            draw_map();
-        } catch {
-            return;  // the worker was replaced, and the map is asked for anew
-        }
+  const number = ++map.number,
+    base = shown.scene?.string[0].barrier[0];
+  map.columns = [];
+  if (!base) return draw_map("This string has no obstacle.");
+  const middle = Math.log10((map.around ??= base.stiffness));
+  map.stiffness = Array.from(
+    {length: map_size.columns},
+    (_, k) => 10 ** (middle - 3 + (5 * k) / (map_size.columns - 1)),
+  );
+  map.rates = Array.from({length: map_size.rows}, (_, k) => Math.round(22050 * 2 ** (k / 3)));
+  map.running = true;
+  for (const stiffness of map.stiffness) {
+    const overrides = overrides_of({
+      ...state.set,
+      "string.0.barrier.0.stiffness": stiffness.toPrecision(6),
+    });
+    try {
+      const runs = map.rates.map(rate =>
+        run_of({overrides, rate, tap_rate: rate, duration: map_seconds}),
+      );
+      const column = await ask("outcomes", {runs});
+      if (number !== map.number) return;
+      map.columns.push(column);
+      draw_map();
+    } catch {
+      return; // the worker was replaced, and the map is asked for anew
     }
-    map.running = false;
-    draw_map();
+  }
+  map.running = false;
+  draw_map();
 }
 
 // The outcomes of the program's maps (analysis/judgement.hpp), each with its colour.
-const kinds = {sound: "sound", flagged: "flagged", energy_gaining: "gains", adhesive: "force", diverged: "fails", not_converged: "stuck", unjudged: "soft", refused: "none"};
+const kinds = {
+  sound: "sound",
+  flagged: "flagged",
+  energy_gaining: "gains",
+  adhesive: "force",
+  diverged: "fails",
+  not_converged: "stuck",
+  unjudged: "soft",
+  refused: "none",
+};
 
 function draw_map(note = "") {
-    const {pen, width, height} = canvas_of("map"), left = 58, bottom = 34, across = (width - left - 8) / map_size.columns, up = (height - bottom - 6) / map_size.rows;
-    map.columns.forEach((column, k) => column.forEach((cell, n) => {
-        pen.fillStyle = colour(kinds[cell]);
-        pen.fillRect(left + k * across, 6 + (map_size.rows - 1 - n) * up, Math.ceil(across) - 0.5, Math.ceil(up) - 0.5);
-    }));
-    pen.fillStyle = colour("soft");
-    map.rates.forEach((rate, n) => { if (n % 3 === 0) pen.fillText(`${(rate / 1e3).toPrecision(3)} kHz`, 4, 6 + (map_size.rows - 0.5 - n) * up + 4); });
-    map.stiffness.forEach((k, n) => { if (n % 6 === 3) pen.fillText(k.toExponential(0).replace("e+", "e"), left + n * across - 8, height - 18); });
-    pen.fillText("stiffness of the obstacle", left + (width - left) / 2 - 60, height - 3);
-    const stiffness = shown.scene?.string[0].barrier[0]?.stiffness;
-    if (stiffness && map.stiffness.length) {
-        const k = (Math.log10(stiffness) - Math.log10(map.stiffness[0])) / (Math.log10(map.stiffness.at(-1)) - Math.log10(map.stiffness[0])) * (map_size.columns - 1), n = 3 * Math.log2(state.rate / 22050);
-        pen.strokeStyle = colour("ink");
-        pen.lineWidth = 2;
-        pen.beginPath(), pen.arc(left + (k + 0.5) * across, 6 + (map_size.rows - 0.5 - n) * up, 7, 0, 7), pen.stroke();
-    }
-    const cells = map.columns.flat(), count = kind => cells.filter(c => c === kind).length, found = Object.keys(kinds).filter(count);
-    const told = note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs of ${1e3 * map_seconds} ms. ${found.map(kind => `${kind.replace("_", " ")}: ${count(kind)}`).join("; ")}.`;
-    document.getElementById("map_legend").replaceChildren(...found.flatMap(kind => [element("span", {className: "key", style: `background: var(--${kinds[kind]})`}), ` ${kind.replace("_", " ")} `]));
-    document.getElementById("map_said").textContent = told;
-    document.getElementById("map").setAttribute("aria-label", `map of outcomes over stiffness and sample rate. ${told}`);
+  const {pen, width, height} = canvas_of("map"),
+    left = 58,
+    bottom = 34,
+    across = (width - left - 8) / map_size.columns,
+    up = (height - bottom - 6) / map_size.rows;
+  map.columns.forEach((column, k) =>
+    column.forEach((cell, n) => {
+      pen.fillStyle = colour(kinds[cell]);
+      pen.fillRect(
+        left + k * across,
+        6 + (map_size.rows - 1 - n) * up,
+        Math.ceil(across) - 0.5,
+        Math.ceil(up) - 0.5,
+      );
+    }),
+  );
+  pen.fillStyle = colour("soft");
+  map.rates.forEach((rate, n) => {
+    if (n % 3 === 0)
+      pen.fillText(`${(rate / 1e3).toPrecision(3)} kHz`, 4, 6 + (map_size.rows - 0.5 - n) * up + 4);
+  });
+  map.stiffness.forEach((k, n) => {
+    if (n % 6 === 3)
+      pen.fillText(k.toExponential(0).replace("e+", "e"), left + n * across - 8, height - 18);
+  });
+  pen.fillText("stiffness of the obstacle", left + (width - left) / 2 - 60, height - 3);
+  const stiffness = shown.scene?.string[0].barrier[0]?.stiffness;
+  if (stiffness && map.stiffness.length) {
+    const k =
+        ((Math.log10(stiffness) - Math.log10(map.stiffness[0])) /
+          (Math.log10(map.stiffness.at(-1)) - Math.log10(map.stiffness[0]))) *
+        (map_size.columns - 1),
+      n = 3 * Math.log2(state.rate / 22050);
+    pen.strokeStyle = colour("ink");
+    pen.lineWidth = 2;
+    (pen.beginPath(),
+      pen.arc(left + (k + 0.5) * across, 6 + (map_size.rows - 0.5 - n) * up, 7, 0, 7),
+      pen.stroke());
+  }
+  const cells = map.columns.flat(),
+    count = kind => cells.filter(c => c === kind).length,
+    found = Object.keys(kinds).filter(count);
+  const told =
+    note ||
+    `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs of ` +
+      `${1e3 * map_seconds} ms. ` +
+      `${found.map(kind => `${kind.replace("_", " ")}: ${count(kind)}`).join("; ")}.`;
+  document
+    .getElementById("map_legend")
+    .replaceChildren(
+      ...found.flatMap(kind => [
+        element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
+        ` ${kind.replace("_", " ")} `,
+      ]),
+    );
+  document.getElementById("map_said").textContent = told;
+  document
+    .getElementById("map")
+    .setAttribute("aria-label", `map of outcomes over stiffness and sample rate. ${told}`);
 }
 
 function watch_map() {
-    const canvas = document.getElementById("map");
-    canvas.onclick = e => {
-        const box = canvas.getBoundingClientRect(), left = 58, across = (box.width - left - 8) / map_size.columns, k = Math.floor((e.clientX - box.left - left) / across);
-        if (map.stiffness[k]) move_handle("bridge_stiffness", map.stiffness[k]);
-    };
-    const part = document.getElementById("map_part");
-    part.ontoggle = () => { if (part.open) fill_map(); };
+  const canvas = document.getElementById("map");
+  canvas.onclick = e => {
+    const box = canvas.getBoundingClientRect(),
+      left = 58,
+      across = (box.width - left - 8) / map_size.columns,
+      k = Math.floor((e.clientX - box.left - left) / across);
+    if (map.stiffness[k]) move_handle("bridge_stiffness", map.stiffness[k]);
+  };
+  const part = document.getElementById("map_part");
+  part.ontoggle = () => {
+    if (part.open) fill_map();
+  };
 }

@@ -1,6 +1,8 @@
-// A scheme typed into the page. It runs in a worker of its own: no page, no network (the page's policy forbids it), and no longer than two seconds.
-const own_limit = 2000;  // [ms]
-const own_example = `// p holds the string as arrays; return one array of p.rows numbers for each tap.
+// A scheme typed into the page. It runs in a worker of its own: no page, no network (the page's
+// policy forbids it), and no longer than two seconds.
+const own_limit = 2000; // [ms]
+// p holds the string as arrays; return one array of p.rows numbers for each tap.
+const own_example = `
 // This is the modal two-point scheme with one contact, van Walstijn et al. 2016, eqs 33-48.
 const dt = 1 / p.sample_rate, M = p.modes, g = p.contact_weights[0], c = p.threads ? p.thread_weights : g.map(() => 0);
 const a = [], xi = [], y = [...p.start], q = y.map(() => 0), taps = p.tap_names.map(() => []);
@@ -23,7 +25,8 @@ for (let row = 0; row < p.rows; ++row) {
     const s = y.map((_, i) => 2 * (q[i] - a[i].a * y[i]) / (1 + a[i].a + a[i].b));
     const vc = (p.thread_stiffness * (p.thread_height - dot(c, y)) - kc * dot(c, s)) / (1 + kc * cc);
     const d = p.contact_height[0] - dot(g, y), free = dot(g, s) + bc * vc;
-    let lo = 0, hi = k * (Math.abs(d) + Math.abs(free)) + 1;  // F = (V(d - r) - V(d))/-r, r = free + theta F
+    // F = (V(d - r) - V(d))/-r, r = free + theta F
+    let lo = 0, hi = k * (Math.abs(d) + Math.abs(free)) + 1;
     for (let n = 0; n < 60; ++n) {
       const F = (lo + hi) / 2, r = free + theta * F, mean = Math.abs(r) < 1e-18 ? k * Math.max(0, d) : (V(d) - V(d - r)) / r;
       if (mean > F) lo = F; else hi = F;
@@ -36,47 +39,100 @@ for (let row = 0; row < p.rows; ++row) {
 return taps;
 `;
 
-// The text as a worker's own script; what it says comes back as a message, what it throws as an error.
+// The text as a worker's own script; what it says comes back as a message, what it throws as an
+// error.
 function own_worker(text) {
-    const script = `"use strict"; onmessage = ({data: p}) => {
+  const script = `"use strict"; onmessage = ({data: p}) => {
         const began = performance.now(), taps = scheme(p), took = (performance.now() - began) / 1e3;
         if (!Array.isArray(taps) || taps.length !== p.taps) throw new Error("it has to return an array for each of the " + p.taps + " taps");
         postMessage({taps: taps.map((t, k) => { if (t?.length !== p.rows) throw new Error("the array of tap " + p.tap_names[k] + " has " + t?.length + " rows, expected " + p.rows); return Float64Array.from(t); }), took});
     };\nfunction scheme(p) {\n${text}\n}`;
-    const url = URL.createObjectURL(new Blob([script], {type: "text/javascript"})), worker = new Worker(url);
-    return {worker, free: () => { worker.terminate(); URL.revokeObjectURL(url); }};
+  const url = URL.createObjectURL(new Blob([script], {type: "text/javascript"})),
+    worker = new Worker(url);
+  return {
+    worker,
+    free: () => {
+      worker.terminate();
+      URL.revokeObjectURL(url);
+    },
+  };
 }
 
 function run_own(text, problem) {
-    const {worker, free} = own_worker(text);
-    return new Promise((resolve, reject) => {
-        const late = setTimeout(() => reject(new Error(`it was stopped after ${own_limit / 1e3} s. Make it faster, or write it as a plugin of the program`)), own_limit);
-        worker.onmessage = ({data}) => { clearTimeout(late); resolve(data); };
-        worker.onerror = e => { e.preventDefault(); clearTimeout(late); reject(new Error(`line ${Math.max(1, e.lineno - 6)}: ${e.message}`)); };
-        worker.postMessage(problem);
-    }).finally(free);
+  const {worker, free} = own_worker(text);
+  return new Promise((resolve, reject) => {
+    const late = setTimeout(
+      () =>
+        reject(
+          new Error(
+            `it was stopped after ${own_limit / 1e3} s. Make it faster, or write it as a ` +
+              "plugin of the program",
+          ),
+        ),
+      own_limit,
+    );
+    worker.onmessage = ({data}) => {
+      clearTimeout(late);
+      resolve(data);
+    };
+    worker.onerror = e => {
+      e.preventDefault();
+      clearTimeout(late);
+      reject(new Error(`line ${Math.max(1, e.lineno - 6)}: ${e.message}`));
+    };
+    worker.postMessage(problem);
+  }).finally(free);
 }
 
 async function judge_own() {
-    const said = document.getElementById("own_said"), text = document.getElementById("own_text").value;
-    if (!shown.reference) { said.textContent = "It needs a reference solution, and there is none yet."; return; }
-    chart.own = [];
-    said.textContent = "It runs.";
-    for (const rate of chart_rates.slice(0, 2)) {
-        try {
-            const problem = await ask("problem", {text: scene_text(), overrides: overrides_of(state.set), rate, modes: state.modes, duration: run_seconds()});
-            const {taps, took} = await run_own(text, problem), nut = Math.max(0, problem.tap_quantities.indexOf("nut_force")), exact = shown.reference.nut;
-            const last = exact.length - 1;  // the window ends before its last row
-            let apart = 0, of = 0;
-            for (let n = Math.ceil(shown.scene.free_from * 44100 - 1e-6); n < last; ++n) apart += (taps[nut][n] - exact[n]) ** 2, of += exact[n] ** 2;
-            const error = Math.sqrt(apart / of);
-            chart.own.push({scheme: "mine", compliance: "", rate, error, uncertainty: shown.verdict.uncertainty, outcome: Number.isFinite(error) ? "ok" : "diverged", cost: took / run_seconds()});
-            said.textContent = chart.own.map(p => `${p.rate / 1e3} kHz: ${percent(p.error)} error`).join("; ") + ". The built-in modal_two_point has " +
-                (chart.points.filter(p => p.scheme === "modal_two_point" && p.compliance === "own").slice(0, chart.own.length).map(p => percent(p.error)).join(" and ") || "no point here") + ".";
-        } catch (error) {
-            said.textContent = `At ${rate / 1e3} kHz: ${error.message}.`;
-            break;
-        }
+  const said = document.getElementById("own_said"),
+    text = document.getElementById("own_text").value;
+  if (!shown.reference) {
+    said.textContent = "It needs a reference solution, and there is none yet.";
+    return;
+  }
+  chart.own = [];
+  said.textContent = "It runs.";
+  for (const rate of chart_rates.slice(0, 2)) {
+    try {
+      const problem = await ask("problem", {
+        text: scene_text(),
+        overrides: overrides_of(state.set),
+        rate,
+        modes: state.modes,
+        duration: run_seconds(),
+      });
+      const {taps, took} = await run_own(text, problem),
+        nut = Math.max(0, problem.tap_quantities.indexOf("nut_force")),
+        exact = shown.reference.nut;
+      const last = exact.length - 1; // the window ends before its last row
+      let apart = 0,
+        of = 0;
+      for (let n = Math.ceil(shown.scene.free_from * 44100 - 1e-6); n < last; ++n)
+        ((apart += (taps[nut][n] - exact[n]) ** 2), (of += exact[n] ** 2));
+      const error = Math.sqrt(apart / of);
+      chart.own.push({
+        scheme: "mine",
+        compliance: "",
+        rate,
+        error,
+        uncertainty: shown.verdict.uncertainty,
+        outcome: Number.isFinite(error) ? "ok" : "diverged",
+        cost: took / run_seconds(),
+      });
+      said.textContent =
+        chart.own.map(p => `${p.rate / 1e3} kHz: ${percent(p.error)} error`).join("; ") +
+        ". The built-in modal_two_point has " +
+        (chart.points
+          .filter(p => p.scheme === "modal_two_point" && p.compliance === "own")
+          .slice(0, chart.own.length)
+          .map(p => percent(p.error))
+          .join(" and ") || "no point here") +
+        ".";
+    } catch (error) {
+      said.textContent = `At ${rate / 1e3} kHz: ${error.message}.`;
+      break;
     }
-    draw_chart(true);
+  }
+  draw_chart(true);
 }

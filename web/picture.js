@@ -1,214 +1,317 @@
-// The string over its bridge, slowed down: the scheme's in colour, the exact solution in black; and the force, the energy and the error of that moment.
+// The string over its bridge, slowed down: the scheme's in colour, the exact solution in black; and
+// the force, the energy and the error of that moment.
 const shown = {scene: null, motion: null, reference: null, verdict: null};
 const film = {at: 0, playing: true, slowed: 200, last: 0, zoomed: false, dragged: null};
-const colour = name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const colour = name =>
+  getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 // A canvas at the screen's own resolution, cleared; its size in CSS pixels.
 function canvas_of(id) {
-    const canvas = document.getElementById(id), pen = canvas.getContext("2d"), scale = devicePixelRatio || 1, {clientWidth: width, clientHeight: height} = canvas;
-    if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) canvas.width = Math.round(width * scale), canvas.height = Math.round(height * scale);
-    pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.clearRect(0, 0, width, height);
-    pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
-    return {pen, width, height};
+  const canvas = document.getElementById(id),
+    pen = canvas.getContext("2d"),
+    scale = devicePixelRatio || 1,
+    {clientWidth: width, clientHeight: height} = canvas;
+  if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale))
+    ((canvas.width = Math.round(width * scale)), (canvas.height = Math.round(height * scale)));
+  pen.setTransform(scale, 0, 0, scale, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
+  return {pen, width, height};
 }
 
-// ---- The view: metres to pixels. The deflection is drawn larger than it is, by the factor that the picture names.
+// ---- The view: metres to pixels. The deflection is drawn larger than it is, by the factor that
+// the picture names.
 
 function view_of(width, height) {
-    const s = shown.scene.string[0], length = film.zoomed ? zoom_length(s) : s.length, margin = 26;
-    const most = film.most || 1e-3, middle = height * (film.zoomed ? 0.5 : 0.58);
-    const across = (width - 2 * margin) / length, up = (height * 0.4) / (film.zoomed ? most * Math.min(1, 3 * length / s.length) : most);
-    return {x: v => margin + v * across, y: v => middle - v * up, back_x: px => (px - margin) / across, back_y: py => (middle - py) / up, exaggerated: up / across, length, width, height};
+  const s = shown.scene.string[0],
+    length = film.zoomed ? zoom_length(s) : s.length,
+    margin = 26;
+  const most = film.most || 1e-3,
+    middle = height * (film.zoomed ? 0.5 : 0.58);
+  const across = (width - 2 * margin) / length,
+    up = (height * 0.4) / (film.zoomed ? most * Math.min(1, (3 * length) / s.length) : most);
+  return {
+    x: v => margin + v * across,
+    y: v => middle - v * up,
+    back_x: px => (px - margin) / across,
+    back_y: py => (middle - py) / up,
+    exaggerated: up / across,
+    length,
+    width,
+    height,
+  };
 }
 function zoom_length(s) {
-    const b = s.barrier[0];
-    return b ? Math.min(s.length, 2.5 * (b.shape === "lumped" ? Math.max(b.position, s.thread?.position ?? 0) : b.to)) : 0.1 * s.length;
+  const b = s.barrier[0];
+  return b
+    ? Math.min(
+        s.length,
+        2.5 * (b.shape === "lumped" ? Math.max(b.position, s.thread?.position ?? 0) : b.to),
+      )
+    : 0.1 * s.length;
 }
 function largest_deflection(pictures) {
-    let most = 1e-6;
-    for (const p of pictures) if (p) for (const y of p.shape) if (Math.abs(y) > most && Math.abs(y) < 1) most = Math.abs(y);
-    return most;
+  let most = 1e-6;
+  for (const p of pictures)
+    if (p) for (const y of p.shape) if (Math.abs(y) > most && Math.abs(y) < 1) most = Math.abs(y);
+  return most;
 }
 
 // ---- What stands still.
 
 function draw_obstacles(pen, v) {
-    const s = shown.scene.string[0], floor = v.height - 2;
-    pen.fillStyle = colour("wood");
-    for (const b of s.barrier) {
-        pen.beginPath();
-        if (b.shape === "lumped") {
-            const half = Math.max(4, v.x(b.width / 2) - v.x(0)), x = v.x(b.position), y = Math.min(floor, v.y(b.height));
-            pen.moveTo(x - half, y), pen.lineTo(x + half, y), pen.lineTo(x + half + 7, floor), pen.lineTo(x - half - 7, floor);
-        } else {
-            pen.moveTo(v.x(b.x[0]), floor);
-            b.x.forEach((x, k) => pen.lineTo(v.x(x), Math.min(floor, v.y(b.height[k]))));
-            pen.lineTo(v.x(b.x.at(-1)), floor);
-        }
-        pen.fill();
+  const s = shown.scene.string[0],
+    floor = v.height - 2;
+  pen.fillStyle = colour("wood");
+  for (const b of s.barrier) {
+    pen.beginPath();
+    if (b.shape === "lumped") {
+      const half = Math.max(4, v.x(b.width / 2) - v.x(0)),
+        x = v.x(b.position),
+        y = Math.min(floor, v.y(b.height));
+      (pen.moveTo(x - half, y),
+        pen.lineTo(x + half, y),
+        pen.lineTo(x + half + 7, floor),
+        pen.lineTo(x - half - 7, floor));
+    } else {
+      pen.moveTo(v.x(b.x[0]), floor);
+      b.x.forEach((x, k) => pen.lineTo(v.x(x), Math.min(floor, v.y(b.height[k]))));
+      pen.lineTo(v.x(b.x.at(-1)), floor);
     }
-    if (s.thread) {
-        pen.strokeStyle = colour("thread");
-        pen.lineWidth = 3;
-        pen.beginPath();
-        pen.moveTo(v.x(s.thread.position), v.y(s.thread.height)), pen.lineTo(v.x(s.thread.position), floor);
-        pen.stroke();
-    }
-    pen.fillStyle = colour("ink");
-    for (const x of [0, s.length]) if (x <= v.length) pen.beginPath(), pen.arc(v.x(x), v.y(0), 4, 0, 7), pen.fill();
+    pen.fill();
+  }
+  if (s.thread) {
+    pen.strokeStyle = colour("thread");
+    pen.lineWidth = 3;
+    pen.beginPath();
+    (pen.moveTo(v.x(s.thread.position), v.y(s.thread.height)),
+      pen.lineTo(v.x(s.thread.position), floor));
+    pen.stroke();
+  }
+  pen.fillStyle = colour("ink");
+  for (const x of [0, s.length])
+    if (x <= v.length) (pen.beginPath(), pen.arc(v.x(x), v.y(0), 4, 0, 7), pen.fill());
 }
 
 // The motion on row `row`, a fraction of which is drawn between its neighbours.
 function draw_string(pen, v, picture, row, stroke, dash) {
-    const n = Math.min(Math.floor(row), picture.rows - 1), next = Math.min(n + 1, picture.rows - 1), part = row - n, s = shown.scene.string[0];
-    const of = k => (1 - part) * picture.shape[n * picture.points + k] + part * picture.shape[next * picture.points + k];
-    pen.strokeStyle = stroke;
-    pen.lineWidth = 2;
-    pen.setLineDash(dash);
-    pen.beginPath();
-    pen.moveTo(v.x(0), v.y(0));
-    for (let k = 0; k < picture.points; ++k) {
-        const x = s.length * shape_points[k];
-        pen.lineTo(v.x(x), v.y(of(k)));
-        if (x > v.length) break;
-    }
-    if (s.length <= v.length) pen.lineTo(v.x(s.length), v.y(0));
-    pen.stroke();
-    pen.setLineDash([]);
+  const n = Math.min(Math.floor(row), picture.rows - 1),
+    next = Math.min(n + 1, picture.rows - 1),
+    part = row - n,
+    s = shown.scene.string[0];
+  const of = k =>
+    (1 - part) * picture.shape[n * picture.points + k] +
+    part * picture.shape[next * picture.points + k];
+  pen.strokeStyle = stroke;
+  pen.lineWidth = 2;
+  pen.setLineDash(dash);
+  pen.beginPath();
+  pen.moveTo(v.x(0), v.y(0));
+  for (let k = 0; k < picture.points; ++k) {
+    const x = s.length * shape_points[k];
+    pen.lineTo(v.x(x), v.y(of(k)));
+    if (x > v.length) break;
+  }
+  if (s.length <= v.length) pen.lineTo(v.x(s.length), v.y(0));
+  pen.stroke();
+  pen.setLineDash([]);
 }
 
-function draw_force(pen, v, picture, row) {  // of the first barrier, as an arrow
-    const b = shown.scene.string[0].barrier[0], n = Math.min(Math.round(row), picture.rows - 1), force = picture.force?.[n];
-    if (!b || !(force > 0.02 * film.most_force)) return;
-    const x = v.x(b.shape === "lumped" ? b.position : (b.from + b.to) / 2), y = v.y(b.shape === "lumped" ? b.height : b.height[32]), length = 12 + 40 * Math.min(1, force / film.most_force);
-    pen.strokeStyle = pen.fillStyle = colour("force");
-    pen.lineWidth = 3;
-    pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, y - length), pen.stroke();
-    pen.fillText(`${digits(force)} N`, x + 8, y - length + 4);
+function draw_force(pen, v, picture, row) {
+  // of the first barrier, as an arrow
+  const b = shown.scene.string[0].barrier[0],
+    n = Math.min(Math.round(row), picture.rows - 1),
+    force = picture.force?.[n];
+  if (!b || !(force > 0.02 * film.most_force)) return;
+  const x = v.x(b.shape === "lumped" ? b.position : (b.from + b.to) / 2),
+    y = v.y(b.shape === "lumped" ? b.height : b.height[32]),
+    length = 12 + 40 * Math.min(1, force / film.most_force);
+  pen.strokeStyle = pen.fillStyle = colour("force");
+  pen.lineWidth = 3;
+  (pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, y - length), pen.stroke());
+  pen.fillText(`${digits(force)} N`, x + 8, y - length + 4);
 }
 
 // ---- Handles that are dragged on the picture: each moves a slider in x and another in y.
 
 function grips(v) {
-    const s = shown.scene.string[0], b = point_of(s), all = [];
-    if (b) all.push({x: b.position, y: b.height, across: "bridge_position", up: "bridge_height", name: "bridge"});
-    if (s.thread) all.push({x: s.thread.position, y: s.thread.height, across: "thread_position", name: "thread"});
-    if (s.pluck) all.push({x: s.pluck.position, y: 0, across: "pluck_position", name: "pluck"});
-    if (s.initial) all.push({x: s.initial.position ?? s.length / 2, y: s.initial.amplitude, across: s.initial.position ? "corner_position" : null, up: "start_amplitude", name: "release"});
-    return all.filter(g => g.x <= v.length);
+  const s = shown.scene.string[0],
+    b = point_of(s),
+    all = [];
+  if (b)
+    all.push({
+      x: b.position,
+      y: b.height,
+      across: "bridge_position",
+      up: "bridge_height",
+      name: "bridge",
+    });
+  if (s.thread)
+    all.push({x: s.thread.position, y: s.thread.height, across: "thread_position", name: "thread"});
+  if (s.pluck) all.push({x: s.pluck.position, y: 0, across: "pluck_position", name: "pluck"});
+  if (s.initial)
+    all.push({
+      x: s.initial.position ?? s.length / 2,
+      y: s.initial.amplitude,
+      across: s.initial.position ? "corner_position" : null,
+      up: "start_amplitude",
+      name: "release",
+    });
+  return all.filter(g => g.x <= v.length);
 }
 function draw_grips(pen, v) {
-    for (const g of grips(v)) {
-        pen.strokeStyle = colour("key");
-        pen.fillStyle = colour("paper");
-        pen.lineWidth = 2;
-        pen.beginPath(), pen.arc(v.x(g.x), v.y(g.y), 6, 0, 7), pen.fill(), pen.stroke();
-    }
+  for (const g of grips(v)) {
+    pen.strokeStyle = colour("key");
+    pen.fillStyle = colour("paper");
+    pen.lineWidth = 2;
+    (pen.beginPath(), pen.arc(v.x(g.x), v.y(g.y), 6, 0, 7), pen.fill(), pen.stroke());
+  }
 }
 
 function draw_picture() {
-    const {pen, width, height} = canvas_of("string");
-    if (!shown.scene) return;
-    const v = view_of(width, height);
-    draw_obstacles(pen, v);
-    if (shown.reference) draw_string(pen, v, shown.reference, film.at, colour("ink"), []);
-    if (shown.motion) draw_string(pen, v, shown.motion, film.at, colour("key"), shown.reference ? [6, 4] : []);
-    if (shown.motion) draw_force(pen, v, shown.motion, film.at);
-    draw_grips(pen, v);
-    pen.fillStyle = colour("soft");
-    const rate = shown.motion?.rate ?? 44100, note = `${(1e3 * film.at / rate).toFixed(1)} ms, slowed ${film.slowed} times, deflection × ${digits(v.exaggerated).toPrecision(2)}`;
-    pen.fillText(width < 500 ? note.split(",")[0] : note, 10, 18);
-    draw_graphs();
+  const {pen, width, height} = canvas_of("string");
+  if (!shown.scene) return;
+  const v = view_of(width, height);
+  draw_obstacles(pen, v);
+  if (shown.reference) draw_string(pen, v, shown.reference, film.at, colour("ink"), []);
+  if (shown.motion)
+    draw_string(pen, v, shown.motion, film.at, colour("key"), shown.reference ? [6, 4] : []);
+  if (shown.motion) draw_force(pen, v, shown.motion, film.at);
+  draw_grips(pen, v);
+  pen.fillStyle = colour("soft");
+  const rate = shown.motion?.rate ?? 44100,
+    note =
+      `${((1e3 * film.at) / rate).toFixed(1)} ms, slowed ${film.slowed} times, deflection × ` +
+      `${digits(v.exaggerated).toPrecision(2)}`;
+  pen.fillText(width < 500 ? note.split(",")[0] : note, 10, 18);
+  draw_graphs();
 }
 
 // ---- Three curves over the window, with a line at the moment that is drawn.
 
 function draw_graphs() {
-    const {pen, width, height} = canvas_of("graphs"), {motion, reference} = shown;
-    if (!motion) return;
-    const least = (a, b) => reference ? Float64Array.from(a, (x, n) => Math.abs(x - b[n])) : null;
-    const most_nut = reference ? reference.nut.reduce((m, x) => Math.max(m, Math.abs(x)), 0) : 1;
-    const lines = [
-        {title: "force of the obstacle [N]", scheme: motion.force, exact: reference?.force},
-        {title: "energy stored [mJ]", scheme: motion.stored, exact: reference?.stored, times: 1e3, from_zero: true},
-        {title: "error of the force on the nut [%]", scheme: least(motion.nut, reference?.nut), times: 100 / most_nut, from_zero: true}
-    ].filter(l => l.scheme?.length);
-    const each = width / lines.length, rows = motion.rows, title = text => each < 190 ? text.replace(/ (of the|stored).* \[/, " [") : text;
-    lines.forEach((line, k) => {
-        const left = k * each + 6, right = (k + 1) * each - 14, top = 24, bottom = height - 16, times = line.times ?? 1;
-        let most = 0;
-        for (const series of [line.scheme, line.exact]) if (series) for (const y of series) if (Number.isFinite(y)) most = Math.max(most, Math.abs(y * times));
-        most = most || 1;
-        pen.fillStyle = colour("soft");
-        pen.fillText(title(line.title), left, 12);
-        pen.fillText(String(digits(most).toPrecision(2) * 1), left + 2, top + 9);
-        pen.strokeStyle = colour("line");
-        pen.lineWidth = 1;
-        pen.beginPath(), pen.moveTo(left, bottom), pen.lineTo(right, bottom), pen.stroke();
-        const curve = (series, stroke, dash) => {
-            pen.strokeStyle = stroke;
-            pen.lineWidth = 1.3;
-            pen.setLineDash(dash);
-            pen.beginPath();
-            const step = Math.max(1, Math.floor(series.length / (right - left) / 2));
-            for (let n = 0; n < series.length; n += step) {
-                let y = series[n];
-                for (let j = n; j < Math.min(n + step, series.length); ++j) if (Math.abs(series[j]) > Math.abs(y)) y = series[j];
-                pen.lineTo(left + (right - left) * n / (series.length - 1), bottom - (bottom - top) * Math.max(0, Math.min(1.1, y * times / most)));
-            }
-            pen.stroke();
-            pen.setLineDash([]);
-        };
-        if (line.exact) curve(line.exact, colour("ink"), []);
-        curve(line.scheme, colour("key"), line.exact ? [4, 3] : []);
-        const x = left + (right - left) * film.at / (rows - 1);
-        pen.strokeStyle = colour("force");
-        pen.beginPath(), pen.moveTo(x, top), pen.lineTo(x, bottom), pen.stroke();
-        pen.fillStyle = colour("soft");
-        pen.fillText("0", left, height - 3), pen.fillText(`${digits(1e3 * run_seconds())} ms`, right - 34, height - 3);
-    });
+  const {pen, width, height} = canvas_of("graphs"),
+    {motion, reference} = shown;
+  if (!motion) return;
+  const least = (a, b) => (reference ? Float64Array.from(a, (x, n) => Math.abs(x - b[n])) : null);
+  const most_nut = reference ? reference.nut.reduce((m, x) => Math.max(m, Math.abs(x)), 0) : 1;
+  const lines = [
+    {title: "force of the obstacle [N]", scheme: motion.force, exact: reference?.force},
+    {
+      title: "energy stored [mJ]",
+      scheme: motion.stored,
+      exact: reference?.stored,
+      times: 1e3,
+      from_zero: true,
+    },
+    {
+      title: "error of the force on the nut [%]",
+      scheme: least(motion.nut, reference?.nut),
+      times: 100 / most_nut,
+      from_zero: true,
+    },
+  ].filter(l => l.scheme?.length);
+  const each = width / lines.length,
+    rows = motion.rows,
+    title = text => (each < 190 ? text.replace(/ (of the|stored).* \[/, " [") : text);
+  lines.forEach((line, k) => {
+    const left = k * each + 6,
+      right = (k + 1) * each - 14,
+      top = 24,
+      bottom = height - 16,
+      times = line.times ?? 1;
+    let most = 0;
+    for (const series of [line.scheme, line.exact])
+      if (series)
+        for (const y of series) if (Number.isFinite(y)) most = Math.max(most, Math.abs(y * times));
+    most = most || 1;
+    pen.fillStyle = colour("soft");
+    pen.fillText(title(line.title), left, 12);
+    pen.fillText(String(digits(most).toPrecision(2) * 1), left + 2, top + 9);
+    pen.strokeStyle = colour("line");
+    pen.lineWidth = 1;
+    (pen.beginPath(), pen.moveTo(left, bottom), pen.lineTo(right, bottom), pen.stroke());
+    const curve = (series, stroke, dash) => {
+      pen.strokeStyle = stroke;
+      pen.lineWidth = 1.3;
+      pen.setLineDash(dash);
+      pen.beginPath();
+      const step = Math.max(1, Math.floor(series.length / (right - left) / 2));
+      for (let n = 0; n < series.length; n += step) {
+        let y = series[n];
+        for (let j = n; j < Math.min(n + step, series.length); ++j)
+          if (Math.abs(series[j]) > Math.abs(y)) y = series[j];
+        pen.lineTo(
+          left + ((right - left) * n) / (series.length - 1),
+          bottom - (bottom - top) * Math.max(0, Math.min(1.1, (y * times) / most)),
+        );
+      }
+      pen.stroke();
+      pen.setLineDash([]);
+    };
+    if (line.exact) curve(line.exact, colour("ink"), []);
+    curve(line.scheme, colour("key"), line.exact ? [4, 3] : []);
+    const x = left + ((right - left) * film.at) / (rows - 1);
+    pen.strokeStyle = colour("force");
+    (pen.beginPath(), pen.moveTo(x, top), pen.lineTo(x, bottom), pen.stroke());
+    pen.fillStyle = colour("soft");
+    (pen.fillText("0", left, height - 3),
+      pen.fillText(`${digits(1e3 * run_seconds())} ms`, right - 34, height - 3));
+  });
 }
 
 function film_frame(now) {
-    const passed = Math.min(100, now - film.last);
-    film.last = now;
-    if (film.playing && shown.motion && !document.hidden) {
-        film.at += passed * 1e-3 * shown.motion.rate / film.slowed;
-        if (film.at >= (shown.motion.rows - 1)) film.at = 0;
-        draw_picture();
-    }
-    requestAnimationFrame(film_frame);
+  const passed = Math.min(100, now - film.last);
+  film.last = now;
+  if (film.playing && shown.motion && !document.hidden) {
+    film.at += (passed * 1e-3 * shown.motion.rate) / film.slowed;
+    if (film.at >= shown.motion.rows - 1) film.at = 0;
+    draw_picture();
+  }
+  requestAnimationFrame(film_frame);
 }
 
-function new_pictures() {  // what the scales are taken from
-    film.most = largest_deflection([shown.reference ?? shown.motion]);
-    film.most_force = Math.max(1e-9, ...[shown.reference ?? shown.motion].map(p => p?.force?.reduce((m, x) => Math.max(m, x), 0) ?? 0));
-    draw_picture();
+function new_pictures() {
+  // what the scales are taken from
+  film.most = largest_deflection([shown.reference ?? shown.motion]);
+  film.most_force = Math.max(
+    1e-9,
+    ...[shown.reference ?? shown.motion].map(
+      p => p?.force?.reduce((m, x) => Math.max(m, x), 0) ?? 0,
+    ),
+  );
+  draw_picture();
 }
 
 function grip_near(event) {
-    const canvas = document.getElementById("string"), box = canvas.getBoundingClientRect(), v = view_of(box.width, box.height);
-    const x = event.clientX - box.left, y = event.clientY - box.top;
-    return grips(v).find(g => Math.hypot(v.x(g.x) - x, v.y(g.y) - y) < 18);
+  const canvas = document.getElementById("string"),
+    box = canvas.getBoundingClientRect(),
+    v = view_of(box.width, box.height);
+  const x = event.clientX - box.left,
+    y = event.clientY - box.top;
+  return grips(v).find(g => Math.hypot(v.x(g.x) - x, v.y(g.y) - y) < 18);
 }
 function drag(event) {
-    const box = event.target.getBoundingClientRect(), v = view_of(box.width, box.height), {grip} = film.dragged;
-    if (grip.across) move_handle(grip.across, v.back_x(event.clientX - box.left));
-    if (grip.up) move_handle(grip.up, v.back_y(event.clientY - box.top));
+  const box = event.target.getBoundingClientRect(),
+    v = view_of(box.width, box.height),
+    {grip} = film.dragged;
+  if (grip.across) move_handle(grip.across, v.back_x(event.clientX - box.left));
+  if (grip.up) move_handle(grip.up, v.back_y(event.clientY - box.top));
 }
 function watch_grips() {
-    const canvas = document.getElementById("string");
-    canvas.onpointerdown = e => {
-        const grip = shown.scene && grip_near(e);
-        if (!grip) return;
-        film.dragged = {grip};
-        canvas.setPointerCapture(e.pointerId);
-        e.preventDefault();
-    };
-    canvas.onpointermove = e => {
-        if (film.dragged) drag(e);
-        else canvas.style.cursor = shown.scene && grip_near(e) ? "grab" : "";
-    };
-    canvas.onpointerup = canvas.onpointercancel = () => { film.dragged = null; };
+  const canvas = document.getElementById("string");
+  canvas.onpointerdown = e => {
+    const grip = shown.scene && grip_near(e);
+    if (!grip) return;
+    film.dragged = {grip};
+    canvas.setPointerCapture(e.pointerId);
+    e.preventDefault();
+  };
+  canvas.onpointermove = e => {
+    if (film.dragged) drag(e);
+    else canvas.style.cursor = shown.scene && grip_near(e) ? "grab" : "";
+  };
+  canvas.onpointerup = canvas.onpointercancel = () => {
+    film.dragged = null;
+  };
 }

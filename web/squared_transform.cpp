@@ -15,13 +15,12 @@ struct SquaredTransform::State {
 SquaredTransform::SquaredTransform(int rows) : state_(new State{std::vector<double>(rows)}) {}
 SquaredTransform::~SquaredTransform() = default;
 
-std::span<double> SquaredTransform::rows() {
-    return state_->rows;
-}
+std::span<double> SquaredTransform::rows() { return state_->rows; }
 
 void SquaredTransform::write(double* power) {
     state_->transform.fwd(state_->bins, state_->rows);
-    for (std::size_t k = 0; k <= state_->rows.size() / 2; ++k) power[k] = std::norm(state_->bins[k]);
+    for (std::size_t k = 0; k <= state_->rows.size() / 2; ++k)
+        power[k] = std::norm(state_->bins[k]);
 }
 
 }  // namespace jvari

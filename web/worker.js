@@ -1,210 +1,347 @@
-// In the worker: answers what the page asks, in pieces, so that the newest state of the page wins. Each answer carries the number of its question.
-let jvari, newest = 0, started;
-const ready = new Promise(resolve => { started = resolve; });
-const turn = () => new Promise(resolve => { const c = new MessageChannel(); c.port1.onmessage = () => { c.port1.close(); resolve(); }; c.port2.postMessage(0); });
+// In the worker: answers what the page asks, in pieces, so that the newest state of the page wins.
+// Each answer carries the number of its question.
+let jvari,
+  newest = 0,
+  started;
+const ready = new Promise(resolve => {
+  started = resolve;
+});
+const turn = () =>
+  new Promise(resolve => {
+    const c = new MessageChannel();
+    c.port1.onmessage = () => {
+      c.port1.close();
+      resolve();
+    };
+    c.port2.postMessage(0);
+  });
 class Stale extends Error {}
 
-const asked_of = (state, more) => ({scene: state.text, overrides: state.overrides, scheme: state.scheme, rate: state.rate, modes: state.modes, options: state.options, ...more});
-const options_of = (name, compliance) => {  // of the schemes that know it
-    const knows = jvari.known[name]?.options.some(o => o.name === "compliance");
-    return knows && compliance ? [`compliance=${compliance}`] : [];
+const asked_of = (state, more) => ({
+  scene: state.text,
+  overrides: state.overrides,
+  scheme: state.scheme,
+  rate: state.rate,
+  modes: state.modes,
+  options: state.options,
+  ...more,
+});
+const options_of = (name, compliance) => {
+  // of the schemes that know it
+  const knows = jvari.known[name]?.options.some(o => o.name === "compliance");
+  return knows && compliance ? [`compliance=${compliance}`] : [];
 };
-function headline_of(scene) {  // as in the tables of `jvari compare`: the first nut force, else the first driving force, else the first tap
-    const first = quantity => scene.tap.findIndex(t => t.quantity === quantity);
-    const nut = Math.max(0, first("nut_force"));
-    return {nut, force: first("bridge_force")};
+// as in the tables of `jvari compare`: the first nut force, else the first driving force, else the
+// first tap
+function headline_of(scene) {
+  const first = quantity => scene.tap.findIndex(t => t.quantity === quantity);
+  const nut = Math.max(0, first("nut_force"));
+  return {nut, force: first("bridge_force")};
 }
 
-// Its stored energy as a curve, and the energy that it gained or lost unaccounted for, over the largest that it had.
-const balance_of = run => { const ledger = run.ledger(); return ledger ? {stored: Float64Array.from(ledger[0]), residual: run.residual ?? NaN} : {}; };
+// Its stored energy as a curve, and the energy that it gained or lost unaccounted for, over the
+// largest that it had.
+const balance_of = run => {
+  const ledger = run.ledger();
+  return ledger ? {stored: Float64Array.from(ledger[0]), residual: run.residual ?? NaN} : {};
+};
 
-function pictured(run, scene, points) {  // what the page draws of a run
-    const {nut, force} = headline_of(scene), count = scene.tap.length, shape = new Float32Array(run.rows * points);
-    for (let k = 0; k < points; ++k) {
-        const column = run.tap(count + k);
-        for (let n = 0; n < run.rows; ++n) shape[n * points + k] = column[n];
-    }
-    return {shape, points, rows: run.rows, rate: run.rate, outcome: run.outcome, step: run.step, facts: run.facts, dofs: run.dofs, steps: run.steps,
-        nut: Float64Array.from(run.tap(nut)), force: force < 0 ? null : Float64Array.from(run.tap(force)), ...balance_of(run)};
+function pictured(run, scene, points) {
+  // what the page draws of a run
+  const {nut, force} = headline_of(scene),
+    count = scene.tap.length,
+    shape = new Float32Array(run.rows * points);
+  for (let k = 0; k < points; ++k) {
+    const column = run.tap(count + k);
+    for (let n = 0; n < run.rows; ++n) shape[n * points + k] = column[n];
+  }
+  return {
+    shape,
+    points,
+    rows: run.rows,
+    rate: run.rate,
+    outcome: run.outcome,
+    step: run.step,
+    facts: run.facts,
+    dofs: run.dofs,
+    steps: run.steps,
+    nut: Float64Array.from(run.tap(nut)),
+    force: force < 0 ? null : Float64Array.from(run.tap(force)),
+    ...balance_of(run),
+  };
 }
 
-// ---- The reference solution, kept until the string changes. Its uncertainty is what further doublings of its modes would change.
+// ---- The reference solution, kept until the string changes. Its uncertainty is what further
+// doublings of its modes would change.
 
 let reference = null;
 function forget() {
-    reference?.runs.forEach(run => run.free());
-    reference = null;
+  reference?.runs.forEach(run => run.free());
+  reference = null;
 }
-// Whose exact solution takes seconds: many points, a power law, or a pluck in the closed form of many digits. Its modes are not doubled.
-const dear = scene => scene.string.some(s => s.barrier.length > 2 || s.barrier.some(b => b.shape === "profile" || b.exponent !== 1)) || (scene.reference === "exact_linear" && scene.string.some(s => s.pluck));
+// Whose exact solution takes seconds: many points, a power law, or a pluck in the closed form of
+// many digits. Its modes are not doubled.
+const dear = scene =>
+  scene.string.some(
+    s => s.barrier.length > 2 || s.barrier.some(b => b.shape === "profile" || b.exponent !== 1),
+  ) ||
+  (scene.reference === "exact_linear" && scene.string.some(s => s.pluck));
 async function reference_of(state, scene, go_on) {
-    const key = JSON.stringify([state.text, state.overrides, state.window, state.shape]);
-    if (reference?.key === key) return reference;
-    forget();
-    if (!scene.reference) return null;
-    const {nut} = headline_of(scene), options = options_of(scene.reference, "matched"), matched = options.length, runs = [];
-    const run = (modes, more = {}) => {  // its energy costs eight times as much as its motion, and half of the modes hold all of it but 0.2 %
-        const made = jvari.run({scene: state.text, overrides: state.overrides, scheme: scene.reference, modes, options, duration: state.window, ...more});
-        runs.push(made);
-        return made;
-    };
-    try {
-        const change = (fine, coarse) => jvari.error(fine, coarse, nut), base = run(0, {shape: state.shape}), modes = base.dofs / 2 | 0;
-        await go_on();
-        const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)});
-        await go_on();
-        let best = base, left = jvari.left_after(change(base, half), NaN, matched);
-        if (!dear(scene)) {
-            best = run(2 * modes, {shape: state.shape});
-            left = jvari.left_after(change(best, base), change(base, half), matched);
-            await go_on();
-        }
-        const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};
-        reference = {key, runs, run: best, modes: best.dofs / 2 | 0, uncertainty: left, picture};
-        return reference;
-    } catch (error) {
-        runs.forEach(r => r.free());
-        throw error;
+  const key = JSON.stringify([state.text, state.overrides, state.window, state.shape]);
+  if (reference?.key === key) return reference;
+  forget();
+  if (!scene.reference) return null;
+  const {nut} = headline_of(scene),
+    options = options_of(scene.reference, "matched"),
+    matched = options.length,
+    runs = [];
+  // its energy costs eight times as much as its motion, and half of the modes hold all of it but
+  // 0.2 %
+  const run = (modes, more = {}) => {
+    const made = jvari.run({
+      scene: state.text,
+      overrides: state.overrides,
+      scheme: scene.reference,
+      modes,
+      options,
+      duration: state.window,
+      ...more,
+    });
+    runs.push(made);
+    return made;
+  };
+  try {
+    const change = (fine, coarse) => jvari.error(fine, coarse, nut),
+      base = run(0, {shape: state.shape}),
+      modes = (base.dofs / 2) | 0;
+    await go_on();
+    const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)});
+    await go_on();
+    let best = base,
+      left = jvari.left_after(change(base, half), NaN, matched);
+    if (!dear(scene)) {
+      best = run(2 * modes, {shape: state.shape});
+      left = jvari.left_after(change(best, base), change(base, half), matched);
+      await go_on();
     }
+    const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};
+    reference = {key, runs, run: best, modes: (best.dofs / 2) | 0, uncertainty: left, picture};
+    return reference;
+  } catch (error) {
+    runs.forEach(r => r.free());
+    throw error;
+  }
 }
 
 // How wrong a run is on the tap of the headline, and for how long it agrees within 10 %.
 function judged(run, scene, state) {
-    const {nut} = headline_of(scene);
-    return {error: jvari.error(run, reference.run, nut), horizon: jvari.horizon(run, reference.run, nut), uncertainty: reference.uncertainty,
-        reference: scene.reference, modes: reference.modes};
+  const {nut} = headline_of(scene);
+  return {
+    error: jvari.error(run, reference.run, nut),
+    horizon: jvari.horizon(run, reference.run, nut),
+    uncertainty: reference.uncertainty,
+    reference: scene.reference,
+    modes: reference.modes,
+  };
 }
 
-// ---- The chart: schemes at several rates, each with its error and its cost [s per second of sound].
+// ---- The chart: schemes at several rates, each with its error and its cost [s per second of
+// sound].
 
 // The mean time of as many runs as fill a sample: a browser's clock is coarse.
-const sample_seconds = 4e-3, rounds = 9;
+const sample_seconds = 4e-3,
+  rounds = 9;
 function sampled(asked, keep = () => ({})) {
-    let spent = 0, runs = 0, kept;
-    do {
-        const run = jvari.run(asked);
-        spent += run.wall;
-        kept ??= keep(run);
-        run.free();
-    } while (++runs < 30 && spent < sample_seconds);
-    return {...kept, cost: spent / runs / asked.duration};
+  let spent = 0,
+    runs = 0,
+    kept;
+  do {
+    const run = jvari.run(asked);
+    spent += run.wall;
+    kept ??= keep(run);
+    run.free();
+  } while (++runs < 30 && spent < sample_seconds);
+  return {...kept, cost: spent / runs / asked.duration};
 }
 function quartiles(costs) {
-    const sorted = [...costs].sort((a, b) => a - b), at = part => {
-        const place = part * (sorted.length - 1), low = Math.floor(place), rest = place - low;
-        return (1 - rest) * sorted[low] + rest * sorted[Math.min(low + 1, sorted.length - 1)];
+  const sorted = [...costs].sort((a, b) => a - b),
+    at = part => {
+      const place = part * (sorted.length - 1),
+        low = Math.floor(place),
+        rest = place - low;
+      return (1 - rest) * sorted[low] + rest * sorted[Math.min(low + 1, sorted.length - 1)];
     };
-    return {lower: at(0.25), cost: at(0.5), upper: at(0.75)};
+  return {lower: at(0.25), cost: at(0.5), upper: at(0.75)};
 }
 
-// Each cell once for its error; then rounds through all cells for their costs, as the program times them: a browser compiles anew what it runs often.
+// Each cell once for its error; then rounds through all cells for their costs, as the program times
+// them: a browser compiles anew what it runs often.
 async function chart(state, scene, post, go_on) {
-    const cells = [];
-    for (const {scheme, compliance, rate} of state.chart) {
-        const options = options_of(scheme, compliance), told = {scheme, compliance: options.length ? compliance : "", rate};
-        try {
-            const asked = {scene: state.text, overrides: state.overrides, scheme, rate, options, duration: state.window};
-            const point = sampled(asked, run => ({...told, ...judged(run, scene, state), outcome: run.outcome, dofs: run.dofs}));
-            post({kind: "point", point: {...point, lower: point.cost, upper: point.cost}});
-            cells.push({told, asked, costs: []});
-        } catch (error) {
-            post({kind: "point", point: {...told, refused: error.message}});
-        }
-        await go_on();
+  const cells = [];
+  for (const {scheme, compliance, rate} of state.chart) {
+    const options = options_of(scheme, compliance),
+      told = {scheme, compliance: options.length ? compliance : "", rate};
+    try {
+      const asked = {
+        scene: state.text,
+        overrides: state.overrides,
+        scheme,
+        rate,
+        options,
+        duration: state.window,
+      };
+      const point = sampled(asked, run => ({
+        ...told,
+        ...judged(run, scene, state),
+        outcome: run.outcome,
+        dofs: run.dofs,
+      }));
+      post({kind: "point", point: {...point, lower: point.cost, upper: point.cost}});
+      cells.push({told, asked, costs: []});
+    } catch (error) {
+      post({kind: "point", point: {...told, refused: error.message}});
     }
-    post({kind: "charted"});
-    for (let round = 1; round <= rounds; ++round) {
-        for (const {asked, costs} of cells) {
-            costs.push(sampled(asked).cost);
-            await go_on();
-        }
-        post({kind: "timed", last: round === rounds, costs: cells.map(({told, costs}) => ({...told, ...quartiles(costs)}))});
+    await go_on();
+  }
+  post({kind: "charted"});
+  for (let round = 1; round <= rounds; ++round) {
+    for (const {asked, costs} of cells) {
+      costs.push(sampled(asked).cost);
+      await go_on();
     }
+    post({
+      kind: "timed",
+      last: round === rounds,
+      costs: cells.map(({told, costs}) => ({...told, ...quartiles(costs)})),
+    });
+  }
 }
 
 // ---- One state of the page: the string, its motion, its sound, the reference, the chart.
 
 async function show(asked, post, go_on) {
-    const scene = jvari.scene(asked.text, [...asked.overrides.filter(o => !o.startsWith("duration=")), `duration=${asked.window}`]);
-    const state = {...asked, window: scene.free_from + asked.window};  // errors are of what follows the pluck
-    post({kind: "scene", scene});
-    const points = state.shape.length, run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
-    try {
-        const picture = pictured(run, scene, points);
-        post({kind: "motion", picture});
-        await go_on();
-        const sound = jvari.run(asked_of(state, {duration: state.heard}));
-        post({kind: "sound", of: "scheme", rate: sound.rate, sound: Float32Array.from(sound.tap(headline_of(scene).nut)), outcome: sound.outcome, cost: sound.wall / state.heard});
-        sound.free();
-        await go_on();
-        if (!await reference_of(state, scene, go_on)) return post({kind: "unreferenced"});
-        post({kind: "reference", picture: reference.picture, verdict: judged(run, scene, state)});
-        await go_on();
-    } finally {
-        run.free();
-    }
-    await chart(state, scene, post, go_on);
+  const scene = jvari.scene(asked.text, [
+    ...asked.overrides.filter(o => !o.startsWith("duration=")),
+    `duration=${asked.window}`,
+  ]);
+  // errors are of what follows the pluck
+  const state = {...asked, window: scene.free_from + asked.window};
+  post({kind: "scene", scene});
+  const points = state.shape.length,
+    run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
+  try {
+    const picture = pictured(run, scene, points);
+    post({kind: "motion", picture});
+    await go_on();
+    const sound = jvari.run(asked_of(state, {duration: state.heard}));
+    post({
+      kind: "sound",
+      of: "scheme",
+      rate: sound.rate,
+      sound: Float32Array.from(sound.tap(headline_of(scene).nut)),
+      outcome: sound.outcome,
+      cost: sound.wall / state.heard,
+    });
+    sound.free();
+    await go_on();
+    if (!(await reference_of(state, scene, go_on))) return post({kind: "unreferenced"});
+    post({kind: "reference", picture: reference.picture, verdict: judged(run, scene, state)});
+    await go_on();
+  } finally {
+    run.free();
+  }
+  await chart(state, scene, post, go_on);
 }
 
 // ---- Single questions, answered in their turn: of the player, the map and the tours.
 
 const questions = {
-    // One run, and with `beside` another of the same scene: how far apart, by third octaves within 60 dB of the loudest and in loudness above 2 kHz too, and for how long they agree.
-    pair({run: first, beside}) {
-        const a = jvari.run(first), scene = jvari.scene(first.scene, first.overrides), {nut, force} = headline_of(scene);
-        const told = r => ({outcome: r.outcome, step: r.step, rate: r.rate, rows: r.rows, dofs: r.dofs, cost: r.wall / first.duration, facts: r.facts, nut: Float64Array.from(r.tap(nut)),
-            force: force < 0 ? null : Float64Array.from(r.tap(force)), ...balance_of(r)});
-        const answer = {run: told(a)};
-        if (beside) {
-            const b = jvari.run({...first, options: [], ...beside});
-            Object.assign(answer, {beside: told(b), error: jvari.error(a, b, nut), horizon: jvari.horizon(a, b, nut), octaves: jvari.third_octaves(a, b, nut, 60),
-                louder: jvari.louder(a, b, nut, 2000)});
-            b.free();
-        }
-        a.free();
-        return answer;
-    },
-    outcomes({runs}) {  // of a column of the map
-        return runs.map(asked => {
-            try {
-                const run = jvari.run({...asked, energy: true});
-                run.free();
-                return run.verdict;
-            } catch {
-                return "refused";
-            }
-        });
-    },
-    cheapest: ({points, accuracy}) => jvari.cheapest(points, accuracy),
-    scene: ({text, overrides}) => jvari.scene(text, overrides),
-    problem: ({text, overrides, rate, modes, duration}) => jvari.problem(text, overrides, rate, modes, duration),
-    memory: () => jvari.memory()
+  // One run, and with `beside` another of the same scene: how far apart, by third octaves within
+  // 60 dB of the loudest and in loudness above 2 kHz too, and for how long they agree.
+  pair({run: first, beside}) {
+    const a = jvari.run(first),
+      scene = jvari.scene(first.scene, first.overrides),
+      {nut, force} = headline_of(scene);
+    const told = r => ({
+      outcome: r.outcome,
+      step: r.step,
+      rate: r.rate,
+      rows: r.rows,
+      dofs: r.dofs,
+      cost: r.wall / first.duration,
+      facts: r.facts,
+      nut: Float64Array.from(r.tap(nut)),
+      force: force < 0 ? null : Float64Array.from(r.tap(force)),
+      ...balance_of(r),
+    });
+    const answer = {run: told(a)};
+    if (beside) {
+      const b = jvari.run({...first, options: [], ...beside});
+      Object.assign(answer, {
+        beside: told(b),
+        error: jvari.error(a, b, nut),
+        horizon: jvari.horizon(a, b, nut),
+        octaves: jvari.third_octaves(a, b, nut, 60),
+        louder: jvari.louder(a, b, nut, 2000),
+      });
+      b.free();
+    }
+    a.free();
+    return answer;
+  },
+  outcomes({runs}) {
+    // of a column of the map
+    return runs.map(asked => {
+      try {
+        const run = jvari.run({...asked, energy: true});
+        run.free();
+        return run.verdict;
+      } catch {
+        return "refused";
+      }
+    });
+  },
+  cheapest: ({points, accuracy}) => jvari.cheapest(points, accuracy),
+  scene: ({text, overrides}) => jvari.scene(text, overrides),
+  problem: ({text, overrides, rate, modes, duration}) =>
+    jvari.problem(text, overrides, rate, modes, duration),
+  memory: () => jvari.memory(),
 };
 
 onmessage = async ({data}) => {
-    if (data.wasm) {
-        jvari = jvari_core(await jvari_module({instantiateWasm: (imports, done) => { WebAssembly.instantiate(data.wasm, imports).then(i => done(i)); return {}; }}));
-        const list = jvari.list();
-        jvari.known = Object.fromEntries([...list.schemes, ...list.references].map(d => [d.name, d]));
-        started();
-        return postMessage({kind: "ready", list});
-    }
-    await ready;
-    if (data.question) {
-        try {
-            postMessage({kind: "answer", id: data.id, answer: questions[data.question](data)});
-        } catch (error) {
-            postMessage({kind: "answer", id: data.id, refused: error.message});
-        }
-        return;
-    }
-    newest = Math.max(newest, data.id);
-    const post = message => postMessage({...message, id: data.id});
-    const go_on = async () => { await turn(); if (data.id !== newest) throw new Stale(); };
+  if (data.wasm) {
+    jvari = jvari_core(
+      await jvari_module({
+        instantiateWasm: (imports, done) => {
+          WebAssembly.instantiate(data.wasm, imports).then(i => done(i));
+          return {};
+        },
+      }),
+    );
+    const list = jvari.list();
+    jvari.known = Object.fromEntries([...list.schemes, ...list.references].map(d => [d.name, d]));
+    started();
+    return postMessage({kind: "ready", list});
+  }
+  await ready;
+  if (data.question) {
     try {
-        await go_on();
-        await show(data.state, post, go_on);
+      postMessage({kind: "answer", id: data.id, answer: questions[data.question](data)});
     } catch (error) {
-        if (!(error instanceof Stale)) post({kind: "refused", why: error.message});
+      postMessage({kind: "answer", id: data.id, refused: error.message});
     }
+    return;
+  }
+  newest = Math.max(newest, data.id);
+  const post = message => postMessage({...message, id: data.id});
+  const go_on = async () => {
+    await turn();
+    if (data.id !== newest) throw new Stale();
+  };
+  try {
+    await go_on();
+    await show(data.state, post, go_on);
+  } catch (error) {
+    if (!(error instanceof Stale)) post({kind: "refused", why: error.message});
+  }
 };

@@ -1,20 +1,24 @@
-// What a scheme claims against a reference, on scenes that are smooth enough for a few milliseconds to show it: every tap comes nearer with
-// the rate, and every tap is at its row's instant.
+// What a scheme claims against a reference, on scenes that are smooth enough for a few milliseconds
+// to show it: every tap comes nearer with the rate, and every tap is at its row's instant.
 //
-// Forces are held to the reference's, and not to a balance of momentum. The force at the far end is no tap, so a balance would need the
-// momentum of the whole string, and a wrong tap could hide in it.
+// Forces are held to the reference's, and not to a balance of momentum. The force at the far end is
+// no tap, so a balance would need the momentum of the whole string, and a wrong tap could hide in
+// it.
 //
-// Convergence: contact that begins within a step costs an order, and the quadratised forms are of first order in the contact. So what is
-// owed of each tap is a third of its error at 8 times the rate, and of the worst tap less at 8 than at 4 times. An error of 1e-6 is as good
-// as none, and 5e-5 against the whole string, of which 100 modes leave out 1e-5; of a thread at a point they leave out 6e-4 with the
-// missing compliance put back, and there 1e-3 is good enough. On a profile a scheme keeps the error of its nodes at any rate: 4e-3 of the
-// force with 100 of them, so 1e-2 is good enough there. The point thread is heard by its displacements alone, and on modes: no grid
-// converges to the force of a point. Leaves out scenes that need a feature which the scheme calls approximated:
-// its limit there is not the scene.
+// Convergence: contact that begins within a step costs an order, and the quadratised forms are of
+// first order in the contact. So what is owed of each tap is a third of its error at 8 times the
+// rate, and of the worst tap less at 8 than at 4 times. An error of 1e-6 is as good as none, and
+// 5e-5 against the whole string, of which 100 modes leave out 1e-5; of a thread at a point they
+// leave out 6e-4 with the missing compliance put back, and there 1e-3 is good enough. On a profile
+// a scheme keeps the error of its nodes at any rate: 4e-3 of the force with 100 of them, so 1e-2 is
+// good enough there. The point thread is heard by its displacements alone, and on modes: no grid
+// converges to the force of a point. Leaves out scenes that need a feature which the scheme calls
+// approximated: its limit there is not the scene.
 //
-// Instants: on mode 1 alone, and on the string between a soft bridge that it never leaves and a soft thread. A wrong frequency makes an
-// error that grows with time, and a wrong instant one that is there at the start. The fit tells them apart. Of a step the schemes of this
-// tree are 0.06 early or late at most (a velocity of the sitar grids), and 0.035 otherwise.
+// Instants: on mode 1 alone, and on the string between a soft bridge that it never leaves and a
+// soft thread. A wrong frequency makes an error that grows with time, and a wrong instant one that
+// is there at the start. The fit tells them apart. Of a step the schemes of this tree are 0.06
+// early or late at most (a velocity of the sitar grids), and 0.035 otherwise.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -40,16 +44,19 @@ namespace {
 constexpr double as_good_as_none = 1e-6, at_a_point = 1e-3, owed_fall = 1.0 / 3;
 constexpr double error_of_a_reference = 1e-5;
 constexpr int scenes_wanted = 3, claim_modes = 100, truth_modes = 400;
-constexpr double soft = 300;             // [N/m]: the string itself is 160 N/m under a steady force there
+// [N/m]: the string itself is 160 N/m under a steady force there
+constexpr double soft = 300;
 constexpr double instant_allowed = 0.1;  // of a step
-constexpr double exact_allowed = 1e-9;   // error of a mode whose frequency is right to the last digits
+// error of a mode whose frequency is right to the last digits
+constexpr double exact_allowed = 1e-9;
 
 bool has(const Descriptor& d, Feature feature) {
     return (d.represents - approximated(d)).has(feature);
 }
 
 // The string of the contract, without losses, heard by every kind of tap that it has.
-Scene string_with(const char* name, const std::optional<LumpedBarrier>& barrier, const std::optional<Thread>& thread) {
+Scene string_with(const char* name, const std::optional<LumpedBarrier>& barrier,
+                  const std::optional<Thread>& thread) {
     Scene scene = string_at_rest();
     scene.name = name;
     scene.taps = {{"y", Quantity::displacement, 0, 0.3},
@@ -58,13 +65,15 @@ Scene string_with(const char* name, const std::optional<LumpedBarrier>& barrier,
                   {"nut", Quantity::nut_force, 0, 0}};
     String& s = scene.strings.front();
     s.damping = NoDamping{};
-    if (barrier) s.barriers = {*barrier}, scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
+    if (barrier)
+        s.barriers = {*barrier}, scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
     if (thread) s.thread = thread, scene.taps.push_back({"thread", Quantity::thread_force, 0, 0});
     if (barrier || thread) scene.taps.push_back({"driving", Quantity::driving_force, 0, 0});
     return scene;
 }
 
-// The scene's truth with these modes: of the first reference that represents it and is not the scheme itself.
+// The scene's truth with these modes: of the first reference that represents it and is not the
+// scheme itself.
 std::optional<Trace> truth_of(const Descriptor& d, const Scene& scene, int modes) {
     for (const Descriptor& reference : references()) {
         const bool itself = std::string(reference.name) == d.name;
@@ -80,10 +89,12 @@ std::optional<Trace> truth_of(const Descriptor& d, const Scene& scene, int modes
 
 struct Smooth {
     Scene scene;
-    double enough = 0;                    // where the error does not fall: what is good enough at 4 times 44.1 kHz; else 0
+    // where the error does not fall: what is good enough at 4 times 44.1 kHz; else 0
+    double enough = 0;
     double whole = what_modes_leave_out;  // as good as none against the whole string
 };
-Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {}, const std::optional<Thread>& thread = {}) {
+Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {},
+              const std::optional<Thread>& thread = {}) {
     Scene scene = string_with(name, barrier, thread);
     scene.duration = 10e-3;
     scene.strings.front().initial = TriangleInitial{0.3, 1e-3, 0.2};
@@ -91,25 +102,31 @@ Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {}
     return {scene};
 }
 
-// A wide soft obstacle that the string meets within the run, and a wide soft thread, of these what the scheme has; a soft profile; a pluck;
-// a thread at a point; then strings that touch nothing.
+// A wide soft obstacle that the string meets within the run, and a wide soft thread, of these what
+// the scheme has; a soft profile; a pluck; a thread at a point; then strings that touch nothing.
 std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     std::vector<Smooth> all;
-    const double node = 30 * 1.0 / (claim_modes + 1);  // of a grid with as many nodes as there are modes [m]
+    // of a grid with as many nodes as there are modes [m]
+    const double node = 30 * 1.0 / (claim_modes + 1);
     std::optional<LumpedBarrier> bridge;
     std::optional<Thread> thread;
     if (has(d, Feature::lumped_barrier)) bridge = LumpedBarrier{node, 0.2, -3e-4, {soft}, 1, 0};
     if (has(d, Feature::thread)) thread = Thread{0.6, 0.2, soft, 0, 0};
     if (bridge || thread)
-        all.push_back(smooth(!thread ? "wide_bridge" : bridge ? "wide_bridge_and_thread" : "wide_thread", bridge, thread));
+        all.push_back(smooth(!thread  ? "wide_bridge"
+                             : bridge ? "wide_bridge_and_thread"
+                                      : "wide_thread",
+                             bridge, thread));
     all.push_back(smooth("soft_profile"));
-    all.back().scene.strings.front().barriers = {ProfileBarrier{ParabolaCurve{1e-2}, 0, 0.16, {3e3}, 1, 0}};
+    all.back().scene.strings.front().barriers = {
+        ProfileBarrier{ParabolaCurve{1e-2}, 0, 0.16, {3e3}, 1, 0}};
     all.back().scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
     all.back().enough = what_nodes_leave_out;
     all.push_back(smooth("plucked"));
     all.back().scene.strings.front().initial.reset();
     all.back().scene.strings.front().pluck = Pluck{-0.4, 6e-3, 3.0, 0.0, 0.5, 0.5};
-    if (has(d, Feature::frequency_dependent_damping)) {  // modes: a grid nears a point at first order
+    // modes: a grid nears a point at first order
+    if (has(d, Feature::frequency_dependent_damping)) {
         all.push_back(smooth("threaded", {}, Thread{node, 0, soft, 0.1, 0}));
         all.back().scene.taps.resize(2);
         all.back().whole = at_a_point;
@@ -126,10 +143,12 @@ std::vector<Smooth> smooth_scenes(const Descriptor& d) {
 }
 
 // Of each tap, at each rate; none where a run fails.
-std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& scene, std::span<const int> rates, const Trace& truth) {
+std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& scene,
+                                           std::span<const int> rates, const Trace& truth) {
     std::vector<std::vector<double>> all;
     for (const int times : rates) {
-        const jvari::Run r = run(d, scene, {times * contract_tap_rate, contract_tap_rate, claim_modes, {}});
+        const jvari::Run r =
+            run(d, scene, {times * contract_tap_rate, contract_tap_rate, claim_modes, {}});
         if (r.status.outcome != Outcome::ok) return {};
         all.push_back(relative_l2(r.trace, truth).tap);
     }
@@ -138,35 +157,45 @@ std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& sce
 
 // "": every tap does. Its limit is the string of as many modes as it has;
 // or, where it puts back what they lack or is on a grid, the whole string.
-std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trace& truth, double as_none) {
+std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trace& truth,
+                           double as_none) {
     static constexpr int all[] = {1, 2, 4, 8}, once[] = {1}, near[] = {4};
     const bool steps = d.clock == Clock::stepped, falling = steps && smooth.enough == 0;
     const double none = !steps ? error_of_a_reference : falling ? as_none : smooth.enough;
-    const std::span<const int> rates = !steps ? std::span<const int>(once) : falling ? all : std::span<const int>(near);
+    const std::span<const int> rates = !steps    ? std::span<const int>(once)
+                                       : falling ? all
+                                                 : std::span<const int>(near);
     const auto errors = errors_of(d, smooth.scene, rates, truth);
     if (errors.empty()) return smooth.scene.name + ": its run fails";
     const auto told = [&](int tap) {
         std::string text = fmt::format("{}: tap {} errs by", smooth.scene.name, truth.names[tap]);
         for (const auto& at_rate : errors) text += fmt::format(" {:.2g}", at_rate[tap]);
-        return text + (falling ? " at 44.1 kHz x 1, 2, 4, 8" : steps ? " at 176.4 kHz" : " from another reference");
+        return text + (falling ? " at 44.1 kHz x 1, 2, 4, 8"
+                       : steps ? " at 176.4 kHz"
+                               : " from another reference");
     };
     for (int k = 0; k < truth.taps(); ++k)
-        if (!(errors.back()[k] <= none || (falling && errors[3][k] <= owed_fall * errors[0][k]))) return told(k);
+        if (!(errors.back()[k] <= none || (falling && errors[3][k] <= owed_fall * errors[0][k])))
+            return told(k);
     const auto worst = std::ranges::max_element(errors.back());
     const bool still_falls = falling && *worst < std::ranges::max(errors[2]);
-    return *worst <= none || still_falls ? "" : told(static_cast<int>(worst - errors.back().begin()));
+    return *worst <= none || still_falls ? ""
+                                         : told(static_cast<int>(worst - errors.back().begin()));
 }
 
-std::optional<std::string> convergence_on(const Descriptor& d, const Smooth& smooth) {  // "": it does; nothing: not to be asked
+// "": it does; nothing: not to be asked
+std::optional<std::string> convergence_on(const Descriptor& d, const Smooth& smooth) {
     const Scene& scene = smooth.scene;
     if (!is_as_the_scene_says(d, scene)) return std::nullopt;
     for (const int times : {1, 2, 4, 8})
-        if (!takes(d, scene, {times * contract_tap_rate, contract_tap_rate, claim_modes, {}})) return std::nullopt;
+        if (!takes(d, scene, {times * contract_tap_rate, contract_tap_rate, claim_modes, {}}))
+            return std::nullopt;
     std::string found;
     for (const int modes : {claim_modes, truth_modes}) {
         const auto truth = truth_of(d, scene, modes);
         if (!truth) return std::nullopt;
-        const std::string to = convergence_to(d, smooth, *truth, modes == truth_modes ? smooth.whole : as_good_as_none);
+        const std::string to = convergence_to(
+            d, smooth, *truth, modes == truth_modes ? smooth.whole : as_good_as_none);
         if (to.empty()) return to;
         found += (found.empty() ? "" : ", and against the whole string ") + to;
     }
@@ -175,12 +204,14 @@ std::optional<std::string> convergence_on(const Descriptor& d, const Smooth& smo
 
 // ---- Instants.
 
-// By how many rows `a` is late against `truth` at the start, where its lateness grows evenly: of a(n) = truth(n - late - growth n) in first
-// order, by least squares. Row 0 has no contact force, and a row beside it no slope. NaN where the truth does not move.
+// By how many rows `a` is late against `truth` at the start, where its lateness grows evenly: of
+// a(n) = truth(n - late - growth n) in first order, by least squares. Row 0 has no contact force,
+// and a row beside it no slope. NaN where the truth does not move.
 double lateness(std::span<const double> a, std::span<const double> truth) {
     double s = 0, s_n = 0, s_nn = 0, e = 0, e_n = 0;
     for (std::size_t n = 2; n + 1 < truth.size(); ++n) {
-        const double slope = 0.5 * (truth[n + 1] - truth[n - 1]), x = static_cast<double>(n), error = truth[n] - a[n];
+        const double slope = 0.5 * (truth[n + 1] - truth[n - 1]), x = static_cast<double>(n),
+                     error = truth[n] - a[n];
         s += slope * slope;
         s_n += slope * slope * x;
         s_nn += slope * slope * x * x;
@@ -209,23 +240,27 @@ std::vector<Scene> swinging(const Descriptor& d) {  // in mode 1, free and held
 bool exact_in_time(const Descriptor& d, const Scene& scene, const Settings& settings) {
     const auto own = make_scheme(d, scene, settings)->free_modes();
     const Modes all = modes_of(scene.strings.front(), 1);
-    return !own.empty() && std::abs(own[0].omega - all.omega0[0]) <= 1e-12 * all.omega0[0] && own[0].sigma == 0;
+    return !own.empty() && std::abs(own[0].omega - all.omega0[0]) <= 1e-12 * all.omega0[0] &&
+           own[0].sigma == 0;
 }
 
-std::string late_on(const Descriptor& d, const Scene& scene, const Settings& settings, const Trace& truth) {
+std::string late_on(const Descriptor& d, const Scene& scene, const Settings& settings,
+                    const Trace& truth) {
     const jvari::Run r = run(d, scene, settings);
     if (r.status.outcome != Outcome::ok) return scene.name + ": its run fails";
     const double steps_per_row = settings.sample_rate / settings.tap_rate;
     for (int k = 0; k < truth.taps(); ++k) {
         const double late = steps_per_row * lateness(r.trace.column(k), truth.column(k));
         if (!(std::abs(late) <= instant_allowed))
-            return fmt::format("{}: tap {} is {:.2g} of a step {} at {:g} kHz", scene.name, truth.names[k], std::abs(late),
-                               late > 0 ? "late" : "early", settings.sample_rate / 1000);
+            return fmt::format("{}: tap {} is {:.2g} of a step {} at {:g} kHz", scene.name,
+                               truth.names[k], std::abs(late), late > 0 ? "late" : "early",
+                               settings.sample_rate / 1000);
     }
     const double error = relative_l2(r.trace.column(0), truth.column(0), truth.tap_rate);
     if (scene.name == "free" && exact_in_time(d, scene, settings) && !(error <= exact_allowed))
-        return fmt::format("{}: its mode 1 has the scene's frequency, and tap {} errs by {:.2g} at {:g} kHz", scene.name, truth.names[0],
-                           error, settings.sample_rate / 1000);
+        return fmt::format(
+            "{}: its mode 1 has the scene's frequency, and tap {} errs by {:.2g} at {:g} kHz",
+            scene.name, truth.names[0], error, settings.sample_rate / 1000);
     return "";
 }
 }  // namespace
@@ -249,16 +284,20 @@ Verdict writes_rows_at_their_instants(const Case& c) {
     if (d.clock == Clock::continuous) return not_asked("it has no step");
     std::string names;
     for (const Scene& scene : swinging(d)) {
-        const auto truth = is_as_the_scene_says(d, scene) ? truth_of(d, scene, contract_modes) : std::nullopt;
+        const auto truth =
+            is_as_the_scene_says(d, scene) ? truth_of(d, scene, contract_modes) : std::nullopt;
         if (!truth) continue;
         for (const int times : {1, 4}) {
-            const Settings settings{times * contract_tap_rate, contract_tap_rate, contract_modes, {}};
+            const Settings settings{
+                times * contract_tap_rate, contract_tap_rate, contract_modes, {}};
             if (!takes(d, scene, settings)) continue;
-            if (const std::string found = late_on(d, scene, settings, *truth); !found.empty()) return broken(found);
+            if (const std::string found = late_on(d, scene, settings, *truth); !found.empty())
+                return broken(found);
             if (times == 1) names += (names.empty() ? "on " : ", ") + scene.name;
         }
     }
-    return names.empty() ? not_asked("it approximates or refuses a string that swings in one mode") : kept(names);
+    return names.empty() ? not_asked("it approximates or refuses a string that swings in one mode")
+                         : kept(names);
 }
 
 }  // namespace jvari::bench::check

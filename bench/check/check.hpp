@@ -24,11 +24,13 @@ struct Checked {
 };
 
 // `answered` is told each promise as soon as all its scenes are.
-Checked check(const Descriptor&, const store::Listener&, const std::function<void(const Checked&, const Promise&)>& answered = {});
+Checked check(const Descriptor&, const store::Listener&,
+              const std::function<void(const Checked&, const Promise&)>& answered = {});
 
 std::string line_of(const Checked&, const Promise&);
 std::string conclusion_of(const Checked&);
 std::string json_of(const std::vector<Checked>&);
-std::string junit_of(const std::vector<Checked>&);  // a test suite a scheme, a test case a promise and scene
+// a test suite a scheme, a test case a promise and scene
+std::string junit_of(const std::vector<Checked>&);
 
 }  // namespace jvari::bench::check

@@ -1,9 +1,11 @@
-// What a scheme claims as a numerical method by itself: its partials are those of its own relation, and it stays sound between settings.
-// What it claims against a reference: against_references.cpp.
+// What a scheme claims as a numerical method by itself: its partials are those of its own relation,
+// and it stays sound between settings. What it claims against a reference: against_references.cpp.
 //
-// Each bound with its reason. Partials: what the matrix pencil hears of a recursion agrees with it to 2e-8 cents (smoke suite); 1e-3 cents
-// is far from that, and far below any change of an equation. A map: what maps call diverged, not_converged or energy_gaining
-// (bench/study/judgement.hpp), on the side of its stability limit where it is sound. That its contacts do not pull is a promise of its own.
+// Each bound with its reason. Partials: what the matrix pencil hears of a recursion agrees with it
+// to 2e-8 cents (smoke suite); 1e-3 cents is far from that, and far below any change of an
+// equation. A map: what maps call diverged, not_converged or energy_gaining
+// (bench/study/judgement.hpp), on the side of its stability limit where it is sound. That its
+// contacts do not pull is a promise of its own.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -33,17 +35,21 @@ Scene ringing(bool stiff, bool damped) {
 
 std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
     const Settings settings{contract_tap_rate, contract_tap_rate, contract_modes, {}};
-    if (d.clock == Clock::continuous || !represents(d, scene) || !takes(d, scene, settings)) return "";
+    if (d.clock == Clock::continuous || !represents(d, scene) || !takes(d, scene, settings))
+        return "";
     const Trace trace = run(d, scene, settings).trace;
     const store::Table rows = suite::dispersion_rows({scene, d, settings, trace, nullptr, 1});
     for (std::size_t i = 0; i < rows.rows.size(); ++i) {
         const double cents = std::abs(rows.number(i, "own_cents") - rows.number(i, "trace_cents"));
-        const double decay = std::abs(rows.number(i, "own_decay_per_s") - rows.number(i, "trace_decay_per_s"));
+        const double decay =
+            std::abs(rows.number(i, "own_decay_per_s") - rows.number(i, "trace_decay_per_s"));
         if (std::isnan(cents)) continue;
         any = true;
         if (cents > cents_allowed || decay > decay_allowed)
-            return fmt::format("partial {} sounds {:.3g} cents and {:.3g} per second from where its relation has it", rows.at(i, "mode"),
-                               cents, decay);
+            return fmt::format(
+                "partial {} sounds {:.3g} cents and {:.3g} per second from where its relation has "
+                "it",
+                rows.at(i, "mode"), cents, decay);
     }
     return "";
 }
@@ -64,14 +70,18 @@ std::vector<map::Trial> map_of(const Descriptor& d) {
         const double stiffness[] = {0, 6.03e-5, 1e-3, 1e-2};
         s.bending_stiffness = d.represents.has(Feature::bending_stiffness) ? stiffness[level] : 0;
         if (!d.represents.has(Feature::frequency_dependent_damping)) s.damping = NoDamping{};
-        return std::pair{scene, fmt::format("a bending stiffness of {:g} N m^2", s.bending_stiffness)};
+        return std::pair{scene,
+                         fmt::format("a bending stiffness of {:g} N m^2", s.bending_stiffness)};
     };
     std::vector<map::Trial> all;
     for (const double rate : {22050.0, 29400.0, 44100.0, 66150.0, 96000.0})
         for (int level = 0; level < 4; ++level) {
             auto [scene, what] = scene_at(level);
             scene.name = fmt::format("{} at {:g} Hz", what, rate);
-            all.push_back({&d, map::listened(scene), {rate, map::row_rate(rate), contract_modes, {}}, "none"});
+            all.push_back({&d,
+                           map::listened(scene),
+                           {rate, map::row_rate(rate), contract_modes, {}},
+                           "none"});
         }
     return all;
 }
@@ -81,8 +91,11 @@ Verdict partials_are_its_own_relations(const Case& c) {
     bool any = false;
     for (const bool stiff : {true, false})
         for (const bool damped : {true, false})
-            if (const std::string found = worst_partial(c.scheme, ringing(stiff, damped), any); !found.empty()) return broken(found);
-    return any ? kept() : not_asked("it has no relation in closed form, or no free string to hear it on");
+            if (const std::string found = worst_partial(c.scheme, ringing(stiff, damped), any);
+                !found.empty())
+                return broken(found);
+    return any ? kept()
+               : not_asked("it has no relation in closed form, or no free string to hear it on");
 }
 
 Verdict stays_sound_over_a_map(const Case& c) {
@@ -93,14 +106,17 @@ Verdict stays_sound_over_a_map(const Case& c) {
     int sound = 0;
     for (const map::Trial& t : map_of(d)) {
         if (!takes(d, t.scene, t.settings)) continue;
-        if (d.limit.margin && d.limit.margin(t.scene, t.settings) < 0) continue;  // on the unsound side, as it says itself
+        // on the unsound side, as it says itself
+        if (d.limit.margin && d.limit.margin(t.scene, t.settings) < 0) continue;
         const study::Judgement j = trials(t).judgement;
         if (j.verdict == study::Verdict::diverged || j.verdict == study::Verdict::not_converged ||
             j.verdict == study::Verdict::energy_gaining)
-            return broken(fmt::format("{} with {}: {}", name_of(j.verdict), t.scene.name, j.detail));
+            return broken(
+                fmt::format("{} with {}: {}", name_of(j.verdict), t.scene.name, j.detail));
         ++sound;
     }
-    return sound > 0 ? kept(fmt::format("{} of {} points", sound, points)) : not_asked("it refuses all points");
+    return sound > 0 ? kept(fmt::format("{} of {} points", sound, points))
+                     : not_asked("it refuses all points");
 }
 
 }  // namespace jvari::bench::check

@@ -11,7 +11,8 @@
 namespace jvari::bench::check {
 
 namespace {
-// Settings at which a scheme may take a scene: as it is, then with each word of each of its options.
+// Settings at which a scheme may take a scene: as it is, then with each word of each of its
+// options.
 std::vector<Settings> ways(const Descriptor& d, const Scene& scene) {
     std::vector<Settings> all{settings_for(d, scene)};
     for (const Option& o : d.options)
@@ -32,7 +33,8 @@ Features without(Features asked_of, const Descriptor& d, Will will_do) {
         bool found = false;
         for (const Scene& scene : scenes_with(feature))
             for (const Settings& settings : ways(d, scene))
-                found = found || (takes(d, scene, settings) && will_do(Case{d, scene, settings}, feature));
+                found = found ||
+                        (takes(d, scene, settings) && will_do(Case{d, scene, settings}, feature));
         if (!found) none = none | feature;
     }
     return none;
@@ -72,8 +74,11 @@ Verdict refusals_name_what_is_missing(const Case& c) {
     try {
         make_scheme(c.scheme, c.scene, c.settings);
     } catch (const Refusal& refusal) {
-        const std::string missing = names_of(needed_by(c.scene) - c.scheme.represents), said = refusal.what();
-        return said.find(missing) != std::string::npos ? kept() : broken(fmt::format("refuses without naming {}: {}", missing, said));
+        const std::string missing = names_of(needed_by(c.scene) - c.scheme.represents),
+                          said = refusal.what();
+        return said.find(missing) != std::string::npos
+                   ? kept()
+                   : broken(fmt::format("refuses without naming {}: {}", missing, said));
     }
     return broken("does not refuse it");
 }
@@ -81,16 +86,23 @@ Verdict refusals_name_what_is_missing(const Case& c) {
 Verdict runs_a_scene(const Case& c) {
     const Features never = always_refused(c.scheme);
     const std::string refused = names_of(never);
-    if (is_called(c.scheme) && never != c.scheme.represents) return kept(refused.empty() ? "" : "refuses " + refused);
-    return refused.empty() ? kept() : broken(fmt::format("declares {}, and refuses every scene that needs that", refused));
+    if (is_called(c.scheme) && never != c.scheme.represents)
+        return kept(refused.empty() ? "" : "refuses " + refused);
+    return refused.empty() ? kept()
+                           : broken(fmt::format(
+                                 "declares {}, and refuses every scene that needs that", refused));
 }
 
 Verdict heeds_every_feature(const Case& c) {
     const Descriptor& d = c.scheme;
-    Features left = d.represents - approximated(d) - always_refused(d);  // what is always refused is another promise
-    left = without(left, d,
-                   [](const Case& one, Feature f) { return tells_apart(one, f, contract_rows) || tells_apart(one, f, 5 * contract_rows); });
-    return left.empty() ? kept() : broken(fmt::format("its trace is the same whatever the values of {}", names_of(left)));
+    // what is always refused is another promise
+    Features left = d.represents - approximated(d) - always_refused(d);
+    left = without(left, d, [](const Case& one, Feature f) {
+        return tells_apart(one, f, contract_rows) || tells_apart(one, f, 5 * contract_rows);
+    });
+    return left.empty() ? kept()
+                        : broken(fmt::format("its trace is the same whatever the values of {}",
+                                             names_of(left)));
 }
 
 }  // namespace jvari::bench::check

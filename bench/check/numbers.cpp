@@ -18,7 +18,10 @@ struct Change {
         return true;
     }
     double other(double x, const std::string& unit) const {
-        const double of = x != 0 ? x : unit == "m" || unit == "s" ? 1e-3 : unit == "N m^2" ? 1e-3 : 1;
+        const double of = x != 0                       ? x
+                          : unit == "m" || unit == "s" ? 1e-3
+                          : unit == "N m^2"            ? 1e-3
+                                                       : 1;
         return x + tenth * of;
     }
     void number(const char* name, double& x, const Range&, const char* unit, auto&&...) {
@@ -31,8 +34,8 @@ struct Change {
     void count(const char* name, int& n) {
         if (is_it(name)) n += 1;
     }
-    void columns(const char* name, const std::string&, const Column& first, std::vector<double>& a, const Column& second,
-                 std::vector<double>& b) {
+    void columns(const char* name, const std::string&, const Column& first, std::vector<double>& a,
+                 const Column& second, std::vector<double>& b) {
         for (const auto& [column, values] : {std::pair{first, &a}, {second, &b}})
             if (is_it(name)) {
                 key += std::string(".") + column.name;
@@ -53,7 +56,8 @@ struct Change {
         path = outside;
     }
     void parts(const char* name, auto& all) {
-        for (std::size_t i = 0; i < all.size(); ++i) part((std::string(name) + "." + std::to_string(i)).c_str(), all[i]);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            part((std::string(name) + "." + std::to_string(i)).c_str(), all[i]);
     }
     void material() {}
     void file(auto&&...) {}

@@ -1,4 +1,5 @@
-// The numbers of a scene, from the schema of scene files: a key that the schema gains is found here by itself.
+// The numbers of a scene, from the schema of scene files: a key that the schema gains is found here
+// by itself.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,8 @@ struct Changed {
     Scene scene;
 };
 
-// The scene with its number `which` changed by a tenth, one that is 0 by a step; each column of a table is one number. Nothing beyond the last.
+// The scene with its number `which` changed by a tenth, one that is 0 by a step; each column of a
+// table is one number. Nothing beyond the last.
 std::optional<Changed> changed(const Scene&, int which, bool down = false);
 
 }  // namespace jvari::bench::check

@@ -1,15 +1,19 @@
 // A scheme answers a change of each number of a scene as the reference does.
 //
-// Every scene of scenes_of_numbers() is cut down to what the scheme represents. It is run as it is, and then with each number changed by a
-// tenth; the change of each tap is compared with the change of the reference's tap. A wrong number that the motion hardly shows stands out
-// there, because everything else cancels.
+// Every scene of scenes_of_numbers() is cut down to what the scheme represents. It is run as it is,
+// and then with each number changed by a tenth; the change of each tap is compared with the change
+// of the reference's tap. A wrong number that the motion hardly shows stands out there, because
+// everything else cancels.
 //
-// What may differ follows from the scheme's own convergence. It runs at 3, 5 and 8 times 44.1 kHz, with modes or nodes in proportion. An
-// error that falls as slowly as ConvergesToTheReference allows, to a third at 8 times the rate, is at most |a(r) - a(8)|/((8/r)^p - 1) at 8
-// times 44.1 kHz, with 8^p = 3. Three rates that are no multiples of each other, because a delay line rounds to the same length at
-// multiples. With contacts the error of the motion itself counts as well: a contact that begins within a step errs by an amount that
-// jumps with the instant, so errors of two runs need not cancel. So does the gap that a scheme reports of its contacts' state. A grid nears the whole string, and the
-// reference has some modes. Nodes of a profile add what they leave out (scenes.hpp).
+// What may differ follows from the scheme's own convergence. It runs at 3, 5 and 8 times 44.1 kHz,
+// with modes or nodes in proportion. An error that falls as slowly as ConvergesToTheReference
+// allows, to a third at 8 times the rate, is at most |a(r) - a(8)|/((8/r)^p - 1) at 8 times 44.1
+// kHz, with 8^p = 3. Three rates that are no multiples of each other, because a delay line rounds
+// to the same length at multiples. With contacts the error of the motion itself counts as well: a
+// contact that begins within a step errs by an amount that jumps with the instant, so errors of two
+// runs need not cancel. So does the gap that a scheme reports of its contacts' state. A grid nears
+// the whole string, and the reference has some modes. Nodes of a profile add what they leave out
+// (scenes.hpp).
 #include <fmt/core.h>
 
 #include <cmath>
@@ -32,8 +36,10 @@ namespace jvari::bench::check {
 namespace {
 constexpr int rates[] = {3, 5, 8}, coarse = 3, fine = 8;  // times 44.1 kHz
 constexpr int modes_each = 6;                             // times as many
-constexpr double as_good_as_the_same = 1e-6;              // of a tap: so much is as good as no error
-constexpr Features with_events = Feature::lumped_barrier | Feature::profile_barrier | Features(Feature::rigid_profile);
+// of a tap: so much is as good as no error
+constexpr double as_good_as_the_same = 1e-6;
+constexpr Features with_events =
+    Feature::lumped_barrier | Feature::profile_barrier | Features(Feature::rigid_profile);
 
 Settings at(const Descriptor& d, int times) {
     Settings s{times * contract_tap_rate, contract_tap_rate, times * modes_each, {}};
@@ -48,7 +54,8 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
         if (!f.has(Feature::bending_stiffness)) s.bending_stiffness = 0;
         if (!f.has(Feature::tension_modulation)) s.axial_stiffness = 0;
         if (!f.has(Feature::damping)) s.damping = NoDamping{};
-        if (auto* p = std::get_if<PolynomialDamping>(&s.damping); p && !f.has(Feature::frequency_dependent_damping))
+        if (auto* p = std::get_if<PolynomialDamping>(&s.damping);
+            p && !f.has(Feature::frequency_dependent_damping))
             p->sigma1 = p->sigma3 = 0;
         if (!f.has(Feature::thread)) s.thread.reset();
         if (!f.has(Feature::initial_shape)) s.initial.reset();
@@ -58,7 +65,8 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
             return !f.has(std::holds_alternative<LumpedBarrier>(b) ? Feature::lumped_barrier
                           : is_rigid(b)                            ? Feature::rigid_profile
                                                                    : Feature::profile_barrier) ||
-                   (is_rigid(b) && std::holds_alternative<LumpedBarrier>(b) && !f.has(Feature::rigid_barrier));
+                   (is_rigid(b) && std::holds_alternative<LumpedBarrier>(b) &&
+                    !f.has(Feature::rigid_barrier));
         });
         if (!f.has(Feature::several_barriers) && s.barriers.size() > 1) s.barriers.resize(1);
         for (Barrier& b : s.barriers)
@@ -70,11 +78,14 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
                 b);
     }
     if (!f.has(Feature::moving_body)) scene.body.reset();
-    std::erase_if(scene.taps, [&scene](const Tap& t) { return lacks(scene.strings[*t.string], t.quantity) != nullptr; });
+    std::erase_if(scene.taps, [&scene](const Tap& t) {
+        return lacks(scene.strings[*t.string], t.quantity) != nullptr;
+    });
     return scene;
 }
 
-// A limp string without losses whose two planes its end at x = 0 turns at each reflection: both waves of d'Alembert.
+// A limp string without losses whose two planes its end at x = 0 turns at each reflection: both
+// waves of d'Alembert.
 Trace turning(const Scene& scene, long rows) {
     Trace t;
     t.tap_rate = contract_tap_rate;
@@ -83,7 +94,8 @@ Trace turning(const Scene& scene, long rows) {
     const double speed = std::sqrt(s.tension / s.linear_density);
     const Modes modes = modes_of(s, 400);
     const auto shape = initial_displacement(modes, s);
-    const auto wave = [&](double x) {  // of the vertical plane, where the shape is in a plane of angle 0
+    // of the vertical plane, where the shape is in a plane of angle 0
+    const auto wave = [&](double x) {
         std::complex<double> turned = std::polar(0.5, s.polarisation->pluck_angle);
         for (; x < 0 || x > s.length; turned = -turned)
             if (x < 0) x = -x, turned *= std::polar(1.0, s.polarisation->rotation);
@@ -102,7 +114,8 @@ Trace turning(const Scene& scene, long rows) {
     return t;
 }
 
-const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine) {  // nullptr: none
+// nullptr: none
+const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine) {
     static std::mutex mutex;
     static std::map<std::string, Trace> known;
     const std::scoped_lock lock(mutex);
@@ -113,10 +126,12 @@ const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine
     }
     for (const Descriptor& reference : references()) {
         const Settings settings = at(reference, times);
-        if (std::string(reference.name) == d.name || (needed_by(scene) - Feature::profile_barrier).any(approximated(reference)) ||
+        if (std::string(reference.name) == d.name ||
+            (needed_by(scene) - Feature::profile_barrier).any(approximated(reference)) ||
             !takes(reference, scene, settings))
             continue;
-        const auto [at, is_new] = known.try_emplace(scene_hash(scene) + reference.name + std::to_string(times));
+        const auto [at, is_new] =
+            known.try_emplace(scene_hash(scene) + reference.name + std::to_string(times));
         if (is_new) at->second = run(reference, scene, settings).trace;
         return &at->second;
     }
@@ -140,7 +155,9 @@ template <class At>
 double own_error(At at) {
     const double order = std::log(3.0) / std::log(8.0);
     double most = 0;
-    for (const int i : {0, 1}) most = std::max(most, norm(less(at(i), at(2))) / (std::pow(double(fine) / rates[i], order) - 1));
+    for (const int i : {0, 1})
+        most = std::max(most,
+                        norm(less(at(i), at(2))) / (std::pow(double(fine) / rates[i], order) - 1));
     return most;
 }
 
@@ -155,14 +172,18 @@ public:
 
     std::string wrong() {  // "": nothing
         if (before_.empty()) return "";
-        if (std::string found = compared(scene_, "as it is", truth_, before_, true); !found.empty()) return found;
+        if (std::string found = compared(scene_, "as it is", truth_, before_, true); !found.empty())
+            return found;
         for (int which = 0;; ++which) {
             auto other = changed(scene_, which);
             if (!other) return "";
             if (!usable(other->scene)) other = changed(scene_, which, true);
-            if (other->key == "duration" || !usable(other->scene) || !truth_for(d_, other->scene)) continue;
+            if (other->key == "duration" || !usable(other->scene) || !truth_for(d_, other->scene))
+                continue;
             ++asked_;
-            if (std::string found = compared(other->scene, other->key, levels_of_truth(other->scene), levels(other->scene), false);
+            if (std::string found =
+                    compared(other->scene, other->key, levels_of_truth(other->scene),
+                             levels(other->scene), false);
                 !found.empty())
                 return found;
         }
@@ -175,25 +196,32 @@ private:
         } catch (const BadScene&) {  // a number that another one bounds
             return false;
         }
-        return is_as_the_scene_says(d_, s) && std::ranges::all_of(rates, [&](int times) { return takes(d_, s, at(d_, times)); });
+        return is_as_the_scene_says(d_, s) &&
+               std::ranges::all_of(rates, [&](int times) { return takes(d_, s, at(d_, times)); });
     }
     Levels levels(const Scene& s) const {
         Levels all;
-        for (const int times : rates) all.push_back(times == fine || d_.clock == Clock::stepped ? run(d_, s, at(d_, times)) : jvari::Run{});
+        for (const int times : rates)
+            all.push_back(times == fine || d_.clock == Clock::stepped ? run(d_, s, at(d_, times))
+                                                                      : jvari::Run{});
         return all;
     }
     // Of a reference with cells, which errs by about one of them, each; of any other the last.
     std::vector<const Trace*> levels_of_truth(const Scene& s) const {
         std::vector<const Trace*> all;
-        for (const int times : rates) all.push_back(truth_for(d_, s, needed_by(s).has(Feature::rigid_profile) ? times : fine));
+        for (const int times : rates)
+            all.push_back(
+                truth_for(d_, s, needed_by(s).has(Feature::rigid_profile) ? times : fine));
         return all;
     }
-    std::string compared(const Scene& other, const std::string& key, const std::vector<const Trace*>& truth, const Levels& is,
+    std::string compared(const Scene& other, const std::string& key,
+                         const std::vector<const Trace*>& truth, const Levels& is,
                          bool itself) const {
         for (int k = 0; k < truth[2]->taps(); ++k) {
             const auto change = [&](int i) {
                 const int level = d_.clock == Clock::stepped ? i : 2;
-                return itself ? less(is[level].trace.column(k), std::vector<double>(is[level].trace.rows))
+                return itself ? less(is[level].trace.column(k),
+                                     std::vector<double>(is[level].trace.rows))
                               : less(is[level].trace.column(k), before_[level].trace.column(k));
             };
             const auto true_change = [&](int i) {
@@ -203,19 +231,26 @@ private:
             const auto is_here = change(2), is_there = true_change(2);
             const double all = std::max(norm(truth[2]->column(k)), norm(truth_[2]->column(k)));
             double allowed = own_error(change) + own_error(true_change) +
-                             (d_.represents.has(Feature::measured_modes) ? as_good_as_the_same : what_modes_leave_out) * all;
+                             (d_.represents.has(Feature::measured_modes) ? as_good_as_the_same
+                                                                         : what_modes_leave_out) *
+                                 all;
             if (!itself && d_.clock == Clock::stepped && needed_by(other).any(with_events))
-                for (const Levels* l : {&is, &before_}) allowed += own_error([&](int i) { return (*l)[i].trace.column(k); });
+                for (const Levels* l : {&is, &before_})
+                    allowed += own_error([&](int i) { return (*l)[i].trace.column(k); });
             if (needed_by(other).any(any_profile)) allowed += what_nodes_leave_out * all;
-            for (const Levels* l : {&is, itself ? nullptr : &before_})  // its contacts err by so much, it says
-                if (const double gap = l ? fact_of((*l)[2].facts, facts::psi_gap) : 0; gap > 0) allowed += gap * all;
+            // its contacts err by so much, it says
+            for (const Levels* l : {&is, itself ? nullptr : &before_})
+                if (const double gap = l ? fact_of((*l)[2].facts, facts::psi_gap) : 0; gap > 0)
+                    allowed += gap * all;
             const double error = norm(less(is_here, is_there));
             if (!(error <= allowed) || is_here.size() != is_there.size())
                 return fmt::format(
-                    "{}: {}{}: tap {} {} by {:.4g} {} (root of the sum of squares) where the reference's does by {:.4g}; they differ by "
+                    "{}: {}{}: tap {} {} by {:.4g} {} (root of the sum of squares) where the "
+                    "reference's does by {:.4g}; they differ by "
                     "{:.2g}, at most {:.2g} is its own error",
-                    scene_.name, key, itself ? "" : " changed by a tenth", truth[2]->names[k], itself ? "moves" : "changes", norm(is_here),
-                    unit_of(scene_.taps[k].quantity), norm(is_there), error, allowed);
+                    scene_.name, key, itself ? "" : " changed by a tenth", truth[2]->names[k],
+                    itself ? "moves" : "changes", norm(is_here), unit_of(scene_.taps[k].quantity),
+                    norm(is_there), error, allowed);
         }
         return "";
     }
@@ -234,13 +269,15 @@ Verdict feels_every_number(const Case& c) {
     for (const Scene& whole : scenes_of_numbers()) {
         Scene scene = as_far_as(c.scheme, whole);
         scene.name = "";
-        if (!seen.insert(scene_hash(scene)).second) continue;  // what made it another is not represented
+        // what made it another is not represented
+        if (!seen.insert(scene_hash(scene)).second) continue;
         scene.name = whole.name;
         Felt felt(c.scheme, scene);
         if (const std::string found = felt.wrong(); !found.empty()) return broken(found);
         asked += felt.asked();
     }
-    return asked > 0 ? kept(fmt::format("{} numbers", asked)) : not_asked("no reference represents what it does");
+    return asked > 0 ? kept(fmt::format("{} numbers", asked))
+                     : not_asked("no reference represents what it does");
 }
 
 }  // namespace jvari::bench::check

@@ -1,8 +1,10 @@
-// What every scheme owes the program: the one list of promises. `jvari check` asks them of a scheme, the tests ask them of all.
+// What every scheme owes the program: the one list of promises. `jvari check` asks them of a
+// scheme, the tests ask them of all.
 //
-// A promise is asked on every scene that the scheme represents, on every scene that it does not, or once. Claims in numbers rest on all
-// others, and are asked where these are kept: so what breaks a promise fails by its name. The last two rest on the claims before them as
-// well: a scheme that moves otherwise than the scene is at no instant of it, and answers no number of it.
+// A promise is asked on every scene that the scheme represents, on every scene that it does not, or
+// once. Claims in numbers rest on all others, and are asked where these are kept: so what breaks a
+// promise fails by its name. The last two rest on the claims before them as well: a scheme that
+// moves otherwise than the scene is at no instant of it, and answers no number of it.
 // tests/contract_plugins has a scheme for each that breaks it and keeps all others.
 #pragma once
 
@@ -18,8 +20,10 @@
 namespace jvari::bench::check {
 
 struct Verdict {
-    enum class Answer { kept, broken, excused, not_asked } answer = Answer::kept;  // excused: broken, as it is known of this scheme
-    std::string why;                                                               // what was found, or why it could not be asked
+    // excused: broken, as it is known of this scheme
+    enum class Answer { kept, broken, excused, not_asked } answer = Answer::kept;
+    // what was found, or why it could not be asked
+    std::string why;
     bool broken() const { return answer == Answer::broken; }
 };
 Verdict kept(std::string found = "");
@@ -33,7 +37,13 @@ struct Case {  // a scheme, a scene, and settings at which it is asked
     Settings settings;
 };
 
-enum class Asked { on_represented_scenes, on_other_scenes, once, once_all_others_are_kept, once_all_before_are_kept };
+enum class Asked {
+    on_represented_scenes,
+    on_other_scenes,
+    once,
+    once_all_others_are_kept,
+    once_all_before_are_kept
+};
 
 struct Promise {
     const char* name;      // "AllocatesNothingWhileStepping"
@@ -43,7 +53,8 @@ struct Promise {
 };
 std::span<const Promise> promises();  // in the order in which they are best read
 
-// A scheme of this tree that is known to break a promise: a control, which a comparison has to find.
+// A scheme of this tree that is known to break a promise: a control, which a comparison has to
+// find.
 struct Excuse {
     const char *scheme, *promise, *why;
 };
@@ -51,8 +62,8 @@ std::span<const Excuse> excuses();
 
 std::vector<Case> cases_of(const Descriptor&, Asked);
 
-// Never throws: what the scheme throws breaks the promise; a scene that it refuses for a reason of its own is not asked. Who breaks what it
-// is excused from has the answer `excused`.
+// Never throws: what the scheme throws breaks the promise; a scene that it refuses for a reason of
+// its own is not asked. Who breaks what it is excused from has the answer `excused`.
 Verdict ask(const Promise&, const Case&);
 
 // ---- One function for each promise, and what several of them need.
@@ -85,8 +96,10 @@ Verdict feels_every_number(const Case&);
 Verdict stays_sound_over_a_map(const Case&);
 
 Settings settings_for(const Descriptor&, const Scene&);
-bool is_as_the_scene_says(const Descriptor&, const Scene&);    // it represents it, and approximates nothing of it
-bool is_called(const Descriptor&);                             // a program by files: it declares nothing, and refuses when it runs
+// it represents it, and approximates nothing of it
+bool is_as_the_scene_says(const Descriptor&, const Scene&);
+// a program by files: it declares nothing, and refuses when it runs
+bool is_called(const Descriptor&);
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
 

@@ -36,7 +36,8 @@ Scene released() {  // over bridge and thread, let go from its first mode
     return read_scene("tanpura_c3_release");
 }
 
-LumpedBarrier bridge_at(const String& s, int node) {  // a point, on a node where the modes have as many nodes between the ends
+// a point, on a node where the modes have as many nodes between the ends
+LumpedBarrier bridge_at(const String& s, int node) {
     return {node * s.length / (contract_modes + 1), 0, 0, {4.39e8}, 1, 0};
 }
 
@@ -48,38 +49,60 @@ Scene with(Feature feature, Scene scene) {
         for (Barrier& b : s.barriers) std::visit(change, b);
     };
     switch (feature) {
-        case Feature::bending_stiffness: s.bending_stiffness = 1e-6 * s.tension * s.length * s.length; break;
+        case Feature::bending_stiffness:
+            s.bending_stiffness = 1e-6 * s.tension * s.length * s.length;
+            break;
         case Feature::damping: s.damping = PolynomialDamping{0.6, 0, 0}; break;
-        case Feature::frequency_dependent_damping: s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6}; break;
+        case Feature::frequency_dependent_damping:
+            s.damping = PolynomialDamping{0.6, 6.5e-3, 5.0e-6};
+            break;
         case Feature::measured_modes: {
             TableDamping table;
-            for (int i = 1; i <= contract_modes; ++i) table.frequency_hz.push_back(131.3 * i), table.decay_rate.push_back(0.6);
+            for (int i = 1; i <= contract_modes; ++i)
+                table.frequency_hz.push_back(131.3 * i), table.decay_rate.push_back(0.6);
             s.damping = table;
             break;
         }
         case Feature::lumped_barrier: s.barriers.emplace_back(bridge_at(s, 1)); break;
-        case Feature::profile_barrier: s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0}); break;
-        case Feature::several_barriers:  // soft: a force known before the step explodes on a stiff one before the other is heard
+        case Feature::profile_barrier:
+            s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0});
+            break;
+        // soft: a force known before the step explodes on a stiff one before the other is heard
+        case Feature::several_barriers:
             s.barriers.assign({bridge_at(s, 1), bridge_at(s, 3)});
             for (Barrier& b : s.barriers) std::get<LumpedBarrier>(b).stiffness.k = 1e4;
             break;
         case Feature::power_law_contact: on_its_barriers([](auto& b) { b.exponent = 1.5; }); break;
         case Feature::contact_loss: on_its_barriers([](auto& b) { b.contact_loss = 0.5; }); break;
-        case Feature::thread: s.thread = Thread{5e-3 * s.length, 1.2e-3 * s.length, 1.2e5, 0, 0}; break;
+        case Feature::thread:
+            s.thread = Thread{5e-3 * s.length, 1.2e-3 * s.length, 1.2e5, 0, 0};
+            break;
         case Feature::polarisation: s.polarisation = Polarisation{0.1, 0.3}; break;
         case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
-        case Feature::pluck: s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length}; break;
-        case Feature::rigid_barrier: s.barriers = {bridge_at(s, 1)}, std::get<LumpedBarrier>(s.barriers[0]).stiffness.k = rigid; break;
-        case Feature::rigid_profile: s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {rigid}, 1, 0}); break;
+        case Feature::pluck:
+            s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length};
+            break;
+        case Feature::rigid_barrier:
+            s.barriers = {bridge_at(s, 1)},
+            std::get<LumpedBarrier>(s.barriers[0]).stiffness.k = rigid;
+            break;
+        case Feature::rigid_profile:
+            s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {rigid}, 1, 0});
+            break;
         case Feature::tension_modulation: s.axial_stiffness = 5e3; break;
-        case Feature::moving_body: scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}}; break;
+        case Feature::moving_body:
+            scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}};
+            break;
     }
     return scene;
 }
 
-bool with_other_losses_of_high_modes(String& s) {  // what all modes have in common stays; false where there is nothing to change
-    if (auto* p = std::get_if<PolynomialDamping>(&s.damping)) return p->sigma1 = p->sigma3 = 0, true;
-    if (auto* q = std::get_if<QualityFactorDamping>(&s.damping)) return q->viscoelastic_angle *= 2, true;
+// what all modes have in common stays; false where there is nothing to change
+bool with_other_losses_of_high_modes(String& s) {
+    if (auto* p = std::get_if<PolynomialDamping>(&s.damping))
+        return p->sigma1 = p->sigma3 = 0, true;
+    if (auto* q = std::get_if<QualityFactorDamping>(&s.damping))
+        return q->viscoelastic_angle *= 2, true;
     if (auto* t = std::get_if<TableDamping>(&s.damping)) return t->decay_rate.back() *= 2, true;
     return false;
 }
@@ -93,7 +116,8 @@ bool with_other_frequencies(String& s) {
 
 template <class Kind>
 bool rid_of(String& s) {
-    return std::erase_if(s.barriers, [](const Barrier& b) { return std::holds_alternative<Kind>(b); }) > 0;
+    return std::erase_if(s.barriers,
+                         [](const Barrier& b) { return std::holds_alternative<Kind>(b); }) > 0;
 }
 }  // namespace
 
@@ -116,7 +140,9 @@ std::vector<Scene> read_contract_scenes() {
     scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
     scenes.push_back(named(with(Feature::rigid_barrier, released()), "rigid_release"));
-    scenes.push_back(named(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}), "rigid_wall"));
+    scenes.push_back(
+        named(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}),
+              "rigid_wall"));
     scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
     scenes.back().strings.front().initial.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
@@ -140,15 +166,16 @@ std::vector<Scene> scenes_with(Feature feature) {
     for (Scene& s : scenes) {
         s.taps.clear();  // where a string that is without the feature can be heard as well
         for (const double x : {0.3, 0.4375})
-            s.taps.push_back({"y" + std::to_string(s.taps.size()), Quantity::displacement, static_cast<int>(s.strings.size()) - 1,
-                              x * s.strings.back().length});
+            s.taps.push_back({"y" + std::to_string(s.taps.size()), Quantity::displacement,
+                              static_cast<int>(s.strings.size()) - 1, x * s.strings.back().length});
     }
     return shortened(scenes);
 }
 
 std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
     std::vector<Scene> all;
-    const auto add = [&](auto change) {  // of a string, where there are several of one of them: false where there is nothing to change
+    // of a string, where there are several of one of them: false where there is nothing to change
+    const auto add = [&](auto change) {
         Scene other = scene;
         if (change(other.strings.back())) all.push_back(std::move(other));
     };
@@ -159,7 +186,9 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         });
     };
     switch (feature) {
-        case Feature::bending_stiffness: add([](String& s) { return s.bending_stiffness *= 2, true; }); break;
+        case Feature::bending_stiffness:
+            add([](String& s) { return s.bending_stiffness *= 2, true; });
+            break;
         case Feature::damping: add([](String& s) { return s.damping = NoDamping{}, true; }); break;
         case Feature::frequency_dependent_damping: add(with_other_losses_of_high_modes); break;
         case Feature::measured_modes: add(with_other_frequencies); break;
@@ -173,21 +202,35 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::several_barriers:
             for (const bool first : {false, true})
                 add([first](String& s) {
-                    return s.barriers.size() > 1 && (s.barriers.erase(first ? s.barriers.begin() : s.barriers.end() - 1), true);
+                    return s.barriers.size() > 1 &&
+                           (s.barriers.erase(first ? s.barriers.begin() : s.barriers.end() - 1),
+                            true);
                 });
             break;
         case Feature::power_law_contact: each_barrier([](auto& b) { b.exponent += 0.25; }); break;
         case Feature::contact_loss: each_barrier([](auto& b) { b.contact_loss *= 2; }); break;
-        case Feature::thread: add([](String& s) { return s.thread && (s.thread->stiffness *= 0.5, true); }); break;
-        case Feature::initial_shape:
-            add([](String& s) { return s.initial && (std::visit([](auto& i) { i.amplitude *= 1.1; }, *s.initial), true); });
+        case Feature::thread:
+            add([](String& s) { return s.thread && (s.thread->stiffness *= 0.5, true); });
             break;
-        case Feature::pluck: add([](String& s) { return s.pluck && (s.pluck->amplitude *= 1.1, true); }); break;
+        case Feature::initial_shape:
+            add([](String& s) {
+                return s.initial &&
+                       (std::visit([](auto& i) { i.amplitude *= 1.1; }, *s.initial), true);
+            });
+            break;
+        case Feature::pluck:
+            add([](String& s) { return s.pluck && (s.pluck->amplitude *= 1.1, true); });
+            break;
         case Feature::polarisation:
-            add([](String& s) { return s.polarisation && (s.polarisation->rotation += 0.2, s.polarisation->pluck_angle += 0.2, true); });
+            add([](String& s) {
+                return s.polarisation &&
+                       (s.polarisation->rotation += 0.2, s.polarisation->pluck_angle += 0.2, true);
+            });
             break;
         case Feature::rigid_barrier: each_barrier([](auto& b) { b.stiffness = {1e5}; }); break;
-        case Feature::tension_modulation: add([](String& s) { return s.axial_stiffness *= 3, true; }); break;
+        case Feature::tension_modulation:
+            add([](String& s) { return s.axial_stiffness *= 3, true; });
+            break;
         case Feature::moving_body:
             all.push_back(scene);
             for (BodyMode& m : all.back().body->modes) m.stiffness *= 2;
@@ -212,13 +255,16 @@ std::vector<Scene> make_scenes_of_numbers() {
         s.duration = 5e-3;
         s.strings = std::move(strings);
         for (int k = 0; k < static_cast<int>(s.strings.size()); ++k) {
-            const auto hear = [&](const char* what, Quantity q, double x) { s.taps.push_back({what + std::to_string(k), q, k, x}); };
+            const auto hear = [&](const char* what, Quantity q, double x) {
+                s.taps.push_back({what + std::to_string(k), q, k, x});
+            };
             hear("y", Quantity::displacement, 0.11);
             hear("v", Quantity::velocity, 0.17);
             hear("nut", Quantity::nut_force, 0);
             if (!s.strings[k].barriers.empty()) hear("bridge", Quantity::bridge_force, 0);
             if (s.strings[k].thread) hear("thread", Quantity::thread_force, 0);
-            if (!s.strings[k].barriers.empty() || s.strings[k].thread) hear("driving", Quantity::driving_force, 0);
+            if (!s.strings[k].barriers.empty() || s.strings[k].thread)
+                hear("driving", Quantity::driving_force, 0);
         }
         return s;
     };
@@ -232,14 +278,16 @@ std::vector<Scene> make_scenes_of_numbers() {
     }
     {
         String a = played, b = played;
-        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0}, LumpedBarrier{0.2, 0.1, -4e-4, {1500}, 1, 0}};
+        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0},
+                      LumpedBarrier{0.2, 0.1, -4e-4, {1500}, 1, 0}};
         b.tension = 25;
         b.barriers = {LumpedBarrier{0.1, 0.08, -2e-4, {1200}, 1, 0}};
         all.push_back(scene("two_strings", {a, b}));
     }
     {
         String a = played;
-        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {3e4}, 1.5, 0.6}, LumpedBarrier{0.2, 0.1, -4e-4, {8e4}, 1.6, 0.9}};
+        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {3e4}, 1.5, 0.6},
+                      LumpedBarrier{0.2, 0.1, -4e-4, {8e4}, 1.6, 0.9}};
         all.push_back(scene("power_law", {a}));
     }
     {
@@ -251,7 +299,8 @@ std::vector<Scene> make_scenes_of_numbers() {
         String a = played, b = played, c = played;
         a.barriers = {ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}};
         b.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}};
-        c.barriers = {ProfileBarrier{TableCurve{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}}, 0.05, 0.15, {3e4}, 1, 0}};
+        c.barriers = {ProfileBarrier{
+            TableCurve{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}}, 0.05, 0.15, {3e4}, 1, 0}};
         all.push_back(scene("line", {a}));
         all.push_back(scene("parabola", {b}));
         all.push_back(scene("table_curve", {c}));
@@ -270,7 +319,9 @@ std::vector<Scene> make_scenes_of_numbers() {
         b.damping = PerPeriodDamping{0.8};
         TableDamping t;
         t.file = "measured";
-        for (int i = 1; i <= 48; ++i) t.frequency_hz.push_back(430.0 * i * (1 + 1e-3 * i)), t.decay_rate.push_back(30.0 + 5 * i);
+        for (int i = 1; i <= 48; ++i)
+            t.frequency_hz.push_back(430.0 * i * (1 + 1e-3 * i)),
+                t.decay_rate.push_back(30.0 + 5 * i);
         c.damping = t;
         c.bending_stiffness = 0;
         all.push_back(scene("quality_factor", {a}));

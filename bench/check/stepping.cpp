@@ -23,8 +23,11 @@ std::string apart(const Trace& a, const Trace& b) {
     for (int k = 0; k < a.taps(); ++k)
         if (std::memcmp(a.column(k).data(), b.column(k).data(), a.rows * sizeof(double)) != 0) {
             long n = 0;
-            while (std::bit_cast<std::uint64_t>(a.column(k)[n]) == std::bit_cast<std::uint64_t>(b.column(k)[n])) ++n;
-            return fmt::format("tap {} in row {}: {:.17g} in place of {:.17g}", a.names[k], n, b.column(k)[n], a.column(k)[n]);
+            while (std::bit_cast<std::uint64_t>(a.column(k)[n]) ==
+                   std::bit_cast<std::uint64_t>(b.column(k)[n]))
+                ++n;
+            return fmt::format("tap {} in row {}: {:.17g} in place of {:.17g}", a.names[k], n,
+                               b.column(k)[n], a.column(k)[n]);
         }
     return "";
 }
@@ -42,23 +45,29 @@ Verdict allocates_nothing(const Case& c) {
     scheme->advance({64, taps, 64, tap.data(), energy.data()});
     scheme->reset();
     const long count = allocations.count();
-    return count == 0 ? kept() : broken(fmt::format("{} allocations in 128 rows and a reset", count));
+    return count == 0 ? kept()
+                      : broken(fmt::format("{} allocations in 128 rows and a reset", count));
 }
 
 Verdict gives_numbers(const Case& c) {
     const jvari::Run r = fresh(c, {.energy = c.scheme.balance != Balance::none});
     if (r.trace.rows <= 0) return broken("gives no row");
     const auto touched = [](const String& s) { return !s.barriers.empty(); };
-    if (c.scheme.balance == Balance::none && std::any_of(c.scene.strings.begin(), c.scene.strings.end(), touched))
+    if (c.scheme.balance == Balance::none &&
+        std::any_of(c.scene.strings.begin(), c.scene.strings.end(), touched))
         return kept("it may diverge: it promises no balance");
-    if (r.status.outcome != Outcome::ok) return broken(fmt::format("{} at step {}", name_of(r.status.outcome), r.status.step));
-    return r.trace.rows == r.trace.stride ? kept() : broken(fmt::format("{} of {} rows", r.trace.rows, r.trace.stride));
+    if (r.status.outcome != Outcome::ok)
+        return broken(fmt::format("{} at step {}", name_of(r.status.outcome), r.status.step));
+    return r.trace.rows == r.trace.stride
+               ? kept()
+               : broken(fmt::format("{} of {} rows", r.trace.rows, r.trace.stride));
 }
 
 Verdict same_bits_whatever_the_block(const Case& c) {
     const jvari::Run first = fresh(c, {.block_rows = 64});
     for (const int rows : {1, 7, 1000})
-        if (const std::string found = apart(first.trace, fresh(c, {.block_rows = rows}).trace); !found.empty())
+        if (const std::string found = apart(first.trace, fresh(c, {.block_rows = rows}).trace);
+            !found.empty())
             return broken(fmt::format("with {} rows a block: {}", rows, found));
     return kept();
 }
@@ -75,9 +84,12 @@ Verdict stores_the_same_probed_now_and_then(const Case& c, const Trace& probed) 
     for (long row = 0; row < probed.rows; ++row) {
         const bool asked = row % each == each - 1;
         scheme->advance({1, static_cast<int>(tap.size()), 1, tap.data(), asked ? energy : nullptr});
-        if (asked && std::bit_cast<std::uint64_t>(energy[0]) != std::bit_cast<std::uint64_t>(probed.energy[static_cast<std::size_t>(row)]))
-            return broken(fmt::format("stores {:.17g} J in row {} in place of {:.17g} J where the rows before it are not probed", energy[0],
-                                      row, probed.energy[static_cast<std::size_t>(row)]));
+        if (asked && std::bit_cast<std::uint64_t>(energy[0]) !=
+                         std::bit_cast<std::uint64_t>(probed.energy[static_cast<std::size_t>(row)]))
+            return broken(
+                fmt::format("stores {:.17g} J in row {} in place of {:.17g} J where the rows "
+                            "before it are not probed",
+                            energy[0], row, probed.energy[static_cast<std::size_t>(row)]));
     }
     return kept();
 }
@@ -87,7 +99,8 @@ Verdict same_bits_with_energy_probed(const Case& c) {
     const jvari::Run bare = fresh(c, {.timed = true});
     jvari::Run probed = fresh(c, {.energy = true});
     if (c.scheme.balance == Balance::none)
-        probed.trace.rows = std::min(probed.trace.rows, bare.trace.rows);  // it is seen to diverge sooner
+        // it is seen to diverge sooner
+        probed.trace.rows = std::min(probed.trace.rows, bare.trace.rows);
     jvari::Trace seen = bare.trace;
     if (c.scheme.balance == Balance::none) seen.rows = probed.trace.rows;
     const std::string found = apart(seen, probed.trace);
@@ -101,7 +114,8 @@ Verdict starts_anew_after_a_reset(const Case& c) {
     const std::string found = apart(first.trace, again.trace);
     if (!found.empty()) return broken(found);
     const auto &was = first.trace.energy, &is = again.trace.energy;
-    return was.size() == is.size() && std::memcmp(was.data(), is.data(), was.size() * sizeof(double)) == 0
+    return was.size() == is.size() &&
+                   std::memcmp(was.data(), is.data(), was.size() * sizeof(double)) == 0
                ? kept()
                : broken("its energy columns are others the second time");
 }
@@ -112,19 +126,19 @@ namespace {
 std::optional<int> dofs_of(const Case& c) {  // none where it refuses
     try {
         return make_scheme(c.scheme, c.scene, c.settings)->dofs();
-    } catch (const Refusal&) {
-        return std::nullopt;
-    } catch (const BadScene&) {
+    } catch (const Refusal&) { return std::nullopt; } catch (const BadScene&) {
         return std::nullopt;
     }
 }
 
-// Displacement and velocity of each mode, or of each node of a grid, whose spacing no wave passes within a step; then a value for each
-// contact at two levels, and a few for a filter at an end. A second plane has as many again. A profile has a contact at each node on it, or
-// at the points of its own that a scheme says it has.
+// Displacement and velocity of each mode, or of each node of a grid, whose spacing no wave passes
+// within a step; then a value for each contact at two levels, and a few for a filter at an end. A
+// second plane has as many again. A profile has a contact at each node on it, or at the points of
+// its own that a scheme says it has.
 double contacts_on(const ProfileBarrier& profile, double length, double nodes, const Case& c) {
-    const bool own =
-        std::ranges::any_of(c.scheme.options, [](const Option& o) { return o.name == std::string(profile_points_option.name); });
+    const bool own = std::ranges::any_of(c.scheme.options, [](const Option& o) {
+        return o.name == std::string(profile_points_option.name);
+    });
     const double on_nodes = std::ceil(nodes * (profile.to - profile.from) / length);
     return own ? std::max(on_nodes, number_option(c.settings, profile_points_option)) : on_nodes;
 }
@@ -132,7 +146,8 @@ int most_state(const Case& c, bool sized_by_modes) {
     double most = 0;
     for (const String& s : c.scene.strings) {
         const double speed = std::sqrt(s.tension / s.linear_density);
-        const double nodes = sized_by_modes ? contract_modes : std::ceil(s.length * c.settings.sample_rate / speed);
+        const double nodes =
+            sized_by_modes ? contract_modes : std::ceil(s.length * c.settings.sample_rate / speed);
         double contacts = 0;
         for (const Barrier& b : s.barriers) {
             const auto* profile = std::get_if<ProfileBarrier>(&b);
@@ -160,13 +175,18 @@ Verdict carries_no_more_state(const Case& c) {
         s.barriers.clear();
         s.polarisation.reset();
     }
-    std::erase_if(bare.scene.taps, [](const Tap& t) { return t.quantity != Quantity::displacement && t.quantity != Quantity::nut_force; });
+    std::erase_if(bare.scene.taps, [](const Tap& t) {
+        return t.quantity != Quantity::displacement && t.quantity != Quantity::nut_force;
+    });
     if (const auto other = dofs_of(bare); other && *other > dofs)
-        return broken(fmt::format("carries {} doubles without contact, thread and pluck, and {} with them", *other, dofs));
+        return broken(
+            fmt::format("carries {} doubles without contact, thread and pluck, and {} with them",
+                        *other, dofs));
     Case quiet = c;
     quiet.scene.taps.resize(1);
     if (const auto other = dofs_of(quiet); other && *other != dofs)
-        return broken(fmt::format("carries {} doubles for one tap, and {} for {}", *other, dofs, c.scene.taps.size()));
+        return broken(fmt::format("carries {} doubles for one tap, and {} for {}", *other, dofs,
+                                  c.scene.taps.size()));
     return kept();
 }
 

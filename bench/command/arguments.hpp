@@ -23,11 +23,12 @@ struct Value {  // of an option: what help calls it, and what it may be
     const char* type;
     CLI::Validator check = {};
 };
-// A number > 0; a whole one; one that may be 0; then such that may have a unit behind them: the text becomes the number in SI units.
+// A number > 0; a whole one; one that may be 0; then such that may have a unit behind them: the
+// text becomes the number in SI units.
 extern const Value positive, counting, counting_or_0, hertz, seconds, metres;
 
-// Does what was asked for, once the arguments are read, and returns the exit code of the program. Throws UsageError, BadScene,
-// SceneFileError (2), Refusal (3).
+// Does what was asked for, once the arguments are read, and returns the exit code of the program.
+// Throws UsageError, BadScene, SceneFileError (2), Refusal (3).
 using Act = std::function<int()>;
 
 class Arguments {
@@ -59,7 +60,8 @@ class Verb : public Arguments {
     const std::shared_ptr<Request> asked_ = std::make_shared<Request>();
 
 public:
-    Verb(CLI::App& program, const char* name, const char* about) : Arguments(*program.add_subcommand(name, about)) {}
+    Verb(CLI::App& program, const char* name, const char* about)
+        : Arguments(*program.add_subcommand(name, about)) {}
     Request& r = *asked_;  // what is asked for; an `act` gets it once the arguments are read
     Act does(int (*act)(Request), const char* footer) {
         common(r);

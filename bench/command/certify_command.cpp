@@ -1,5 +1,5 @@
-// jvari certify: every reference that represents a scene against every other one. What it found goes to a file, a table, and from there to
-// the errors of compare and suite.
+// jvari certify: every reference that represents a scene against every other one. What it found
+// goes to a file, a table, and from there to the errors of compare and suite.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -33,34 +33,47 @@ struct CertifyRequest : Running {
     std::vector<std::string> set;
 };
 
-fs::path path_for(const CertifyRequest& r, const Scene& scene) {  // a changed scene does not take the place of the one it was made from
+// a changed scene does not take the place of the one it was made from
+fs::path path_for(const CertifyRequest& r, const Scene& scene) {
     if (!r.out.empty()) {
         if (fs::path(r.out).extension() != ".json" || r.out.ends_with(".cost.json"))
             throw store::UsageError(
-                fmt::format("--out {}: expected a name that ends in .json (its costs go beside it, to .cost.json)", r.out));
+                fmt::format("--out {}: expected a name that ends in .json (its costs go beside it, "
+                            "to .cost.json)",
+                            r.out));
         return r.out;
     }
     const fs::path folder = "results/certificates";
     store::make_folder(folder);
-    return folder / (trust::file_stem(scene.name) + (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) + ".json");
+    return folder /
+           (trust::file_stem(scene.name) +
+            (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) + ".json");
 }
 
 std::string entries_text(const Certificate& c) {
-    TextTable t{{{""}, {"reference", true}, {"status", true}, {"until", false, 1}, {"cost", false, 2}}, {}};
+    TextTable t{
+        {{""}, {"reference", true}, {"status", true}, {"until", false, 1}, {"cost", false, 2}}, {}};
     for (std::size_t i = 0; i < c.entries.size(); ++i) {
         const auto& e = c.entries[i];
-        const std::string name = store::variant_name(e.reference + (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : ""),
-                                                     store::options_text(e.options)) +
-                                 (e.doubled.empty() ? "" : ", twice the " + e.doubled);
+        const std::string name =
+            store::variant_name(
+                e.reference +
+                    (e.sample_rate > 0 ? fmt::format(" at {:.10g} Hz", e.sample_rate) : ""),
+                store::options_text(e.options)) +
+            (e.doubled.empty() ? "" : ", twice the " + e.doubled);
         const bool refused = !e.reason.empty();
-        t.rows.push_back({' ',
-                          {std::to_string(i + 1), name, refused ? "refused" : name_of(e.status.outcome),
-                           refused ? "-" : fmt::format("{:.4g} s", e.reached),
-                           refused || std::isnan(e.wall_seconds) ? "-" : fmt::format("{:.3g} s", e.wall_seconds)}});
+        t.rows.push_back(
+            {' ',
+             {std::to_string(i + 1), name, refused ? "refused" : name_of(e.status.outcome),
+              refused ? "-" : fmt::format("{:.4g} s", e.reached),
+              refused || std::isnan(e.wall_seconds) ? "-"
+                                                    : fmt::format("{:.3g} s", e.wall_seconds)}});
     }
     std::string text = t.text(Console::width());
     for (std::size_t i = 0; i < c.entries.size(); ++i)
-        if (!c.entries[i].reason.empty()) text += wrapped(fmt::format("  {} refused: {}\n", i + 1, c.entries[i].reason), Console::width());
+        if (!c.entries[i].reason.empty())
+            text += wrapped(fmt::format("  {} refused: {}\n", i + 1, c.entries[i].reason),
+                            Console::width());
     return text;
 }
 
@@ -72,15 +85,19 @@ std::vector<std::size_t> windows_of(const Certificate& c) {
     return windows;
 }
 
-std::vector<std::string> numbers(const Certificate::ByWindow& values, const std::vector<std::size_t>& windows) {
+std::vector<std::string> numbers(const Certificate::ByWindow& values,
+                                 const std::vector<std::size_t>& windows) {
     std::vector<std::string> fields;
-    for (const std::size_t w : windows) fields.push_back(std::isnan(values[w]) ? "-" : fmt::format("{:.1e}", values[w]));
+    for (const std::size_t w : windows)
+        fields.push_back(std::isnan(values[w]) ? "-" : fmt::format("{:.1e}", values[w]));
     return fields;
 }
 
 std::vector<std::string> instants(const Agreement& a, double duration, double tap_rate) {
     std::vector<std::string> fields;
-    for (const double t : a.until) fields.push_back(t >= duration - 0.5 / tap_rate ? "end" : fmt::format("{:.2f} ms", 1e3 * t));
+    for (const double t : a.until)
+        fields.push_back(t >= duration - 0.5 / tap_rate ? "end"
+                                                        : fmt::format("{:.2f} ms", 1e3 * t));
     return fields;
 }
 
@@ -88,43 +105,64 @@ std::string figures_text(const Certificate& c) {
     const auto windows = windows_of(c);
     TextTable t{{{"pair", true}, {"tap", true}}, {}};
     for (const std::size_t w : windows)
-        t.columns.push_back({w + 1 < agreement_windows.size() ? fmt::format("{:.0f} ms", 1e3 * agreement_windows[w]) : "whole"});
-    for (const double level : agreement_levels) t.columns.push_back({fmt::format("to 1e{:.0f}", std::log10(level)), false, 1});
-    const auto add = [&](const std::string& name, std::size_t tap, const Certificate::ByWindow& values,
+        t.columns.push_back({w + 1 < agreement_windows.size()
+                                 ? fmt::format("{:.0f} ms", 1e3 * agreement_windows[w])
+                                 : "whole"});
+    for (const double level : agreement_levels)
+        t.columns.push_back({fmt::format("to 1e{:.0f}", std::log10(level)), false, 1});
+    const auto add = [&](const std::string& name, std::size_t tap,
+                         const Certificate::ByWindow& values,
                          const std::vector<std::string>& until) {
         TextTable::Row row{' ', {name, c.taps[tap]}};
-        for (const auto& fields : {numbers(values, windows), until}) row.fields.insert(row.fields.end(), fields.begin(), fields.end());
+        for (const auto& fields : {numbers(values, windows), until})
+            row.fields.insert(row.fields.end(), fields.begin(), fields.end());
         t.rows.push_back(row);
     };
     for (const auto& p : c.pairs) {
-        const double common = std::min(c.entries[p.first].reached, c.entries[p.second].reached) - c.from;
+        const double common =
+            std::min(c.entries[p.first].reached, c.entries[p.second].reached) - c.from;
         for (std::size_t k = 0; k < c.taps.size(); ++k)
-            add(fmt::format("{} against {}", p.first + 1, p.second + 1), k, p.taps[k].relative_l2, instants(p.taps[k], common, c.tap_rate));
+            add(fmt::format("{} against {}", p.first + 1, p.second + 1), k, p.taps[k].relative_l2,
+                instants(p.taps[k], common, c.tap_rate));
     }
     for (std::size_t i = 0; i < c.entries.size(); ++i)
         for (std::size_t k = 0; k < c.entries[i].estimate.size(); ++k)
-            add(fmt::format("{} itself", i + 1), k, c.entries[i].estimate[k], std::vector<std::string>(agreement_levels.size()));
+            add(fmt::format("{} itself", i + 1), k, c.entries[i].estimate[k],
+                std::vector<std::string>(agreement_levels.size()));
     for (std::size_t k = 0; k < c.taps.size(); ++k)
-        add("noise floor", k, c.floor[k].relative_l2, instants(c.floor[k], c.duration - c.from, c.tap_rate));
+        add("noise floor", k, c.floor[k].relative_l2,
+            instants(c.floor[k], c.duration - c.from, c.tap_rate));
     return t.text(Console::width());
 }
 
 std::string text_of(const Certificate& c) {
-    const bool estimated = std::any_of(c.entries.begin(), c.entries.end(), [](const auto& e) { return !e.estimate.empty(); });
-    return fmt::format("{}: {} modes, {:.10g} rows a second, {:.6g} s{}\n\n{}\n{}", c.scene, c.modes, c.tap_rate, c.duration,
-                       c.from > 0 ? fmt::format(", judged from {:.6g} s on, where the last pluck ends", c.from) : "", entries_text(c),
-                       figures_text(c)) +
-           "relative L2 difference over the first 10 ms and so on, and how long a pair stays closer than 1e-3, 1e-6, 1e-9" +
+    const bool estimated = std::any_of(c.entries.begin(), c.entries.end(),
+                                       [](const auto& e) { return !e.estimate.empty(); });
+    return fmt::format(
+               "{}: {} modes, {:.10g} rows a second, {:.6g} s{}\n\n{}\n{}", c.scene, c.modes,
+               c.tap_rate, c.duration,
+               c.from > 0
+                   ? fmt::format(", judged from {:.6g} s on, where the last pluck ends", c.from)
+                   : "",
+               entries_text(c), figures_text(c)) +
+           "relative L2 difference over the first 10 ms and so on, and how long a pair stays "
+           "closer than 1e-3, 1e-6, 1e-9" +
            (estimated ? "; \"itself\": its own estimate by Richardson's rule" : "") +
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
-// What lies there says more of the same scene than the one that is asked for would: it lasts longer.
+// What lies there says more of the same scene than the one that is asked for would: it lasts
+// longer.
 bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertificate& asked) {
     const Certificate &old = there.certificate, &fresh = asked.certificate;
-    if (there.scene_hash != asked.scene_hash || old.modes != fresh.modes || old.tap_rate != fresh.tap_rate) return false;
-    const auto is_stand_in = [](const Certificate& c) { return c.entries.front().reference.starts_with("oversampled "); };
-    if (is_stand_in(old) && !is_stand_in(fresh)) return false;  // the scene has become representable
+    if (there.scene_hash != asked.scene_hash || old.modes != fresh.modes ||
+        old.tap_rate != fresh.tap_rate)
+        return false;
+    const auto is_stand_in = [](const Certificate& c) {
+        return c.entries.front().reference.starts_with("oversampled ");
+    };
+    // the scene has become representable
+    if (is_stand_in(old) && !is_stand_in(fresh)) return false;
     return old.duration > fresh.duration * (1 + 1e-9);
 }
 
@@ -149,7 +187,8 @@ int certify_command(CertifyRequest r) {
     settings.modes = r.modes;
     settings.tap_rate = r.tap_rate.value_or(44100);
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
+                                            scene.duration, settings.tap_rate));
     trust::KeptCertificate kept = trust::planned_certificate(scene, settings);
     const fs::path path = path_for(r, scene);
     store::must_be_writable(path);
@@ -157,13 +196,15 @@ int certify_command(CertifyRequest r) {
 
     bool cached = false;
     std::error_code error;
-    const auto lock = store::lock_once_free(path, "makes " + path.string(), console);  // another process may be making the same
+    // another process may be making the same
+    const auto lock = store::lock_once_free(path, "makes " + path.string(), console);
     if (fs::exists(path, error)) {
         std::string why;
         if (auto found = trust::read_certificate(path, why)) {
             if (covers_more(*found, kept))
                 throw store::UsageError(fmt::format(
-                    "{} covers more of this scene than is asked for: {:g} s against {:g} s; it is kept. --out FILE writes elsewhere",
+                    "{} covers more of this scene than is asked for: {:g} s against {:g} s; it is "
+                    "kept. --out FILE writes elsewhere",
                     path.string(), found->certificate.duration, kept.certificate.duration));
             cached = found->key == kept.key;
             if (cached) kept = std::move(*found);
@@ -171,7 +212,8 @@ int certify_command(CertifyRequest r) {
                 console.note(fmt::format("{} {}; it is made again", path.string(),
                                          trust::of_this_program(*found)
                                              ? "is of another scene or setting"
-                                             : "was made by another program (sources, compiler, flags, vector instructions)"));
+                                             : "was made by another program (sources, compiler, "
+                                               "flags, vector instructions)"));
         } else {
             console.note(path.string() + " cannot be used (" + why + "); it is made again");
         }
@@ -179,8 +221,9 @@ int certify_command(CertifyRequest r) {
     if (cached) {
         trust::read_costs(path, kept);
     } else {
-        const store::WhenInterrupted last_word(
-            [&] { console.note("interrupted: nothing is kept, until all runs of a certificate are done"); });
+        const store::WhenInterrupted last_word([&] {
+            console.note("interrupted: nothing is kept, until all runs of a certificate are done");
+        });
         kept.certificate = made(scene, settings, console);
         store::write_fresh(trust::cost_path(path), trust::cost_json_of(kept));
         store::write_fresh(path, trust::json_of(kept));
@@ -189,8 +232,9 @@ int certify_command(CertifyRequest r) {
     console.print((cached ? "read: " : "written: ") + path.string());
 
     const auto& entries = kept.certificate.entries;
-    const bool good =
-        std::any_of(entries.begin(), entries.end(), [](const auto& e) { return e.reason.empty() && e.status.outcome == Outcome::ok; });
+    const bool good = std::any_of(entries.begin(), entries.end(), [](const auto& e) {
+        return e.reason.empty() && e.status.outcome == Outcome::ok;
+    });
     Json costs = Json::array();
     for (const auto& e : entries) costs.push_back(e.wall_seconds);
     console.print_json(store::indented({{"scene", scene.name},
@@ -205,23 +249,30 @@ int certify_command(CertifyRequest r) {
 }  // namespace
 
 Act certify_verb(CLI::App& program) {
-    Verb<CertifyRequest> v(program, "certify", "how far the references agree on a scene: what an error can be believed to");
+    Verb<CertifyRequest> v(
+        program, "certify",
+        "how far the references agree on a scene: what an error can be believed to");
     v.scene(v.r.scene);
     v.set(v.r.set);
     v.modes(v.r.modes);
-    v.option("--duration", v.r.duration, seconds, "in place of the scene's; compare uses a certificate as far as it reaches");
-    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared; 44100 where absent");
+    v.option("--duration", v.r.duration, seconds,
+             "in place of the scene's; compare uses a certificate as far as it reaches");
+    v.option("--tap-rate", v.r.tap_rate, hertz,
+             "rows per second that are compared; 44100 where absent");
     v.option("--out", v.r.out, {"FILE"},
-             "the file, .json; results/certificates/<scene>.json where absent, with part of the scene's hash in its name where --set "
+             "the file, .json; results/certificates/<scene>.json where absent, with part of the "
+             "scene's hash in its name where --set "
              "changes the scene. What a clock measured goes beside it, to .cost.json");
-    return v.does(
-        certify_command,
-        "Example: jvari certify tanpura_c3_release --duration 0.1\n"
-        "\n"
-        "Every reference that represents the scene runs, the best one at two settings of its accuracy; where there is none, the best "
-        "scheme\n"
-        "at 16, 32 and 64 tap rates, with its own estimate. The table says, pair by pair, how far they are apart and for how long they\n"
-        "agree. compare and suite print these figures with their errors: an error below them is shown as \"\u2264\" the figure.");
+    return v.does(certify_command,
+                  "Example: jvari certify tanpura_c3_release --duration 0.1\n"
+                  "\n"
+                  "Every reference that represents the scene runs, the best one at two settings of "
+                  "its accuracy; where there is none, the best "
+                  "scheme\n"
+                  "at 16, 32 and 64 tap rates, with its own estimate. The table says, pair by "
+                  "pair, how far they are apart and for how long they\n"
+                  "agree. compare and suite print these figures with their errors: an error below "
+                  "them is shown as \"\u2264\" the figure.");
 }
 
 }  // namespace jvari::bench::command

@@ -26,14 +26,18 @@ int check_command(CheckRequest r) {
     if (asked.empty())
         for (const Guest* g : guests())
             for (const Descriptor& d : g->schemes) asked.push_back(&catalogue.find(d.name));
-    if (asked.empty()) throw store::UsageError("check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
+    if (asked.empty())
+        throw store::UsageError(
+            "check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
     if (!r.junit.empty()) store::must_be_writable(r.junit);
     std::vector<check::Checked> checked;
     bool broken = false;
     for (const Descriptor* d : asked) {
         console.print(fmt::format("{}{} ({})", checked.empty() ? "" : "\n", d->name, d->source));
         checked.push_back(
-            check::check(*d, console, [&](const check::Checked& c, const check::Promise& p) { console.print(check::line_of(c, p)); }));
+            check::check(*d, console, [&](const check::Checked& c, const check::Promise& p) {
+                console.print(check::line_of(c, p));
+            }));
         console.print(check::conclusion_of(checked.back()));
         broken = broken || checked.back().broken();
     }
@@ -44,9 +48,13 @@ int check_command(CheckRequest r) {
 }  // namespace
 
 Act check_verb(CLI::App& program) {
-    Verb<CheckRequest> v(program, "check", "does a scheme keep what every scheme promises: the contract, and what it claims in numbers");
-    v.option("schemes", v.r.schemes, {"SCHEME"}, "schemes or references; absent: those of the plugins");
-    v.option("--junit", v.r.junit, {"FILE"}, "also writes JUnit XML, as continuous integration reads it");
+    Verb<CheckRequest> v(program, "check",
+                         "does a scheme keep what every scheme promises: the contract, and what it "
+                         "claims in numbers");
+    v.option("schemes", v.r.schemes, {"SCHEME"},
+             "schemes or references; absent: those of the plugins");
+    v.option("--junit", v.r.junit, {"FILE"},
+             "also writes JUnit XML, as continuous integration reads it");
     return v.does(check_command,
                   "Example: jvari check --plugin build/libmy_scheme.so --junit check.xml\n"
                   "\n"

@@ -1,4 +1,5 @@
-// jvari compare: the main job. What it found goes to a folder and a page; then, that nothing is lost where nobody reads it, to a table.
+// jvari compare: the main job. What it found goes to a folder and a page; then, that nothing is
+// lost where nobody reads it, to a table.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -30,15 +31,15 @@ struct CompareCall : Running, compare::CompareRequest {
     std::string modes_of_reference = "0";
 };
 
-bool names_compliance(const compare::SchemeOption& o) {
-    return o.name == compliance_option.name;
-}
+bool names_compliance(const compare::SchemeOption& o) { return o.name == compliance_option.name; }
 
 std::string kept_text(const study::Kept& keep) {
     if (keep.folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
-    if (keep.of == 0) return "interrupted: no cell has its errors yet; long runs of references are kept";
-    return fmt::format("interrupted: the errors of {} of {} cells are kept in {}; --resume goes on from there", keep.kept.load(),
-                       keep.of.load(), keep.folder.parent_path().string());
+    if (keep.of == 0)
+        return "interrupted: no cell has its errors yet; long runs of references are kept";
+    return fmt::format(
+        "interrupted: the errors of {} of {} cells are kept in {}; --resume goes on from there",
+        keep.kept.load(), keep.of.load(), keep.folder.parent_path().string());
 }
 
 std::string floor_text(const compare::Comparison& c) {
@@ -47,23 +48,27 @@ std::string floor_text(const compare::Comparison& c) {
         const study::Measure& m = study::measures()[k];
         const double floor = c.against.floor[c.headline.tap(m)][k];
         if (m.less_is_better && !std::isnan(floor))
-            text += fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
+            text +=
+                fmt::format("{}{} {:.1e}", text.empty() ? "noise floor: " : ", ", m.column, floor);
     }
     return text;
 }
 
-// What the reference is, and from when on waveforms cannot be compared, where that is before the end.
+// What the reference is, and from when on waveforms cannot be compared, where that is before the
+// end.
 std::string truth_text(const compare::Comparison& c) {
     std::string text =
-        "reference: " +
-        (c.against.doubling.empty() ? fmt::format("{} modes, those of the schemes", c.reference_summary.modes) : c.against.doubling);
+        "reference: " + (c.against.doubling.empty() ? fmt::format("{} modes, those of the schemes",
+                                                                  c.reference_summary.modes)
+                                                    : c.against.doubling);
     const double from = free_from(c.scene());
     const auto until = [&](double t, const char* who) {
         if (t < c.scene().duration - from - 1e-3)
-            text += fmt::format("\n{} agree within 10 % for the first {}{} only", who, compare::time_text(t),
-                                from > 0 ? " after the last pluck" : "");
+            text += fmt::format("\n{} agree within 10 % for the first {}{} only", who,
+                                compare::time_text(t), from > 0 ? " after the last pluck" : "");
     };
-    until(study::horizon_of(c.against.floor, c.headline), "two runs of it whose starts differ by 1e-12");
+    until(study::horizon_of(c.against.floor, c.headline),
+          "two runs of it whose starts differ by 1e-12");
     until(c.horizon, "it and a run with half of its modes");
     return text + "\n";
 }
@@ -73,81 +78,110 @@ std::string certificate_text(const compare::Comparison& c) {
     const std::string note = c.reference.note.empty() ? "" : "\n" + c.reference.note;
     if (!t.any()) return "its uncertainty is unknown, so no error is certain" + note;
     std::string by = t.against;
-    if (!t.doubled.empty()) by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;
-    return fmt::format(
-               "its uncertainty is in the first line of the table, by {}{}", by,
-               t.file.empty() ? "" : " (" + fs::path(t.file).filename().string() + (t.of_this_program ? ")" : ", of another program)")) +
-           (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") + note;
+    if (!t.doubled.empty())
+        by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;
+    return fmt::format("its uncertainty is in the first line of the table, by {}{}", by,
+                       t.file.empty() ? ""
+                                      : " (" + fs::path(t.file).filename().string() +
+                                            (t.of_this_program ? ")" : ", of another program)")) +
+           (std::isnan(t.of_scene(c.headline.nut, 2)) ? ", which ends before this run does" : "") +
+           note;
 }
 
 int compare_command(CompareCall r) {
     r.options = listed_options(r.option_lists);
-    r.search = r.schemes.empty() || r.rates.empty() || std::ranges::none_of(r.options, names_compliance);
+    r.search =
+        r.schemes.empty() || r.rates.empty() || std::ranges::none_of(r.options, names_compliance);
     if (r.modes_of_reference == "cell") r.reference_modes = std::nullopt;
     else r.reference_modes = static_cast<int>(store::number_of(r.modes_of_reference));
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
+    if (r.resume && r.out.empty())
+        throw store::UsageError("--resume: there is no --out DIR to resume from");
     study::Kept keep;
     keep.resume = r.resume;
     keep.folder = cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console);
-    std::optional<store::WhenInterrupted> last_word(std::in_place, [&] { console.note(kept_text(keep)); });
+    std::optional<store::WhenInterrupted> last_word(std::in_place,
+                                                    [&] { console.note(kept_text(keep)); });
     const compare::Comparison c = compare::compare(r, catalogue, console, keep);
     last_word.reset();
-    if (r.resume) console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back, keep.of.load()));
+    if (r.resume)
+        console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back,
+                                 keep.of.load()));
     const Results results = written(c, r, console);
     const store::Table& cells = results.cells;
     const double rate = c.reference_summary.rate;
-    for (const String& string : c.scene().strings) console.print("string: " + compare::tuning_text(string));
+    for (const String& string : c.scene().strings)
+        console.print("string: " + compare::tuning_text(string));
     std::string rows;
     for (const study::Point& p : c.plan.points)
-        rows += (rows.empty() ? "" : " and ") + store::text_of(p.references.front().settings.tap_rate);
-    console.print(fmt::format("{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}", c.scene().name,
-                              c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate), c.scene().duration, rows,
-                              c.scene().taps.at(c.headline.nut).name, c.scene().taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
+        rows +=
+            (rows.empty() ? "" : " and ") + store::text_of(p.references.front().settings.tap_rate);
+    console.print(fmt::format(
+        "{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}",
+        c.scene().name, c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate),
+        c.scene().duration, rows, c.scene().taps.at(c.headline.nut).name,
+        c.scene().taps.at(c.headline.bridge).name));
+    console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) +
+                  certificate_text(c) + "\n" + floor_text(c));
     if (!results.cheapest.rows.empty()) console.print(compare::cheapest_text(results.cheapest));
-    for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
+    for (const std::string& warning : compare::warnings_of(cells))
+        console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c.outcome.records);
-    console.print_json(
-        with_results({{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}}, results));
+    console.print_json(with_results({{"scene", c.scene().name},
+                                     {"reference", c.reference.name()},
+                                     {"status", exit_code::status(code)}},
+                                    results));
     return code;
 }
 }  // namespace
 
 Act compare_verb(CLI::App& program) {
-    Verb<CompareCall> v(program, "compare", "schemes at several rates against a reference: error and cost of each");
+    Verb<CompareCall> v(program, "compare",
+                        "schemes at several rates against a reference: error and cost of each");
     v.scene(v.r.scene);
     v.set(v.r.set);
     v.option("--modes", v.r.modes, {"N,...", counting.check},
-             "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many where they lie below rate/2. "
+             "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many "
+             "where they lie below rate/2. "
              "Where schemes, rates and compliance are all named, those below 20 kHz alone")
         ->delimiter(',');
     v.options(v.r.option_lists);
     v.schemes(v.r.schemes, "absent: every scheme that represents the scene, but for controls");
-    v.flag("--controls", v.r.controls, "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run as well");
-    v.option("--rates", v.r.rates, {"HZ,...", hertz.check}, "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")->delimiter(',');
+    v.flag("--controls", v.r.controls,
+           "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run "
+           "as well");
+    v.option("--rates", v.r.rates, {"HZ,...", hertz.check},
+             "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
+        ->delimiter(',');
     v.option("--reference-modes", v.r.modes_of_reference,
              {"N|cell", CLI::Validator(
                             [](std::string& text) {
-                                const std::string wrong = text == "cell" ? "" : counting_or_0.check(text);
+                                const std::string wrong =
+                                    text == "cell" ? "" : counting_or_0.check(text);
                                 return wrong.empty() ? wrong : wrong + ", or cell";
                             },
                             "")},
-             "modes of the reference; 0, or absent: doubled until nothing moves, and the points of a profile with them; cell: those "
+             "modes of the reference; 0, or absent: doubled until nothing moves, and the points of "
+             "a profile with them; cell: those "
              "of the schemes");
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz,
-             "rows per second that are compared; absent: 44100 for its multiples, the lowest rate for others. 44100 and 48000 have "
+             "rows per second that are compared; absent: 44100 for its multiples, the lowest rate "
+             "for others. 44100 and 48000 have "
              "each their own");
-    v.option("--repeats", v.r.repeats, counting, "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent");
+    v.option("--repeats", v.r.repeats, counting,
+             "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent");
     v.jobs(v.r.jobs);
-    v.flag("--resume", v.r.resume, "reads back the errors of the cells that DIR holds and runs the others; all are timed again");
+    v.flag("--resume", v.r.resume,
+           "reads back the errors of the cells that DIR holds and runs the others; all are timed "
+           "again");
     v.comparison_folder(v.r.out);
     return v.does(compare_command,
-                  "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates 44100,176400 --duration 0.1 --out report");
+                  "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates "
+                  "44100,176400 --duration 0.1 --out report");
 }
 
 }  // namespace jvari::bench::command

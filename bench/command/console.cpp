@@ -24,28 +24,34 @@ namespace jvari::bench::command {
 namespace {
 using namespace std::chrono_literals;
 
-void clear_line() {
-    std::fputs("\r\033[K", stderr);
-}
+void clear_line() { std::fputs("\r\033[K", stderr); }
 
-// On a terminal that wants colours (https://no-color.org): what stands out by its mark stands out by its colour as well.
+// On a terminal that wants colours (https://no-color.org): what stands out by its mark stands out
+// by its colour as well.
 bool in_colour(int stream) {
     const char *no = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
     return isatty(stream) != 0 && !(no && *no) && !(terminal && std::strcmp(terminal, "dumb") == 0);
 }
 
 const char* colour_of(std::string_view line) {
-    if (line.starts_with("* ")) return "\033[32m";                                                                      // on the front
-    if (line.starts_with("! ") || line.starts_with("warning")) return "\033[33m";                                       // not to be trusted
-    if (line.starts_with("jvari: ")) return "\033[31m";                                                                 // an error
-    if (line.starts_with("the cheapest") || (line.starts_with("  ") && line.find(" within ") == 18)) return "\033[1m";  // the answer
+    // on the front
+    if (line.starts_with("* ")) return "\033[32m";
+    // not to be trusted
+    if (line.starts_with("! ") || line.starts_with("warning")) return "\033[33m";
+    // an error
+    if (line.starts_with("jvari: ")) return "\033[31m";
+    // the answer
+    if (line.starts_with("the cheapest") || (line.starts_with("  ") && line.find(" within ") == 18))
+        return "\033[1m";
     return "";
 }
 
-// Names and notes come from files and plugins: what would steer the terminal is shown as a question mark.
+// Names and notes come from files and plugins: what would steer the terminal is shown as a question
+// mark.
 std::string harmless(std::string text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto c = static_cast<unsigned char>(text[i]), before = static_cast<unsigned char>(i > 0 ? text[i - 1] : 0);
+        const auto c = static_cast<unsigned char>(text[i]),
+                   before = static_cast<unsigned char>(i > 0 ? text[i - 1] : 0);
         if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f) text[i] = '?';
         else if (before == 0xc2 && c >= 0x80 && c < 0xa0) text[i - 1] = text[i] = '?';
     }
@@ -69,8 +75,10 @@ std::FILE* own_output = stdout;
 
 void put(const std::string& text) {
     const std::string line = coloured(text, STDOUT_FILENO) + "\n";
-    if (std::fwrite(line.data(), 1, line.size(), own_output) != line.size() || std::fflush(own_output) != 0)
-        throw store::Unwritable(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+    if (std::fwrite(line.data(), 1, line.size(), own_output) != line.size() ||
+        std::fflush(own_output) != 0)
+        throw store::Unwritable(
+            fmt::format("cannot write to standard output: {}", std::strerror(errno)));
 }
 
 std::optional<std::size_t> columns_of(int terminal) {
@@ -90,12 +98,15 @@ public:
         const auto now = std::chrono::steady_clock::now();
         if (now - start_ < 2s || now - last_ < pause_) return;
         last_ = now;
-        const std::string line = harmless(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
+        const std::string line =
+            harmless(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
         if (!terminal_) return tell(line);
         const store::Undisturbed whole;
         if (!shown_) shown_.emplace(clear_line);
         // a line that wraps could not be renewed
-        std::fputs(("\r\033[K" + line.substr(0, columns_of(STDERR_FILENO).value_or(80) - 1)).c_str(), stderr);
+        std::fputs(
+            ("\r\033[K" + line.substr(0, columns_of(STDERR_FILENO).value_or(80) - 1)).c_str(),
+            stderr);
         std::fflush(stderr);
     }
 
@@ -110,7 +121,8 @@ private:
 
 void hold_standard_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream) _exit(exit_code::run_failed);
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) != stream)
+            _exit(exit_code::run_failed);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
 }
@@ -141,7 +153,8 @@ void Console::print_json(const std::string& text) const {
 
 std::size_t Console::width() {
     const char* asked = std::getenv("COLUMNS");
-    if (const std::size_t columns = asked ? std::strtoul(asked, nullptr, 10) : 0; columns > 0) return columns;
+    if (const std::size_t columns = asked ? std::strtoul(asked, nullptr, 10) : 0; columns > 0)
+        return columns;
     return columns_of(STDOUT_FILENO).value_or(std::numeric_limits<std::size_t>::max());
 }
 

@@ -15,8 +15,9 @@ constexpr const char* status(int code) {  // as --json says it
 }
 }  // namespace exit_code
 
-// Before any file is opened: none takes the number of a standard stream that the caller closed; and what cannot be written, to a pipe that
-// nobody reads or past a limit of file size, is an error of writing (Unwritable) where by default it would be a signal and the end.
+// Before any file is opened: none takes the number of a standard stream that the caller closed; and
+// what cannot be written, to a pipe that nobody reads or past a limit of file size, is an error of
+// writing (Unwritable) where by default it would be a signal and the end.
 void keep_standard_output();  // for print_json alone: what a plugin prints goes to standard error
 void hold_standard_streams();
 // A line to standard error. That it could not be written is nowhere to be told.
@@ -27,13 +28,16 @@ public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
     bool json() const { return json_; }
     void note(const std::string&) const override;  // standard error, unless --quiet
-    void print(const std::string&) const;          // standard output, unless --json or --quiet: the result as text; throws Unwritable
-    void print_json(const std::string&) const;     // standard output, with --json only: one object; throws Unwritable
+    // standard output, unless --json or --quiet: the result as text; throws Unwritable
+    void print(const std::string&) const;
+    // standard output, with --json only: one object; throws Unwritable
+    void print_json(const std::string&) const;
 
     // Columns of standard output: $COLUMNS, else those of the terminal, else as many as are wanted.
     static std::size_t width();
 
-    // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line a minute. Nothing with --quiet.
+    // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line a
+    // minute. Nothing with --quiet.
     std::unique_ptr<store::Progress> begin(const std::string& job) const override;
 
 private:

@@ -22,17 +22,20 @@ int diff_command(DiffRequest r) {
 }  // namespace
 
 Act diff_verb(CLI::App& program) {
-    Verb<DiffRequest> v(program, "diff", "two folders of results: what got worse, what got better, what only one has");
+    Verb<DiffRequest> v(
+        program, "diff",
+        "two folders of results: what got worse, what got better, what only one has");
     v.option("before", v.r.before, {"A"}, "a folder that compare or suite wrote")->required();
     v.option("after", v.r.after, {"B"}, "another, of the same scene or suite")->required();
-    return v.does(
-        diff_command,
-        "Example: jvari diff results/smoke report\n"
-        "\n"
-        "Exit code 4 where something got worse: an error by more than noise and certificates, a certificate, a status, an outcome of a "
-        "map,\n"
-        "or the cost of a scheme beyond its quartiles and the drift of all; and where a cell of A is missing in B. Costs of two machines\n"
-        "are not compared.");
+    return v.does(diff_command,
+                  "Example: jvari diff results/smoke report\n"
+                  "\n"
+                  "Exit code 4 where something got worse: an error by more than noise and "
+                  "certificates, a certificate, a status, an outcome of a "
+                  "map,\n"
+                  "or the cost of a scheme beyond its quartiles and the drift of all; and where a "
+                  "cell of A is missing in B. Costs of two machines\n"
+                  "are not compared.");
 }
 
 }  // namespace jvari::bench::command

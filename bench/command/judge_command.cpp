@@ -30,7 +30,9 @@ NamedFile named_file(const std::string& text) {
     const auto equals = text.find('=');
     std::string rate = text.substr(0, equals);
     if (equals == std::string::npos || !hertz.check(rate).empty() || equals + 1 == text.size())
-        throw store::UsageError("--trace " + text + ": expected HZ=FILE, the sample rate of the scheme and the file that it wrote");
+        throw store::UsageError(
+            "--trace " + text +
+            ": expected HZ=FILE, the sample rate of the scheme and the file that it wrote");
     return {store::number_of(rate), text.substr(equals + 1)};
 }
 
@@ -41,16 +43,20 @@ judge::Candidate candidate_of(JudgeRequest& r) {
     for (const std::string& text : r.files) files.push_back(named_file(text));
     for (const NamedFile& f : files) r.rates.push_back(f.rate);
     if (!r.costs.empty() && r.costs.size() != files.size())
-        throw store::UsageError(fmt::format("--cost: found {} costs for {} traces, expected one each", r.costs.size(), files.size()));
+        throw store::UsageError(
+            fmt::format("--cost: found {} costs for {} traces, expected one each", r.costs.size(),
+                        files.size()));
     const Scene scene = compare::load_scene(r);
     compare::tap_named(scene, "");
     const judge::Rows rows = judge::rows_for(r, scene);
     for (std::size_t k = 0; k < files.size(); ++k) {
         const NamedFile& f = files[k];
-        auto trace = std::make_shared<const Trace>(judge::read_trace(f.path, scene, rows.rate, rows.count));
+        auto trace =
+            std::make_shared<const Trace>(judge::read_trace(f.path, scene, rows.rate, rows.count));
         judge::must_be_whole(*trace, f.path, rows.count);
         if (!c.traces.emplace(f.rate, std::move(trace)).second)
-            throw store::UsageError(fmt::format("--trace: found more than one at {:.12g} Hz", f.rate));
+            throw store::UsageError(
+                fmt::format("--trace: found more than one at {:.12g} Hz", f.rate));
         if (!r.costs.empty()) c.costs[f.rate] = r.costs[k];
         c.contents += fmt::format("{}={}\n", f.rate, store::read_whole(f.path));
     }
@@ -61,18 +67,22 @@ int judge_command(JudgeRequest r) {
     const Console console(r.json, r.quiet);
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
     judge::Candidate candidate = candidate_of(r);
-    study::Kept keep{cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console), true};
+    study::Kept keep{cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console),
+                     true};
     const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
     const Results results = written(c, r, console);
     const std::string verdict = judge::verdict_of(c);
     std::vector<study::Record> own;
-    std::ranges::copy_if(c.outcome.records, std::back_inserter(own), [](const study::Record& r) { return judge::is_candidate(r.cell); });
+    std::ranges::copy_if(c.outcome.records, std::back_inserter(own),
+                         [](const study::Record& r) { return judge::is_candidate(r.cell); });
     const int code = code_of(own);
     console.print(headline_text(results.cells, Console::width()) + "\n" + verdict);
     if (!r.out.empty()) console.print("written: " + r.out);
-    console.print_json(with_results(
-        {{"scene", c.scene().name}, {"reference", c.reference.name()}, {"status", exit_code::status(code)}, {"verdict", verdict}},
-        results));
+    console.print_json(with_results({{"scene", c.scene().name},
+                                     {"reference", c.reference.name()},
+                                     {"status", exit_code::status(code)},
+                                     {"verdict", verdict}},
+                                    results));
     return code;
 }
 }  // namespace
@@ -82,7 +92,8 @@ Act judge_verb(CLI::App& program) {
     v.scene(v.r.scene);
     v.set(v.r.set);
     v.option("--trace", v.r.files, {"HZ=FILE"},
-             "the sample rate of the scheme, and what it wrote (repeatable, a file a rate): .csv with time_s and a column for each "
+             "the sample rate of the scheme, and what it wrote (repeatable, a file a rate): .csv "
+             "with time_s and a column for each "
              "tap by its name, or .wav of one tap")
         ->required()
         ->allow_extra_args(false);
@@ -90,23 +101,28 @@ Act judge_verb(CLI::App& program) {
     v.option("--cost", v.r.costs, {"S,...", positive.check},
              "its computing time per second of sound, one for each trace; shown as reported")
         ->delimiter(',');
-    v.schemes(v.r.schemes, "run and timed beside it, at its rates: it is said how far the traces differ; absent: none");
+    v.schemes(v.r.schemes,
+              "run and timed beside it, at its rates: it is said how far the traces differ; "
+              "absent: none");
     v.option("--tap", v.r.tap, {"NAME"}, "judged alone; absent: all taps of the scene");
     v.modes(v.r.modes_of_each);
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz,
-             "rows per second of the traces; 44100 where all rates are multiples of it, else the lowest");
+             "rows per second of the traces; 44100 where all rates are multiples of it, else the "
+             "lowest");
     v.jobs(v.r.jobs);
     v.comparison_folder(v.r.out);
-    return v.does(
-        judge_command,
-        "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv --cost 0.8 --schemes modal_two_point --out "
-        "report\n"
-        "\n"
-        "Row n of a trace is at n/44100 s, from the start on; contact forces are means over the interval that ends at the row.\n"
-        "A file that is no trace of the scene is refused with exit code 2, and nothing is written: other row times, a missing tap, other "
-        "than\n"
-        "all rows, NaN. `jvari export` writes the problem.");
+    return v.does(judge_command,
+                  "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv "
+                  "--cost 0.8 --schemes modal_two_point --out "
+                  "report\n"
+                  "\n"
+                  "Row n of a trace is at n/44100 s, from the start on; contact forces are means "
+                  "over the interval that ends at the row.\n"
+                  "A file that is no trace of the scene is refused with exit code 2, and nothing "
+                  "is written: other row times, a missing tap, other "
+                  "than\n"
+                  "all rows, NaN. `jvari export` writes the problem.");
 }
 
 }  // namespace jvari::bench::command

@@ -1,5 +1,5 @@
-// jvari new: a scene of one's own, from one of the library that is explained for it; below it what else a scene can say.
-// Writes no file over another.
+// jvari new: a scene of one's own, from one of the library that is explained for it; below it what
+// else a scene can say. Writes no file over another.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,14 +78,17 @@ std::vector<std::string> instruments() {
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
-    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) text.replace(at, what.size(), by);
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
     return text;
 }
 
-// The library's text under another name, without its source: a paper on the library's string says nothing of this one.
+// The library's text under another name, without its source: a paper on the library's string says
+// nothing of this one.
 std::string renamed(std::string text, const std::string& name) {
     const auto replace_line = [&text](const char* begin, const std::string& by) {
-        if (const auto at = text.find(begin); at != std::string::npos) text.replace(at, text.find('\n', at + 1) - at, by);
+        if (const auto at = text.find(begin); at != std::string::npos)
+            text.replace(at, text.find('\n', at + 1) - at, by);
     };
     replace_line("\nname = ", fmt::format("\nname = \"{}\"", name));
     replace_line("\nsource = ", "");
@@ -99,13 +102,19 @@ std::string strung(const std::string& text, const Scene& scene, const NewRequest
     std::size_t strings = 0;
     bool of_string = false;  // in the table [[string]] itself, and in none below it
     for (std::string line; std::getline(lines, line);) {
-        const auto is = [&](const char* key) { return of_string && line.starts_with(std::string(key) + " = "); };
+        const auto is = [&](const char* key) {
+            return of_string && line.starts_with(std::string(key) + " = ");
+        };
         if (line.starts_with("[")) of_string = line.starts_with("[[string]]"), strings += of_string;
         if (is("bending_stiffness")) continue;
         if (is("linear_density"))
-            line = fmt::format("material = \"{}\"  # a plain wire, in place of the string that is described above\ndiameter = {}  # m",
-                               r.material, r.diameter);
-        if (is("tension")) line = fmt::format("frequency = {:.6g}  # Hz, as of that string", pitch_of(scene.strings[strings - 1]));
+            line = fmt::format(
+                "material = \"{}\"  # a plain wire, in place of the string that is described "
+                "above\ndiameter = {}  # m",
+                r.material, r.diameter);
+        if (is("tension"))
+            line = fmt::format("frequency = {:.6g}  # Hz, as of that string",
+                               pitch_of(scene.strings[strings - 1]));
         strung += line + "\n";
     }
     return strung;
@@ -113,7 +122,9 @@ std::string strung(const std::string& text, const Scene& scene, const NewRequest
 
 void must_be_free(const fs::path& file) {
     std::error_code error;
-    if (fs::exists(file, error)) throw store::UsageError(fmt::format("{} is there already; choose another name", file.string()));
+    if (fs::exists(file, error))
+        throw store::UsageError(
+            fmt::format("{} is there already; choose another name", file.string()));
     store::must_be_writable(file);
 }
 
@@ -124,49 +135,63 @@ int new_body(const std::string& name, const Console& console) {
     const Body body = read_scene("tanpura_drone").body.value();  // the library's made-up pair
     store::write_fresh(bridge, store::read_whole(body.bridge));
     store::write_fresh(nut, store::read_whole(body.nut));
-    console.print(fmt::format(
-        "written: {} and {}, synthetic: no instrument has them. In a scene beside them:\n\n[body]\nbridge = \"{}\"\nnut = \"{}\"",
-        bridge.string(), nut.string(), bridge.string(), nut.string()));
-    console.print_json(store::indented({{"status", "ok"}, {"bridge", bridge.string()}, {"nut", nut.string()}}));
+    console.print(
+        fmt::format("written: {} and {}, synthetic: no instrument has them. In a scene beside "
+                    "them:\n\n[body]\nbridge = \"{}\"\nnut = \"{}\"",
+                    bridge.string(), nut.string(), bridge.string(), nut.string()));
+    console.print_json(
+        store::indented({{"status", "ok"}, {"bridge", bridge.string()}, {"nut", nut.string()}}));
     return exit_code::done;
 }
 
 int new_command(NewRequest r) {
     const Console console(r.json, r.quiet);
     const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
-    if (r.name.empty() || r.name.front() == '-' || !std::all_of(r.name.begin(), r.name.end(), plain))
+    if (r.name.empty() || r.name.front() == '-' ||
+        !std::all_of(r.name.begin(), r.name.end(), plain))
         throw store::UsageError(
-            fmt::format("new: found the name {}, expected letters, digits, _ and -, the first of them no -: it becomes NAME.toml here",
+            fmt::format("new: found the name {}, expected letters, digits, _ and -, the first of "
+                        "them no -: it becomes NAME.toml here",
                         found_text(r.name)));
     if (r.material.empty() != (r.diameter == 0) || (r.instrument == "body" && r.diameter > 0))
-        throw store::UsageError("new: --material and --diameter go together, and with an instrument; expected both of them or none");
+        throw store::UsageError(
+            "new: --material and --diameter go together, and with an instrument; expected both of "
+            "them or none");
     if (r.instrument == "body") return new_body(r.name, console);
     const Template* chosen =
-        std::find_if(std::begin(templates), std::end(templates), [&r](const Template& t) { return r.instrument == t.instrument; });
-    if (chosen == std::end(templates)) throw store::UsageError(store::unknown("instrument", r.instrument, instruments()));
+        std::find_if(std::begin(templates), std::end(templates),
+                     [&r](const Template& t) { return r.instrument == t.instrument; });
+    if (chosen == std::end(templates))
+        throw store::UsageError(store::unknown("instrument", r.instrument, instruments()));
     const fs::path file = r.name + ".toml";
     must_be_free(file);
-    const std::string end = replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
+    const std::string end =
+        replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
     std::string text = renamed(library_text(chosen->scene), r.name) + end;
     if (r.diameter > 0) text = strung(text, parse_scene(text, file.string()), r);
     const Scene scene = parse_scene(text, file.string());
     store::write_fresh(file, text);
-    for (const String& string : scene.strings) console.print("string: " + compare::tuning_text(string));
-    console.print(
-        fmt::format("written: {}, after the library's {}; it says what each key means, and what to try", file.string(), chosen->scene));
-    console.print_json(store::indented({{"status", "ok"}, {"file", file.string()}, {"after", chosen->scene}}));
+    for (const String& string : scene.strings)
+        console.print("string: " + compare::tuning_text(string));
+    console.print(fmt::format(
+        "written: {}, after the library's {}; it says what each key means, and what to try",
+        file.string(), chosen->scene));
+    console.print_json(
+        store::indented({{"status", "ok"}, {"file", file.string()}, {"after", chosen->scene}}));
     return exit_code::done;
 }
 }  // namespace
 
 Act new_verb(CLI::App& program) {
     Verb<NewRequest> v(program, "new", "a commented scene to begin with: writes NAME.toml here");
-    v.option("instrument", v.r.instrument, {"INSTRUMENT"}, "guitar, tanpura, sitar, bass or piano; or body: a made-up pair of responses")
+    v.option("instrument", v.r.instrument, {"INSTRUMENT"},
+             "guitar, tanpura, sitar, bass or piano; or body: a made-up pair of responses")
         ->required();
     v.option("name", v.r.name, {"NAME"}, "of the scene and, with .toml, of its file")->required();
     const std::vector<std::string> materials(std::begin(material_names), std::end(material_names));
     v.option("--material", v.r.material, {"MATERIAL", CLI::IsMember(materials).description("")},
-             fmt::format("its strings are plain wires of it, at the same pitch: {}", fmt::join(materials, ", ")));
+             fmt::format("its strings are plain wires of it, at the same pitch: {}",
+                         fmt::join(materials, ", ")));
     v.option("--diameter", v.r.diameter, metres, "of these wires, as 0.7mm");
     return v.does(new_command, "Example: jvari new guitar my_guitar");
 }

@@ -37,10 +37,14 @@ int report_command(ReportRequest r) {
 }  // namespace
 
 Act report_verb(CLI::App& program) {
-    Verb<ReportRequest> v(program, "report", "page and pictures, made again from a folder that compare or suite wrote");
-    v.option("folder", v.r.folder, {"DIR"}, "holds manifest.json and cells.csv, maps.csv or both")->required();
+    Verb<ReportRequest> v(
+        program, "report",
+        "page and pictures, made again from a folder that compare or suite wrote");
+    v.option("folder", v.r.folder, {"DIR"}, "holds manifest.json and cells.csv, maps.csv or both")
+        ->required();
     v.option("--width", v.r.width, {"WIDTH"}, "of the pictures, as 85mm for a column of a paper");
-    v.flag("--playground", v.r.playground, "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
+    v.flag("--playground", v.r.playground,
+           "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
     return v.does(report_command, "Example: jvari report report");
 }
 

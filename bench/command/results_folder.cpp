@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "references"};
-constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".pdf", ".py", ".html", ".toml", ".part"};
+constexpr const char* own_endings[] = {".csv", ".json", ".svg",  ".pdf",
+                                       ".py",  ".html", ".toml", ".part"};
 
 std::string what_is_in(const fs::path& folder) {  // "" where that cannot be told
     try {
@@ -33,35 +34,41 @@ std::string what_is_in(const fs::path& folder) {  // "" where that cannot be tol
             return name.starts_with("trim ") ? "trim of " + name.substr(5) : "suite " + name;
         }
         return "comparison of " + m.at("scene").at("name").get<std::string>();
-    } catch (const std::exception&) {
-        return "";
-    }
+    } catch (const std::exception&) { return ""; }
 }
 }  // namespace
 
-void must_be_ours(const fs::path& folder, const std::string& what, const store::Listener& listener) {
+void must_be_ours(const fs::path& folder, const std::string& what,
+                  const store::Listener& listener) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) return;
     if (const std::string there = what_is_in(folder); !there.empty() && there != what)
-        throw store::UsageError(fmt::format("--out {}: this folder holds the {}, and this is the {}; choose another folder, or empty it",
-                                            folder.string(), there, what));
+        throw store::UsageError(
+            fmt::format("--out {}: this folder holds the {}, and this is the {}; choose another "
+                        "folder, or empty it",
+                        folder.string(), there, what));
     std::vector<std::string> foreign;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename(), extension = entry.path().extension();
         const bool own = entry.is_directory(error)
-                             ? std::find(std::begin(own_folders), std::end(own_folders), name) != std::end(own_folders)
-                             : std::find(std::begin(own_endings), std::end(own_endings), extension) != std::end(own_endings);
+                             ? std::find(std::begin(own_folders), std::end(own_folders), name) !=
+                                   std::end(own_folders)
+                             : std::find(std::begin(own_endings), std::end(own_endings),
+                                         extension) != std::end(own_endings);
         if (!own && !name.starts_with(".")) foreign.push_back(name);
     }
     std::sort(foreign.begin(), foreign.end());
     if (foreign.empty()) return;
     std::string names;
-    for (std::size_t k = 0; k < std::min<std::size_t>(foreign.size(), 5); ++k) names += (k > 0 ? ", " : "") + foreign[k];
-    listener.note(fmt::format("{} holds what is not of a {}: {}{}", folder.string(), what.substr(0, what.find(' ')), names,
-                              foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
+    for (std::size_t k = 0; k < std::min<std::size_t>(foreign.size(), 5); ++k)
+        names += (k > 0 ? ", " : "") + foreign[k];
+    listener.note(fmt::format(
+        "{} holds what is not of a {}: {}{}", folder.string(), what.substr(0, what.find(' ')),
+        names, foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
 }
 
-fs::path cells_folder(const fs::path& folder, const std::string& what, const store::Listener& listener) {
+fs::path cells_folder(const fs::path& folder, const std::string& what,
+                      const store::Listener& listener) {
     if (folder.empty()) return folder;
     must_be_ours(folder, what, listener);
     store::make_folder(folder / "cells");
@@ -81,7 +88,8 @@ void ResultsFolder::add_tables(const store::Table& cells) {
     add("cells.csv", store::csv(cells));
     add("errors.csv", store::csv(study::errors_only(cells)));
     add("cost.csv", store::csv(study::cost_only(cells)));
-    if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty()) add("convergence.csv", store::csv(orders));
+    if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty())
+        add("convergence.csv", store::csv(orders));
 }
 
 void ResultsFolder::add_manifest(const nlohmann::ordered_json& manifest) {
@@ -90,12 +98,15 @@ void ResultsFolder::add_manifest(const nlohmann::ordered_json& manifest) {
 
 void ResultsFolder::add_report() {
     if (folder_.empty()) return;
-    for (const std::string& name : report::write_report(folder_, listener_)) files.push_back((folder_ / name).string());
+    for (const std::string& name : report::write_report(folder_, listener_))
+        files.push_back((folder_ / name).string());
 }
 
-Results written(const compare::Comparison& c, const compare::CompareRequest& request, const store::Listener& listener) {
+Results written(const compare::Comparison& c, const compare::CompareRequest& request,
+                const store::Listener& listener) {
     Results r{compare::manifest_of(c, request), compare::cells_of(c), {}, {}};
-    r.cheapest = compare::cheapest_of(r.cells, request.controls ? compare::Controls::compete : compare::Controls::stand_beside);
+    r.cheapest = compare::cheapest_of(
+        r.cells, request.controls ? compare::Controls::compete : compare::Controls::stand_beside);
     ResultsFolder folder(request.out, listener);
     folder.add_tables(r.cells);
     folder.add_manifest(r.manifest);
@@ -114,7 +125,9 @@ std::string with_results(nlohmann::ordered_json own, const Results& r) {
 }
 
 int code_of(const std::vector<study::Record>& records) {
-    const auto is = [](const char* status) { return [status](const study::Record& r) { return r.cell.status() == status; }; };
+    const auto is = [](const char* status) {
+        return [status](const study::Record& r) { return r.cell.status() == status; };
+    };
     if (records.empty() || std::ranges::any_of(records, is("ok"))) return exit_code::done;
     return std::ranges::all_of(records, is("refused")) ? exit_code::refused : exit_code::run_failed;
 }

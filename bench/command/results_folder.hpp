@@ -1,4 +1,5 @@
-// The folder that results go to: of one comparison, one suite or one trimmed scene, so that no page mixes what was measured apart.
+// The folder that results go to: of one comparison, one suite or one trimmed scene, so that no page
+// mixes what was measured apart.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +14,26 @@
 
 namespace jvari::bench::command {
 
-// Before anything is run. Throws UsageError where the folder holds the results of something else than `what` ("comparison of tanpura_c3",
-// "suite smoke", "trim of tanpura_c3"); notes files that no such folder has, which stay where they are.
-// A folder that is not there is empty.
-void must_be_ours(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
+// Before anything is run. Throws UsageError where the folder holds the results of something else
+// than `what` ("comparison of tanpura_c3", "suite smoke", "trim of tanpura_c3"); notes files that
+// no such folder has, which stay where they are. A folder that is not there is empty.
+void must_be_ours(const std::filesystem::path& folder, const std::string& what,
+                  const store::Listener&);
 
-// Where the cells of such a folder are kept, once it is ours: made, found writable, and without the parts that a killed run left.
-// "" of nowhere.
-std::filesystem::path cells_folder(const std::filesystem::path& folder, const std::string& what, const store::Listener&);
+// Where the cells of such a folder are kept, once it is ours: made, found writable, and without the
+// parts that a killed run left. "" of nowhere.
+std::filesystem::path cells_folder(const std::filesystem::path& folder, const std::string& what,
+                                   const store::Listener&);
 
 // What is written into it, and the paths of that; nowhere ("") nothing is.
 class ResultsFolder {
 public:
-    ResultsFolder(std::filesystem::path folder, const store::Listener& listener) : folder_(std::move(folder)), listener_(listener) {}
+    ResultsFolder(std::filesystem::path folder, const store::Listener& listener)
+        : folder_(std::move(folder)), listener_(listener) {}
     explicit operator bool() const { return !folder_.empty(); }
     void add(const std::string& name, const std::string& content);
-    void add_tables(const store::Table& cells);  // cells.csv, errors.csv, cost.csv and, where there are orders to tell, convergence.csv
+    // cells.csv, errors.csv, cost.csv and, where there are orders to tell, convergence.csv
+    void add_tables(const store::Table& cells);
     void add_manifest(const nlohmann::ordered_json&);
     void add_report();  // of what was written before
     nlohmann::ordered_json files = nlohmann::ordered_json::array();

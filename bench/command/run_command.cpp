@@ -45,27 +45,34 @@ std::string dearest(const std::vector<Fact>& facts) {
     const double coupled = fact_of(facts, facts::coupled_contact_points);
     if (!(coupled > 8)) return "";
     return fmt::format(
-        ". Dear is its contact: {:.0f} points that push each other are solved together, each step by up to the cube of those that touch; a "
+        ". Dear is its contact: {:.0f} points that push each other are solved together, each step "
+        "by up to the cube of those that touch; a "
         "shorter profile or a coarser grid has fewer",
         coupled);
 }
 
 // Without `all` only those that tell how the scene is approximated.
 std::string facts_text(const Descriptor& d, const study::Summary& s, const Scene& scene, bool all) {
-    const auto approximates = [&](const std::string& name) {  // of one of several strings: behind the last dot
+    // of one of several strings: behind the last dot
+    const auto approximates = [&](const std::string& name) {
         return std::ranges::any_of(d.approximates, [&](const Approximation& a) {
-            return name.substr(name.rfind('.') + 1) == a.fact.name && needed_by(scene).has(a.feature);
+            return name.substr(name.rfind('.') + 1) == a.fact.name &&
+                   needed_by(scene).has(a.feature);
         });
     };
     std::string text;
     for (const Fact& f : s.facts)
-        if (all || approximates(f.name)) text += fmt::format("\n  {:<27} {:.6g} {}", f.name, f.value, f.unit);
+        if (all || approximates(f.name))
+            text += fmt::format("\n  {:<27} {:.6g} {}", f.name, f.value, f.unit);
     return text;
 }
 
-std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summary& s, const Scene& scene) {
+std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summary& s,
+                     const Scene& scene) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
-    const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("\n  {:<27} {}", name, value); };
+    const auto line = [&text](const char* name, const std::string& value) {
+        text += fmt::format("\n  {:<27} {}", name, value);
+    };
     for (const String& string : scene.strings) line("string", compare::tuning_text(string));
     if (s.status.outcome == Outcome::ok) line("status", "ok");
     else line("status", fmt::format("{} at step {}", name_of(s.status.outcome), s.status.step));
@@ -73,17 +80,26 @@ std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summ
     line("modes", fmt::format("{}  ({} doubles of state)", s.modes, s.dofs));
     line("rows", fmt::format("{}  ({:.6g} s, {} steps)", s.rows, s.duration, s.steps));
     line("wall time",
-         fmt::format("{:.4g} s{}{}", s.wall_seconds, std::isnan(s.ns_per_step) ? "" : fmt::format(", {:.1f} ns per step", s.ns_per_step),
-                     std::isnan(s.times_real_time) ? "" : fmt::format(", {:.4g} times real time", s.times_real_time)));
+         fmt::format(
+             "{:.4g} s{}{}", s.wall_seconds,
+             std::isnan(s.ns_per_step) ? "" : fmt::format(", {:.1f} ns per step", s.ns_per_step),
+             std::isnan(s.times_real_time)
+                 ? ""
+                 : fmt::format(", {:.4g} times real time", s.times_real_time)));
     if (!std::isnan(s.energy_residual_per_step))
         line("energy residual",
-             fmt::format("{:.2e} of one row, {:.2e} accumulated", s.energy_residual_per_step, s.energy_residual_accumulated));
-    if (!std::isnan(s.smallest_contact_force)) line("smallest contact force", fmt::format("{:.6g} N", s.smallest_contact_force));
-    if (!std::isnan(s.largest_contact_force)) line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
-    if (!std::isnan(s.deepest_penetration)) line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
+             fmt::format("{:.2e} of one row, {:.2e} accumulated", s.energy_residual_per_step,
+                         s.energy_residual_accumulated));
+    if (!std::isnan(s.smallest_contact_force))
+        line("smallest contact force", fmt::format("{:.6g} N", s.smallest_contact_force));
+    if (!std::isnan(s.largest_contact_force))
+        line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
+    if (!std::isnan(s.deepest_penetration))
+        line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
     text += facts_text(d, s, scene, r.facts);
     for (const study::Flag& f : study::flags_of(s)) text += "\n! " + f.sentence;
-    if (const std::string untouched = compare::untouched_text(scene, s); !untouched.empty()) text += "\n! " + untouched;
+    if (const std::string untouched = compare::untouched_text(scene, s); !untouched.empty())
+        text += "\n! " + untouched;
     return text;
 }
 
@@ -102,7 +118,8 @@ Json json_of(const study::Summary& s) {
 }
 
 // Before a long run: that what it gives can be written. The sound of it where --out names one.
-std::optional<sound::Player> checked_output(const RunRequest& r, const Scene& scene, double tap_rate) {
+std::optional<sound::Player> checked_output(const RunRequest& r, const Scene& scene,
+                                            double tap_rate) {
     if (sound::is_audio(r.out)) return sound::Player(r.out, scene, tap_rate);
     if (!r.out.empty()) store::check_trace_file(r.out);
     return std::nullopt;
@@ -120,28 +137,37 @@ Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
 
 // Before a long run: that its picture can be drawn.
 std::optional<report::Vega> vega_for(const RunRequest& r) {
-    if (r.plot.empty() && !r.width.empty()) throw store::UsageError("--width goes with --plot FILE");
+    if (r.plot.empty() && !r.width.empty())
+        throw store::UsageError("--width goes with --plot FILE");
     if (r.plot.empty()) return std::nullopt;
     if (!r.width.empty()) report::width_of(r.width);  // refused before the run
     const std::string extension = std::filesystem::path(r.plot).extension();
     if (extension != ".svg" && extension != ".html")
-        throw store::UsageError("--plot " + r.plot + ": expected a name that ends in .svg or .html");
+        throw store::UsageError("--plot " + r.plot +
+                                ": expected a name that ends in .svg or .html");
     store::must_be_writable(r.plot);
     report::Vega vega = report::find_vega();
     if (!vega.missing.empty()) throw store::UsageError("--plot " + r.plot + ": " + vega.missing);
     return vega;
 }
 
-void draw(const std::string& file, const Descriptor& d, const study::Summary& s, const Scene& scene, const Trace& trace,
-          const report::Vega& vega, const std::string& width) {
-    const std::string rate = std::isnan(s.rate) ? "continuous time" : fmt::format("{:g} kHz", s.rate / 1000);
+void draw(const std::string& file, const Descriptor& d, const study::Summary& s, const Scene& scene,
+          const Trace& trace, const report::Vega& vega, const std::string& width) {
+    const std::string rate =
+        std::isnan(s.rate) ? "continuous time" : fmt::format("{:g} kHz", s.rate / 1000);
     const std::string flags = names_of(study::flags_of(s));
-    const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source, flags.empty() ? "" : "; not to be trusted: " + flags);
-    Json data = report::run_data({fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, trace});
-    if (file.ends_with(".html")) return store::write_fresh(file, report::page_of(data, report::vega_scripts(vega).value_or("")));
+    const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source,
+                                             flags.empty() ? "" : "; not to be trusted: " + flags);
+    Json data = report::run_data(
+        {fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, trace});
+    if (file.ends_with(".html"))
+        return store::write_fresh(file,
+                                  report::page_of(data, report::vega_scripts(vega).value_or("")));
     if (!width.empty()) data["width"] = report::width_of(width) * report::pixels_per_mm;
     const report::Drawn drawn = report::draw(vega, data);
-    if (drawn.svgs.empty()) throw store::Unwritable(file + ": " + (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
+    if (drawn.svgs.empty())
+        throw store::Unwritable(file + ": " +
+                                (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
     store::write_fresh(file, drawn.svgs.front().second);
 }
 
@@ -150,28 +176,37 @@ int run_command(RunRequest r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
-    // Drawn are the scene's own taps, played those that are heard: a run of both has the former first.
+    // Drawn are the scene's own taps, played those that are heard: a run of both has the former
+    // first.
     const bool played = sound::is_audio(r.out);
-    const Scene own = compare::load_scene(r.scene, r.set, r.duration), heard = played ? sound::audible(own) : own;
+    const Scene own = compare::load_scene(r.scene, r.set, r.duration),
+                heard = played ? sound::audible(own) : own;
     const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
     Scene scene = heard;
-    scene.taps.insert(scene.taps.begin(), own.taps.begin(), own.taps.begin() + static_cast<long>(drawn));
+    scene.taps.insert(scene.taps.begin(), own.taps.begin(),
+                      own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
-    const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate, r.modes, scheme_options(r.options));
+    const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
+                                                       r.modes, scheme_options(r.options));
     const std::optional<report::Vega> vega = vega_for(r);
     const std::optional<sound::Player> player = checked_output(r, heard, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
-    if (r.rate && d.clock == Clock::continuous) console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
+                                            scene.duration, settings.tap_rate));
+    if (r.rate && d.clock == Clock::continuous)
+        console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
 
     Run result;
     {
         const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
         RunOptions options;
         options.energy = r.energy || vega;
-        options.progress = [&progress](long done, long rows) { progress->show(static_cast<double>(done) / static_cast<double>(rows)); };
+        options.progress = [&progress](long done, long rows) {
+            progress->show(static_cast<double>(done) / static_cast<double>(rows));
+        };
         options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
-            console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done, rows, long_run, dearest(facts)));
+            console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done,
+                                     rows, long_run, dearest(facts)));
         };
         result = run(d, scene, settings, options);
     }
@@ -185,7 +220,8 @@ int run_command(RunRequest r) {
         else store::write_trace(r.out, result.trace);
         json["out"] = r.out;
         if (!said.empty()) json["level"] = said;
-        text += fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
+        text +=
+            fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
     }
     if (vega) {
         if (drawn > 0) draw(r.plot, d, summary, own, part_of(result.trace, 0, own), *vega, r.width);
@@ -196,7 +232,8 @@ int run_command(RunRequest r) {
     console.print(text);
     console.print_json(store::indented(json));
     if (result.status.outcome == Outcome::ok) return exit_code::done;
-    console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome), result.status.step, result.trace.rows));
+    console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome),
+                             result.status.step, result.trace.rows));
     return exit_code::run_failed;
 }
 }  // namespace
@@ -210,14 +247,21 @@ Act run_verb(CLI::App& program) {
     v.option("--scheme", v.r.scheme, {"NAME"}, "a scheme or a reference")->required();
     v.option("--rate", v.r.rate, hertz, "sample rate; 44100 where absent");
     v.duration(v.r.duration);
-    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second; 44100 where absent, or the rate where that is no multiple of it");
-    v.flag("--energy", v.r.energy, "probe the energy: three more columns, and the residuals of the balance");
-    v.flag("--facts", v.r.facts, "every fact that the scheme reports, its solver's counters among them; --json always has them");
+    v.option("--tap-rate", v.r.tap_rate, hertz,
+             "rows per second; 44100 where absent, or the rate where that is no multiple of it");
+    v.flag("--energy", v.r.energy,
+           "probe the energy: three more columns, and the residuals of the balance");
+    v.flag("--facts", v.r.facts,
+           "every fact that the scheme reports, its solver's counters among them; --json always "
+           "has them");
     v.option("--out", v.r.out, {"FILE"}, "writes the trace, .csv, or what is heard of it, .wav");
     v.option("--width", v.r.width, {"WIDTH"}, "of the picture, as 85mm for a column of a paper");
     v.option("--plot", v.r.plot, {"FILE"},
-             "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact times (turns --energy on)");
-    return v.does(run_command, "Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration 0.2 --energy --out c3.csv");
+             "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact "
+             "times (turns --energy on)");
+    return v.does(run_command,
+                  "Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration "
+                  "0.2 --energy --out c3.csv");
 }
 
 }  // namespace jvari::bench::command

@@ -1,5 +1,5 @@
-// jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv, errors.csv, cost.csv, a file per row facet,
-// manifest.json and the report.
+// jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv,
+// errors.csv, cost.csv, a file per row facet, manifest.json and the report.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -43,7 +43,8 @@ Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     std::map<std::string, std::string> scenes;  // of what is swept the first
     for (const study::Job& c : plan.jobs) {
         sources[c.cell.scheme->name] = c.cell.scheme->source;
-        if (!scenes.contains(c.point->scene.name)) scenes[c.point->scene.name] = write_scene(c.point->scene);
+        if (!scenes.contains(c.point->scene.name))
+            scenes[c.point->scene.name] = write_scene(c.point->scene);
     }
     Json manifest = store::made_by();
     manifest.update({{"suite", suite.name},
@@ -55,7 +56,8 @@ Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     return manifest;
 }
 
-std::string table_text(const study::Plan& plan, const study::Study& run, const store::Table& cells) {
+std::string table_text(const study::Plan& plan, const study::Study& run,
+                       const store::Table& cells) {
     const std::string headline = compare::headline_error(cells, store::all_rows(cells));
     TextTable table{{{"scene", true},
                      {"scheme", true},
@@ -75,33 +77,40 @@ std::string table_text(const study::Plan& plan, const study::Study& run, const s
         const double cost = cells.number(i, "cost_s_per_s");
         table.rows.push_back(
             {' ',
-             {what, store::variant_name(c.cell.scheme->name, store::options_text(c.cell.settings.options)), cells.at(i, "rate"),
-              cells.at(i, "modes"), cells.at(i, "status"), compare::error_text(compare::bound_of(cells, i, headline), "{:.2e}"),
+             {what,
+              store::variant_name(c.cell.scheme->name,
+                                  store::options_text(c.cell.settings.options)),
+              cells.at(i, "rate"), cells.at(i, "modes"), cells.at(i, "status"),
+              compare::error_text(compare::bound_of(cells, i, headline), "{:.2e}"),
               std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), cells.at(i, "reason")}});
     }
     std::string text = table.text(Console::width());
-    text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.jobs.size(), run.ran, run.timed, run.read_back);
+    text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.jobs.size(), run.ran,
+                        run.timed, run.read_back);
     for (const auto& [status, count] : statuses) text += fmt::format(" {} {}", count, status);
     return text;
 }
 
 std::string kept_text(const study::Plan& plan, const fs::path& folder) {
     if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
-    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there", study::kept_of(plan, folder), folder.string());
+    return fmt::format("interrupted: {} are kept in {}; --resume goes on from there",
+                       study::kept_of(plan, folder), folder.string());
 }
 
 void note_missing_locks(const fs::path& folder, const Console& console) {
     try {
         if (store::FileLock(folder / "cells" / "any", "begins").held()) return;
         console.note(folder.string() +
-                     ": no file can be locked here. Processes that share this folder would each run every cell: start only one");
+                     ": no file can be locked here. Processes that share this folder would each "
+                     "run every cell: start only one");
     } catch (const store::Busy&) {  // another begins, and has one
     }
 }
 
 int suite_command(SuiteRequest r) {
     const Console console(r.json, r.quiet);
-    if (r.resume && r.out.empty()) throw store::UsageError("--resume: there is no --out DIR to resume from");
+    if (r.resume && r.out.empty())
+        throw store::UsageError("--resume: there is no --out DIR to resume from");
     const suite::Suite suite = suite::read_suite(r.suite);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
@@ -112,8 +121,9 @@ int suite_command(SuiteRequest r) {
     if (r.resume) note_missing_locks(folder, console);
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
     if (r.resume) study::keep_references_in(plan, folder / "references");
-    const map::RecordedMaps maps =
-        map::run_and_record_maps(suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs}, console);
+    const map::RecordedMaps maps = map::run_and_record_maps(
+        suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs},
+        console);
     const study::Study run = study::run(plan, kept_cells, r.resume, r.jobs, console);
     const store::Table cells = compare::with_front(study::table_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
@@ -122,7 +132,8 @@ int suite_command(SuiteRequest r) {
     results.files = maps.files;
     if (!plan.jobs.empty()) results.add_tables(cells);
     for (const suite::Facet& f : suite::facets())
-        if (const store::Table rows = study::rows_of(f.name, plan, run.records); !rows.rows.empty() && results) {
+        if (const store::Table rows = study::rows_of(f.name, plan, run.records);
+            !rows.rows.empty() && results) {
             if (f.rows == suite::sound_rows) suite::write_sound_rows(folder, rows);
             else results.add(std::string(f.name) + ".csv", store::csv(rows));
         }
@@ -132,23 +143,32 @@ int suite_command(SuiteRequest r) {
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
-    for (const std::string& warning : compare::warnings_of(cells)) console.print("warning: " + warning);
+    for (const std::string& warning : compare::warnings_of(cells))
+        console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());
     const int code = code_of(run.records);
-    console.print_json(with_results(
-        {{"suite", suite.name}, {"status", exit_code::status(code)}, {"ran", run.ran}, {"timed", run.timed}, {"read_back", run.read_back}},
-        {manifest, cells, cheapest, results.files}));
+    console.print_json(with_results({{"suite", suite.name},
+                                     {"status", exit_code::status(code)},
+                                     {"ran", run.ran},
+                                     {"timed", run.timed},
+                                     {"read_back", run.read_back}},
+                                    {manifest, cells, cheapest, results.files}));
     return code;
 }
 }  // namespace
 
 Act suite_verb(CLI::App& program) {
-    Verb<SuiteRequest> v(program, "suite", "a declared set of comparisons, sweeps and stability maps over scenes and schemes");
-    v.option("suite", v.r.suite, {"FILE"}, "a suite file, or a name that `jvari list suites` shows")->required();
+    Verb<SuiteRequest> v(
+        program, "suite",
+        "a declared set of comparisons, sweeps and stability maps over scenes and schemes");
+    v.option("suite", v.r.suite, {"FILE"}, "a suite file, or a name that `jvari list suites` shows")
+        ->required();
     v.option("--out", v.r.out, {"DIR"},
-             "folder for cells/, a table of each kind that the suite measures, manifest.json, report.html and its pictures");
+             "folder for cells/, a table of each kind that the suite measures, manifest.json, "
+             "report.html and its pictures");
     v.flag("--resume", v.r.resume,
-           "reads back the cells that DIR holds and runs the others; any number of processes may do so at once in one DIR");
+           "reads back the cells that DIR holds and runs the others; any number of processes may "
+           "do so at once in one DIR");
     v.jobs(v.r.jobs);
     return v.does(suite_command, "Example: jvari suite paper-deshmukh --out sitar --resume");
 }

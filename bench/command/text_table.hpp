@@ -1,7 +1,8 @@
 // A table for the terminal: columns as wide as what stands in them.
 //
-// Where it is wider than the terminal, columns are left out, those of the highest rank first; one of rank 0 stays. Where that is not
-// enough, what the first column says stands on a line above those that it is the same for.
+// Where it is wider than the terminal, columns are left out, those of the highest rank first; one
+// of rank 0 stays. Where that is not enough, what the first column says stands on a line above
+// those that it is the same for.
 #pragma once
 
 #include <cstddef>
@@ -25,16 +26,19 @@ struct TextTable {
     std::vector<Column> columns;
     std::vector<Row> rows;
 
-    std::string text(std::size_t width) const;  // each line with its end; a last one says what was left out
+    // each line with its end; a last one says what was left out
+    std::string text(std::size_t width) const;
 };
 
-// A listing: lines that are wider than the terminal go on in the next one, below where their last column begins. A column begins behind two
-// blanks or more; one that leaves less than 24 characters counts as none.
+// A listing: lines that are wider than the terminal go on in the next one, below where their last
+// column begins. A column begins behind two blanks or more; one that leaves less than 24 characters
+// counts as none.
 std::string wrapped(const std::string& text, std::size_t width);
 
 // ---- The table of a comparison for the terminal.
 
-// The front marked, and what is not to be trusted; in lines of that width, cost and headline error always.
+// The front marked, and what is not to be trusted; in lines of that width, cost and headline error
+// always.
 std::string headline_text(const store::Table& cells, std::size_t width);
 
 }  // namespace jvari::bench::command

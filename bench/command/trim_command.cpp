@@ -1,4 +1,5 @@
-// jvari trim: no more than a scene needs. DIR gets trimmed.toml, needs.csv, path.csv, manifest.json, the report and cells/.
+// jvari trim: no more than a scene needs. DIR gets trimmed.toml, needs.csv, path.csv,
+// manifest.json, the report and cells/.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,18 +31,24 @@ std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
     TextTable table{{{"part", true}, {"error"}, {"cost"}, {"needed"}, {"in the model", true}}, {}};
     for (const trim::Need& n : t.needs)
         table.rows.push_back({' ',
-                              {n.part + (n.becomes == "left out" ? "" : " = " + n.becomes), text_of(*judge.target().measure, n.error),
-                               std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved), n.needed ? "yes" : "no",
-                               n.left_out ? "left out" : "kept"}});
+                              {n.part + (n.becomes == "left out" ? "" : " = " + n.becomes),
+                               text_of(*judge.target().measure, n.error),
+                               std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved),
+                               n.needed ? "yes" : "no", n.left_out ? "left out" : "kept"}});
     return table.text(Console::width());
 }
 
 std::string path_text(const trim::Trimmed& t, const trim::Judge& judge) {
-    TextTable table{{{"from the whole scene to the trimmed one", true}, {"error"}, {"s per s"}, {"model", true, 1}}, {}};
+    TextTable table{{{"from the whole scene to the trimmed one", true},
+                     {"error"},
+                     {"s per s"},
+                     {"model", true, 1}},
+                    {}};
     for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
         const trim::Step& s = t.path.steps[k];
         table.rows.push_back({' ',
-                              {s.change + (s.within ? "" : " (not within)"), text_of(*judge.target().measure, s.error),
+                              {s.change + (s.within ? "" : " (not within)"),
+                               text_of(*judge.target().measure, s.error),
                                fmt::format("{:.3g}", t.costs[k].median), s.model.settings_text()}});
     }
     return table.text(Console::width());
@@ -50,21 +57,27 @@ std::string path_text(const trim::Trimmed& t, const trim::Judge& judge) {
 std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
     const trim::Measure& m = *judge.target().measure;
     const trim::Truth& truth = t.truths.front();
-    std::string text = fmt::format("truth: {}, {}; certain to {}, noise floor {}\n", truth.reference, truth.said,
-                                   certainty_text(m, truth.certificate), text_of(m, truth.floor));
+    std::string text =
+        fmt::format("truth: {}, {}; certain to {}, noise floor {}\n", truth.reference, truth.said,
+                    certainty_text(m, truth.certificate), text_of(m, truth.floor));
     if (!t.path.found)
-        return text + fmt::format("none of {} is within {} over {:g} s", fmt::join(t.path.tried, ", "), text_of(m, judge.target().most),
+        return text + fmt::format("none of {} is within {} over {:g} s",
+                                  fmt::join(t.path.tried, ", "), text_of(m, judge.target().most),
                                   t.whole.duration);
     for (const trim::Verified& v : t.verified)
         text += fmt::format("verified: {} from {}{}\n", text_of(m, v.error), v.said,
-                            !v.decided    ? fmt::format(", whose reference is certain to {} only", certainty_text(m, v.certificate))
+                            !v.decided    ? fmt::format(", whose reference is certain to {} only",
+                                                        certainty_text(m, v.certificate))
                             : v.judged_by ? std::string()
                                           : ", which the search did not know");
-    if (t.independent() == 0) text += "every start that there is judged the search: none was left to verify it\n";
-    text += fmt::format("{:.3g} times cheaper than the whole scene without matched compliance{}, {:.3g} times than its cheapest model",
-                        t.costs.front().median / t.costs.back().median,
-                        t.full().within ? "" : fmt::format(" (which errs by {})", text_of(m, t.full().error)),
-                        t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);
+    if (t.independent() == 0)
+        text += "every start that there is judged the search: none was left to verify it\n";
+    text += fmt::format(
+        "{:.3g} times cheaper than the whole scene without matched compliance{}, {:.3g} times than "
+        "its cheapest model",
+        t.costs.front().median / t.costs.back().median,
+        t.full().within ? "" : fmt::format(" (which errs by {})", text_of(m, t.full().error)),
+        t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);
     return text;
 }
 
@@ -79,18 +92,24 @@ void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Jud
         const Run r = run(*step->model.scheme, scene, step->model.settings);
         const auto tap = std::ranges::find(r.trace.names, judge.tap().name);
         if (r.status.outcome != Outcome::ok || tap == r.trace.names.end()) return;
-        sounds.push_back(store::sound_of(r.trace.column(static_cast<int>(tap - r.trace.names.begin())), r.trace.tap_rate));
+        sounds.push_back(store::sound_of(
+            r.trace.column(static_cast<int>(tap - r.trace.names.begin())), r.trace.tap_rate));
         if (sounds.back().samples.empty()) return;
     }
     const trim::Model& model = t.last().model;
-    const auto named = [&](std::vector<std::string> who, const char* file, const store::Sound& sound, const char* reference) {
-        return store::NamedSound{std::move(who), file, judge.tap().name, name_of(judge.tap().quantity), &sound, reference};
+    const auto named = [&](std::vector<std::string> who, const char* file,
+                           const store::Sound& sound, const char* reference) {
+        return store::NamedSound{std::move(who),   file,
+                                 judge.tap().name, name_of(judge.tap().quantity),
+                                 &sound,           reference};
     };
-    store::write_sounds(folder, {"scheme", "options", "rate", "modes", "what"},
-                        {named({"reference", "", "", "", "the whole scene"}, "whole", sounds[0], ""),
-                         named({model.scheme->name, store::options_text(model.settings.options), store::text_of(model.settings.sample_rate),
-                                std::to_string(model.settings.modes), "the trimmed model"},
-                               "trimmed", sounds[1], "whole")});
+    store::write_sounds(
+        folder, {"scheme", "options", "rate", "modes", "what"},
+        {named({"reference", "", "", "", "the whole scene"}, "whole", sounds[0], ""),
+         named({model.scheme->name, store::options_text(model.settings.options),
+                store::text_of(model.settings.sample_rate), std::to_string(model.settings.modes),
+                "the trimmed model"},
+               "trimmed", sounds[1], "whole")});
 }
 
 int trim_command(TrimCall r) {
@@ -102,9 +121,12 @@ int trim_command(TrimCall r) {
     request.plugins = r.Running::plugins;
     std::optional<store::WhenInterrupted> last_word;
     if (!r.out.empty())
-        last_word.emplace(
-            [&] { console.note("interrupted: what was judged is kept in " + r.out + "; the same command goes on from there"); });
-    if (!r.out.empty()) must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name, console);
+        last_word.emplace([&] {
+            console.note("interrupted: what was judged is kept in " + r.out +
+                         "; the same command goes on from there");
+        });
+    if (!r.out.empty())
+        must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name, console);
     trim::Judge judge(request, catalogue, console);
     const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
     const auto manifest = trim::manifest_of(t, judge, request);
@@ -116,9 +138,10 @@ int trim_command(TrimCall r) {
     folder.add("path.csv", store::csv(path));
     folder.add_manifest(manifest);
     folder.add_report();
-    console.print(fmt::format("{} within {} of {}, tap {}, {:g} s; {} models judged, {} read back", t.whole.name,
-                              text_of(*judge.target().measure, judge.target().most), judge.target().measure->title, judge.tap().name,
-                              t.whole.duration, t.judged, t.read_back));
+    console.print(fmt::format("{} within {} of {}, tap {}, {:g} s; {} models judged, {} read back",
+                              t.whole.name, text_of(*judge.target().measure, judge.target().most),
+                              judge.target().measure->title, judge.tap().name, t.whole.duration,
+                              t.judged, t.read_back));
     if (!t.path.steps.empty()) console.print(path_text(t, judge));
     if (t.path.found) console.print(needs_text(t, judge));
     console.print(verdict_text(t, judge));
@@ -126,7 +149,8 @@ int trim_command(TrimCall r) {
     for (const std::string& what : t.not_tried) left += "\n  " + what;
     console.print(left);
     if (t.path.found && !r.out.empty())
-        console.print("written: " + r.out + "\n" + trim::command_of(t, (fs::path(r.out) / "trimmed.toml").string()));
+        console.print("written: " + r.out + "\n" +
+                      trim::command_of(t, (fs::path(r.out) / "trimmed.toml").string()));
     console.print_json(store::indented({{"status", t.path.found ? "ok" : "none"},
                                         {"manifest", manifest},
                                         {"path", store::rows_json(path)},
@@ -137,22 +161,33 @@ int trim_command(TrimCall r) {
 }  // namespace
 
 Act trim_verb(CLI::App& program) {
-    Verb<TrimCall> v(program, "trim", "the cheapest model of a scene within a tolerance: no more than it needs");
+    Verb<TrimCall> v(program, "trim",
+                     "the cheapest model of a scene within a tolerance: no more than it needs");
     v.scene(v.r.scene);
-    v.option("--within", v.r.within, {"ERROR"}, "the tolerance: 1%, or 1dB where the measure is in dB")->required();
-    v.option("--of", v.r.measure, {"MEASURE"}, "l2_50ms (absent), third_octave_db, stft, centroid or decay");
-    v.option("--tap", v.r.tap, {"NAME"}, "what is listened to; absent: the first nut force, else the first tap");
-    v.option("--scheme", v.r.scheme, {"NAME|any"}, "a scheme; any: all that represent the scene or what is left of it");
+    v.option("--within", v.r.within, {"ERROR"},
+             "the tolerance: 1%, or 1dB where the measure is in dB")
+        ->required();
+    v.option("--of", v.r.measure, {"MEASURE"},
+             "l2_50ms (absent), third_octave_db, stft, centroid or decay");
+    v.option("--tap", v.r.tap, {"NAME"},
+             "what is listened to; absent: the first nut force, else the first tap");
+    v.option("--scheme", v.r.scheme, {"NAME|any"},
+             "a scheme; any: all that represent the scene or what is left of it");
     v.set(v.r.set);
     v.options(v.r.option_lists);
-    v.option("--duration", v.r.duration, seconds,
-             "how much of the scene is run; absent: to 50 ms after the last pluck, for decay all of it");
-    v.option("--tap-rate", v.r.tap_rate, hertz, "rows per second that are compared, and the lowest rate that is tried; 44100 where absent");
+    v.option(
+        "--duration", v.r.duration, seconds,
+        "how much of the scene is run; absent: to 50 ms after the last pluck, for decay all of it");
+    v.option(
+        "--tap-rate", v.r.tap_rate, hertz,
+        "rows per second that are compared, and the lowest rate that is tried; 44100 where absent");
     v.option("--reference-modes", v.r.reference_modes, counting_or_0,
-             "modes of the reference; absent: doubled until nothing moves, as far as twenty seconds reach");
+             "modes of the reference; absent: doubled until nothing moves, as far as twenty "
+             "seconds reach");
     v.jobs(v.r.jobs);
     v.option("--out", v.r.out, {"DIR"},
-             "folder for trimmed.toml, needs.csv, path.csv, trim.svg, report.html; what was judged is kept in its cells/");
+             "folder for trimmed.toml, needs.csv, path.csv, trim.svg, report.html; what was judged "
+             "is kept in its cells/");
     return v.does(trim_command, "Example: jvari trim tanpura_c3_release --within 1% --out trimmed");
 }
 

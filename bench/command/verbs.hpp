@@ -1,4 +1,5 @@
-// The verbs. A verb is a file: its arguments, which it adds to the command line with their help, and what it does with them.
+// The verbs. A verb is a file: its arguments, which it adds to the command line with their help,
+// and what it does with them.
 #pragma once
 
 #include "bench/command/arguments.hpp"
@@ -18,7 +19,9 @@ Act check_verb(CLI::App& program);
 Act export_verb(CLI::App& program);
 Act judge_verb(CLI::App& program);
 
-constexpr Act (*verbs[])(CLI::App&) = {new_verb,  list_verb,    run_verb,    compare_verb, suite_verb,  // as --help lists them
-                                       trim_verb, certify_verb, report_verb, diff_verb,    check_verb, export_verb, judge_verb};
+// as --help lists them
+constexpr Act (*verbs[])(CLI::App&) = {new_verb,   list_verb,  run_verb,     compare_verb,
+                                       suite_verb, trim_verb,  certify_verb, report_verb,
+                                       diff_verb,  check_verb, export_verb,  judge_verb};
 
 }  // namespace jvari::bench::command

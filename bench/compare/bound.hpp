@@ -1,9 +1,10 @@
 // What is known of an error, and which error stands where one has to.
 // Tables, text, JSON, pictures, the Pareto front and the cheapest all ask here.
 //
-// A cell is measured against a reference (e), which is itself uncertain by c, its certificate. By the triangle inequality the cell differs
-// from the motion of the scene by e + c at most and by e - c at least, relative to the norm of the reference. Where c is unknown nothing
-// follows from e. Spectral measures have no certificate and count as measured.
+// A cell is measured against a reference (e), which is itself uncertain by c, its certificate. By
+// the triangle inequality the cell differs from the motion of the scene by e + c at most and by e -
+// c at least, relative to the norm of the reference. Where c is unknown nothing follows from e.
+// Spectral measures have no certificate and count as measured.
 #pragma once
 
 #include <limits>
@@ -14,7 +15,8 @@
 
 namespace jvari::bench::compare {
 
-constexpr double accuracies[] = {0.1, 0.01, 0.001};  // of a waveform, that the cheapest scheme is named for
+// of a waveform, that the cheapest scheme is named for
+constexpr double accuracies[] = {0.1, 0.01, 0.001};
 
 struct Bound {
     double error = std::numeric_limits<double>::quiet_NaN();        // as measured; NaN: none
@@ -28,16 +30,19 @@ struct Bound {
         nothing,   // there is no error
         measured,  // e: c is a tenth of it or less
         at_most,   // e + c
-        unknown,   // e + c reaches 1, where nothing of the waveform is right: c is too large to tell
-        unsure     // e, but c is unknown
+        // e + c reaches 1, where nothing of the waveform is right: c is too large to tell
+        unknown,
+        unsure  // e, but c is unknown
     };
     Says says() const;
     double shown() const;  // what stands in a picture: e, or e + c where that is what is known
-    bool decides() const;  // larger than noise floor and certificate: how it falls with the rate is of the scheme
+    // larger than noise floor and certificate: how it falls with the rate is of the scheme
+    bool decides() const;
 };
 
 std::string after_pluck(const store::Table& cells,
-                        std::size_t row);  // " after the last pluck", where the windows of its errors begin there
+                        // " after the last pluck", where the windows of its errors begin there
+                        std::size_t row);
 
 // Of a row of cells.csv, or of a table like it, and one of its error columns.
 Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column);
@@ -45,25 +50,29 @@ Bound bound_of(const store::Table& cells, std::size_t row, const std::string& er
 // "1.30e-02", "\u22645.13e-02", "1.30e-02?" (unsure), "not known", "-" where there is no error
 std::string error_text(const Bound&, const char* format);
 
-// They reached the end of their run; those that are not needed were run over the headline's window alone.
+// They reached the end of their run; those that are not needed were run over the headline's window
+// alone.
 bool reached(const store::Table& cells, std::size_t row);
-// The rows' own figures say nothing against them: they reached the end of the whole run, and have no flags.
+// The rows' own figures say nothing against them: they reached the end of the whole run, and have
+// no flags.
 bool trusted(const store::Table& cells, std::size_t row);
 
-// The column that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else the whole run; the first with a finite
-// value in one of the rows.
+// The column that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else
+// the whole run; the first with a finite value in one of the rows.
 std::string headline_error(const store::Table& cells, const store::Rows&);
 
-// How an error falls with the rate over those of the rows that can tell: they reached their end, something of the waveform is right (an
-// error below 1), and the error is larger than its noise floor and than what the reference is certain to.
+// How an error falls with the rate over those of the rows that can tell: they reached their end,
+// something of the waveform is right (an error below 1), and the error is larger than its noise
+// floor and than what the reference is certain to.
 struct Fall {
     Order order;
     store::Rows rows;
 };
-Fall fall_over_rates(const store::Table& cells, const store::Rows&, const std::string& error_column);
+Fall fall_over_rates(const store::Table& cells, const store::Rows&,
+                     const std::string& error_column);
 
-// `cells` with bound_l2_10ms, bound_l2_50ms and bound_l2_whole beside them: e + c of the headline errors; empty where c is too large to
-// tell or there is none.
+// `cells` with bound_l2_10ms, bound_l2_50ms and bound_l2_whole beside them: e + c of the headline
+// errors; empty where c is too large to tell or there is none.
 store::Table with_bounds(store::Table cells);
 
 }  // namespace jvari::bench::compare

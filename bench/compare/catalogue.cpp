@@ -22,13 +22,15 @@ Catalogue::Catalogue(const std::vector<std::string>& plugins) {
         std::span<const Descriptor> brought;
         try {
             brought = load_plugin(path).schemes;
-        } catch (const std::runtime_error& e) {
-            throw store::UsageError(e.what());
-        }
+        } catch (const std::runtime_error& e) { throw store::UsageError(e.what()); }
         for (const Descriptor& d : brought) {
-            const auto same = [&d](const Descriptor* other) { return std::string(other->name) == d.name; };
-            if (std::any_of(schemes.begin(), schemes.end(), same) || std::any_of(references.begin(), references.end(), same))
-                throw store::UsageError("plugin " + path + ": there is a scheme of the name " + d.name + " already");
+            const auto same = [&d](const Descriptor* other) {
+                return std::string(other->name) == d.name;
+            };
+            if (std::any_of(schemes.begin(), schemes.end(), same) ||
+                std::any_of(references.begin(), references.end(), same))
+                throw store::UsageError("plugin " + path + ": there is a scheme of the name " +
+                                        d.name + " already");
             schemes.push_back(&d);
         }
     }
@@ -51,10 +53,13 @@ bool Catalogue::is_reference(const Descriptor& d) const {
 void note_slow_plugins(const store::Listener& listener) {
     for (const Guest* g : guests())
         if (!g->optimised)
-            listener.note("warning: plugin " + g->path + " is compiled without optimisation: its times say nothing of its schemes");
+            listener.note(
+                "warning: plugin " + g->path +
+                " is compiled without optimisation: its times say nothing of its schemes");
 }
 
-Scene load_scene(const std::string& name, const std::vector<std::string>& overrides, std::optional<double> duration) {
+Scene load_scene(const std::string& name, const std::vector<std::string>& overrides,
+                 std::optional<double> duration) {
     Scene scene = read_scene(name, overrides);
     if (duration) scene.duration = *duration;
     return scene;
@@ -62,13 +67,16 @@ Scene load_scene(const std::string& name, const std::vector<std::string>& overri
 
 Scene load_scene(const CompareRequest& r) {
     Scene scene = load_scene(r.scene, r.set, r.duration);
-    if (!r.tap.empty()) scene.taps = {scene.taps[static_cast<std::size_t>(tap_named(scene, r.tap))]};
+    if (!r.tap.empty())
+        scene.taps = {scene.taps[static_cast<std::size_t>(tap_named(scene, r.tap))]};
     return scene;
 }
 
 int tap_named(const Scene& scene, const std::string& name) {
     if (scene.taps.empty())
-        throw store::UsageError("scene " + scene.name + " has no tap: there is nothing to judge. A [[tap]] says what to hear");
+        throw store::UsageError(
+            "scene " + scene.name +
+            " has no tap: there is nothing to judge. A [[tap]] says what to hear");
     std::vector<std::string> names;
     for (const Tap& tap : scene.taps) {
         if (name.empty() || tap.name == name) return static_cast<int>(names.size());
@@ -82,18 +90,20 @@ bool whole_multiple(double rate, double of) {
     return std::round(ratio) >= 1 && std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
 }
 
-Settings settings_of_run(const Descriptor& d, double rate, std::optional<double> tap_rate, int modes,
-                         const std::vector<SchemeOption>& options) {
+Settings settings_of_run(const Descriptor& d, double rate, std::optional<double> tap_rate,
+                         int modes, const std::vector<SchemeOption>& options) {
     Settings s;
     const bool continuous = d.clock == Clock::continuous;
     s.sample_rate = continuous ? 0 : rate;
     s.tap_rate = tap_rate.value_or(continuous || whole_multiple(rate, 44100) ? 44100 : rate);
     s.modes = modes;
     if (!continuous && !whole_multiple(rate, s.tap_rate))
-        throw store::UsageError(fmt::format("tap rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
+        throw store::UsageError(fmt::format(
+            "tap rate {}: the sample rate of {} Hz is no whole multiple of it", s.tap_rate, rate));
     for (const SchemeOption& o : options) {
         if (!o.scheme.empty() && o.scheme != d.name)
-            throw store::UsageError(fmt::format("option {}:{}: this run is of {}", o.scheme, o.name, d.name));
+            throw store::UsageError(
+                fmt::format("option {}:{}: this run is of {}", o.scheme, o.name, d.name));
         s.options.emplace_back(o.name, o.value);
     }
     return s;
@@ -107,19 +117,19 @@ std::string arguments_of(const Descriptor& d, const Settings& s) {
     return text;
 }
 
-std::optional<int> dofs_with(int modes, const Descriptor& d, const Scene& scene, Settings settings) {
+std::optional<int> dofs_with(int modes, const Descriptor& d, const Scene& scene,
+                             Settings settings) {
     settings.modes = modes;
     try {
         return make_scheme(d, scene, settings)->dofs();
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
+    } catch (const std::exception&) { return std::nullopt; }
 }
 
 std::vector<std::string> names_in(Features features) {
     std::vector<std::string> names;
     for (int i = 0; i < feature_count; ++i)
-        if (const auto f = static_cast<Feature>(1u << i); features.has(f)) names.emplace_back(name_of(f));
+        if (const auto f = static_cast<Feature>(1u << i); features.has(f))
+            names.emplace_back(name_of(f));
     return names;
 }
 

@@ -16,41 +16,50 @@
 namespace jvari::bench::compare {
 
 namespace {
-std::string certify_command(const CompareRequest& r, const Comparison& c) {  // what would certify this comparison's reference
+// what would certify this comparison's reference
+std::string certify_command(const CompareRequest& r, const Comparison& c) {
     std::string text = "jvari certify " + r.scene;
     if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
-    if (c.reference.settings.tap_rate != 44100) text += fmt::format(" --tap-rate {:.12g}", c.reference.settings.tap_rate);
+    if (c.reference.settings.tap_rate != 44100)
+        text += fmt::format(" --tap-rate {:.12g}", c.reference.settings.tap_rate);
     for (const std::string& set : r.set) text += " --set " + set;
     return text;
 }
 
 // What of a comparison is known before a cell runs; messages of its reference.
-void describe(Comparison& c, const CompareRequest& request, const study::References::Of& known, const store::Listener& listener) {
+void describe(Comparison& c, const CompareRequest& request, const study::References::Of& known,
+              const store::Listener& listener) {
     const study::Reference& reference = known.truth->reference;
     c.horizon = known.truth->horizon;
     c.reference = reference.choice;
-    c.reference_summary = study::summary_of(*c.reference.scheme, c.scene(), c.reference.settings, reference.run);
+    c.reference_summary =
+        study::summary_of(*c.reference.scheme, c.scene(), c.reference.settings, reference.run);
     c.against = known.against();
-    c.reference_sound = store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
+    c.reference_sound =
+        store::sound_of(reference.run.trace.column(c.headline.nut), reference.run.trace.tap_rate);
     if (!c.reference.note.empty()) listener.note(c.reference.note);
-    if (const std::string untouched = untouched_text(c.scene(), c.reference_summary); !untouched.empty())
+    if (const std::string untouched = untouched_text(c.scene(), c.reference_summary);
+        !untouched.empty())
         listener.note("warning: " + untouched);
     if (!c.against.trust.any())
-        listener.note(
-            c.reference.oversampled
-                ? fmt::format("the uncertainty of {} is unknown: {}", c.reference.name(), c.against.trust.missing)
-                : fmt::format(
-                      "the uncertainty of {} is unknown: twice its modes were not run, and there is no certificate. To make one: {}",
-                      c.reference.name(), certify_command(request, c)));
+        listener.note(c.reference.oversampled
+                          ? fmt::format("the uncertainty of {} is unknown: {}", c.reference.name(),
+                                        c.against.trust.missing)
+                          : fmt::format("the uncertainty of {} is unknown: twice its modes were "
+                                        "not run, and there is no certificate. To make one: {}",
+                                        c.reference.name(), certify_command(request, c)));
     if (reference.run.status.outcome != Outcome::ok)
-        listener.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error", c.reference.scheme->name,
-                                  name_of(reference.run.status.outcome), c.reference_summary.duration));
+        listener.note(fmt::format("the reference {} {} after {:.6g} s: later windows have no error",
+                                  c.reference.scheme->name, name_of(reference.run.status.outcome),
+                                  c.reference_summary.duration));
 }
 
 // Runs all cells over the headline's window and marks those that are needed:
 // jobs of the scene cut short there, judged by the motion of the whole.
-std::vector<study::Record> search(const Comparison& c, study::References& references, int threads, const store::Listener& listener) {
-    const double from = free_from(c.scene()), length = study::headline_window(c.scene()), end = std::min(c.scene().duration, from + length);
+std::vector<study::Record> search(const Comparison& c, study::References& references, int threads,
+                                  const store::Listener& listener) {
+    const double from = free_from(c.scene()), length = study::headline_window(c.scene()),
+                 end = std::min(c.scene().duration, from + length);
     study::Measures covered;  // by the shorter run
     for (std::size_t k = 0; k < study::measures().size() && end < c.scene().duration; ++k)
         if (study::measures()[k].window <= length) covered.push_back(k);
@@ -71,13 +80,18 @@ std::vector<study::Record> search(const Comparison& c, study::References& refere
         references.hold(*tried.point);
     }
     study::Kept nowhere;
-    std::vector<study::Record> records = study::run(shown, references, nowhere, threads, listener).records;
-    const auto nut = static_cast<std::size_t>(c.headline.nut), window = std::size_t{std::isinf(length) ? 2u : length >= 50e-3 ? 1u : 0u};
+    std::vector<study::Record> records =
+        study::run(shown, references, nowhere, threads, listener).records;
+    const auto nut = static_cast<std::size_t>(c.headline.nut),
+               window = std::size_t{std::isinf(length) ? 2u
+                                    : length >= 50e-3  ? 1u
+                                                       : 0u};
     std::vector<study::Cell> tried;
     std::vector<double> errors;
     for (study::Record& r : records) {
         r.cell.in_model.clear();
-        errors.push_back(r.cell.ran() && r.cell.reason.empty() ? r.cell.errors.at(nut).at(window) : HUGE_VAL);
+        errors.push_back(r.cell.ran() && r.cell.reason.empty() ? r.cell.errors.at(nut).at(window)
+                                                               : HUGE_VAL);
         tried.push_back(std::move(r.cell));
     }
     mark_needed(tried, errors, c.against.trust.of_scene(nut, window));
@@ -85,10 +99,10 @@ std::vector<study::Record> search(const Comparison& c, study::References& refere
     return records;
 }
 
-// Of the cells that were sought those that are needed run whole, and the others stay as the search left them.
-// What was sought and cannot be made goes.
-void run(Comparison& c, study::References& references, std::vector<study::Record> tried, study::Kept& keep, int threads,
-         const store::Listener& listener) {
+// Of the cells that were sought those that are needed run whole, and the others stay as the search
+// left them. What was sought and cannot be made goes.
+void run(Comparison& c, study::References& references, std::vector<study::Record> tried,
+         study::Kept& keep, int threads, const store::Listener& listener) {
     study::Plan whole, all;
     std::vector<study::Record> records;
     std::vector<std::size_t> places;  // of those that run whole
@@ -102,19 +116,22 @@ void run(Comparison& c, study::References& references, std::vector<study::Record
         records.push_back(std::move(tried[i]));
     }
     study::Study outcome = study::run(whole, references, keep, threads, listener);
-    for (std::size_t k = 0; k < places.size(); ++k) records[places[k]] = std::move(outcome.records[k]);
+    for (std::size_t k = 0; k < places.size(); ++k)
+        records[places[k]] = std::move(outcome.records[k]);
     outcome.records = std::move(records);
     c.outcome = std::move(outcome);
     c.plan.jobs = std::move(all.jobs);
 }
 }  // namespace
 
-Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener) {
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
+                   const store::Listener& listener) {
     study::Kept nowhere;
     return compare(request, catalogue, listener, nowhere);
 }
 
-Comparison compare(const CompareRequest& request, const Catalogue& catalogue, const store::Listener& listener, study::Kept& keep) {
+Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
+                   const store::Listener& listener, study::Kept& keep) {
     Comparison c;
     study::Point common;
     common.scene = load_scene(request);

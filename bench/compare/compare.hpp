@@ -1,7 +1,8 @@
 // A comparison: schemes x modes x rates on one scene, each against one reference on the same rows.
 //
-// Each cell is run once for its errors (energy probe on), then timed (study/cost.hpp). A cell that refuses or fails stays in the list with
-// its reason. Of the cells that were sought and not named, those alone are run whole that the first 50 ms call for (needed_cells.hpp).
+// Each cell is run once for its errors (energy probe on), then timed (study/cost.hpp). A cell that
+// refuses or fails stays in the list with its reason. Of the cells that were sought and not named,
+// those alone are run whole that the first 50 ms call for (needed_cells.hpp).
 #pragma once
 
 #include <limits>
@@ -19,8 +20,10 @@ struct Comparison {
     study::Headline headline;
     study::ReferenceChoice reference;
     study::Summary reference_summary;
-    study::Against against;                                     // what the reference of the first point is known to
-    double horizon = std::numeric_limits<double>::quiet_NaN();  // of the reference against itself with half its modes [s]
+    // what the reference of the first point is known to
+    study::Against against;
+    // of the reference against itself with half its modes [s]
+    double horizon = std::numeric_limits<double>::quiet_NaN();
     store::Sound reference_sound;
     const Scene& scene() const { return plan.points.front().scene; }
 };

@@ -1,6 +1,8 @@
-// Modes: unasked, every cell carries the modes below 20 kHz and below half the lowest rate, and the reference starts from as many. What
-// more is tried is in variants.hpp. Two kinds of schemes take others: a grid takes its nodes from the rate, and one whose points of contact
-// are nodes of its modes may need more of them, which a note says. Several strings have each as many as lie below 20 kHz.
+// Modes: unasked, every cell carries the modes below 20 kHz and below half the lowest rate, and the
+// reference starts from as many. What more is tried is in variants.hpp. Two kinds of schemes take
+// others: a grid takes its nodes from the rate, and one whose points of contact are nodes of its
+// modes may need more of them, which a note says. Several strings have each as many as lie below 20
+// kHz.
 #include "bench/compare/compare_plan.hpp"
 
 #include <fmt/core.h>
@@ -19,7 +21,9 @@ namespace jvari::bench::compare {
 
 namespace {
 constexpr int oversampling =
-    4;  // of a scheme that stands in as reference: beyond every cell, and the coarsest of three rates is the highest cell's
+    // of a scheme that stands in as reference: beyond every cell, and the coarsest of three rates
+    // is the highest cell's
+    4;
 
 // The rates of each have rows in common.
 std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
@@ -29,7 +33,8 @@ std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
     std::vector<CompareRequest> all;
     while (!left.empty()) {
         const double rows = whole_multiple(left.front(), 44100) ? 44100 : left.front();
-        const auto others = std::stable_partition(left.begin(), left.end(), [rows](double rate) { return whole_multiple(rate, rows); });
+        const auto others = std::stable_partition(
+            left.begin(), left.end(), [rows](double rate) { return whole_multiple(rate, rows); });
         all.push_back(r);
         all.back().rates.assign(left.begin(), others);
         left.erase(left.begin(), others);
@@ -39,7 +44,8 @@ std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
 
 int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
     if (!r.modes.empty()) return r.modes.front();
-    if (lowest_rate >= 40e3) return scene.strings.size() == 1 ? modes_below(scene.strings.front(), 20e3) : 0;
+    if (lowest_rate >= 40e3)
+        return scene.strings.size() == 1 ? modes_below(scene.strings.front(), 20e3) : 0;
     int fewest = 0;
     for (const String& s : scene.strings) {
         const int n = modes_below(s, 0.5 * lowest_rate);
@@ -71,24 +77,30 @@ void note(study::Plan& plan, const std::string& text) {
     if (std::ranges::find(plan.notes, text) == plan.notes.end()) plan.notes.push_back(text);
 }
 
-// The modes that all carry, or 0, its own default, where the scheme has to have others: its points of contact are nodes of its modes, and
-// with those of all there are fewer of them, or none.
-int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings, study::Plan& plan) {
+// The modes that all carry, or 0, its own default, where the scheme has to have others: its points
+// of contact are nodes of its modes, and with those of all there are fewer of them, or none.
+int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings,
+             study::Plan& plan) {
     const int all = settings.modes;
-    const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !s.barriers.empty(); });
+    const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(),
+                                     [](const String& s) { return !s.barriers.empty(); });
     if (!r.modes.empty() || all == 0 || !contact) return all;
     const Made equal = made(d, scene, settings);
     if (equal.modes == 0 && !equal.refused) return all;
     settings.modes = 0;
     const Made own = made(d, scene, settings);
-    if (own.refused || own.modes == 0 || own.modes == all || (!equal.refused && equal.contacts >= own.contacts)) return all;
-    note(plan, fmt::format("{} carries {} modes on scene {}, reference and other schemes {}: its points of contact are nodes of its modes, "
+    if (own.refused || own.modes == 0 || own.modes == all ||
+        (!equal.refused && equal.contacts >= own.contacts))
+        return all;
+    note(plan, fmt::format("{} carries {} modes on scene {}, reference and other schemes {}: its "
+                           "points of contact are nodes of its modes, "
                            "and it needs as many; --modes sets one number for all",
                            d.name, own.modes, scene.name, all));
     return 0;
 }
 
-std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalogue& catalogue,
+                                           const Scene& scene) {
     std::vector<const Descriptor*> chosen;
     for (const std::string& name : r.schemes) {
         const Descriptor* d = &catalogue.find(name);
@@ -96,13 +108,19 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     }
     if (!r.schemes.empty()) return chosen;
     for (const Descriptor* d : catalogue.schemes)
-        if (represents(*d, scene) && (r.controls || !left_out_unasked(*d, scene))) chosen.push_back(d);
-    if (chosen.empty()) throw Refusal("no scheme represents scene " + scene.name + ": it needs " + names_of(needed_by(scene)));
+        if (represents(*d, scene) && (r.controls || !left_out_unasked(*d, scene)))
+            chosen.push_back(d);
+    if (chosen.empty())
+        throw Refusal("no scheme represents scene " + scene.name + ": it needs " +
+                      names_of(needed_by(scene)));
     return chosen;
 }
 
-std::vector<study::ReferenceChoice> references_for(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene,
-                                                   const Settings& at_highest, const Descriptor& first_scheme, std::vector<bool>& used) {
+std::vector<study::ReferenceChoice> references_for(const CompareRequest& r,
+                                                   const Catalogue& catalogue, const Scene& scene,
+                                                   const Settings& at_highest,
+                                                   const Descriptor& first_scheme,
+                                                   std::vector<bool>& used) {
     std::vector<study::ReferenceChoice> choices;
     const auto add = [&](const Descriptor& d, const std::string& note) {
         Settings s = at_highest;
@@ -111,9 +129,11 @@ std::vector<study::ReferenceChoice> references_for(const CompareRequest& r, cons
         if (stepped) s.sample_rate *= oversampling;
         for (std::size_t k = 0; k < r.options.size(); ++k)
             if (const SchemeOption& o = r.options[k]; o.scheme == d.name) {
-                if (std::any_of(s.options.begin(), s.options.end(), [&o](const auto& set) { return set.first == o.name; }))
-                    throw store::UsageError(
-                        fmt::format("--option {}:{}: found more than once, and the reference takes one value", d.name, o.name));
+                if (std::any_of(s.options.begin(), s.options.end(),
+                                [&o](const auto& set) { return set.first == o.name; }))
+                    throw store::UsageError(fmt::format(
+                        "--option {}:{}: found more than once, and the reference takes one value",
+                        d.name, o.name));
                 s.options.emplace_back(o.name, o.value);
                 used[k] = true;
             }
@@ -127,11 +147,12 @@ std::vector<study::ReferenceChoice> references_for(const CompareRequest& r, cons
         if (represents(*d, scene)) add(*d, "");
     auto able = stand_ins(scene);  // of those in the program; else one that a plugin brought
     if (able.empty()) able.push_back(&first_scheme);
-    const std::string why =
-        choices.empty() ? "no reference represents scene " + scene.name : "no reference gets scene " + scene.name + " going";
+    const std::string why = choices.empty() ? "no reference represents scene " + scene.name
+                                            : "no reference gets scene " + scene.name + " going";
     for (const Descriptor* scheme : able)
         add(*scheme,
-            fmt::format("{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its error is estimated from three rates, "
+            fmt::format("{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its "
+                        "error is estimated from three rates, "
                         "not bounded{}",
                         why, scheme->name, oversampling * at_highest.sample_rate, oversampling,
                         able.size() > 1 ? ", and was the least of those that could" : ""));
@@ -147,21 +168,25 @@ std::vector<double> rates_of(const CompareRequest& r) {
     return rates;
 }
 
-// At the highest rate, with the modes that all carry. Throws where the scene has nothing to be compared, or too much.
-Settings settings_of(const CompareRequest& r, const Scene& scene, const std::vector<double>& rates) {
+// At the highest rate, with the modes that all carry. Throws where the scene has nothing to be
+// compared, or too much.
+Settings settings_of(const CompareRequest& r, const Scene& scene,
+                     const std::vector<double>& rates) {
     tap_named(scene, "");
     Settings settings;
     settings.tap_rate = tap_rate_for(r, rates);
     settings.modes = modes_for(r, scene, rates.front());
     settings.sample_rate = rates.back();
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, settings.tap_rate));
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
+                                            scene.duration, settings.tap_rate));
     rows_of(scene, settings);  // throws where that is none
     return settings;
 }
 
 // The cells of one form of a scheme: its numbers of modes, each at the rates that take it.
-void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const Descriptor& d, Settings settings, const Form& form) {
+void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const Descriptor& d,
+               Settings settings, const Form& form) {
     const Scene& scene = job.point->scene;
     Settings at_lowest = settings;
     at_lowest.sample_rate = form.rates.front();
@@ -178,8 +203,8 @@ void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const
 }
 
 // Of rates that have rows in common; false where all its schemes stand on the point before.
-bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue, const study::Point& common, study::Job job,
-               bool first) {
+bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue,
+               const study::Point& common, study::Job job, bool first) {
     const std::vector<double> rates = rates_of(r);
     Settings settings = settings_of(r, common.scene, rates);
     std::vector<bool> used(r.options.size(), false);
@@ -192,7 +217,9 @@ bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& cata
     const std::size_t before = into.jobs.size();
     for (const Descriptor* d : schemes) {
         const bool stepped = d->clock != Clock::continuous;
-        for (const Form& form : forms_of(r, *d, common.scene, settings, stepped ? rates : std::vector<double>{0.0}, used, untried)) {
+        for (const Form& form :
+             forms_of(r, *d, common.scene, settings, stepped ? rates : std::vector<double>{0.0},
+                      used, untried)) {
             settings.options = form.options;
             if (stepped || first) add_cells(into, job, r, *d, settings, form);
         }
@@ -208,28 +235,35 @@ bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& cata
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;
     const auto divides_all = [&rates](double f) {
-        return std::all_of(rates.begin(), rates.end(), [f](double rate) { return whole_multiple(rate, f); });
+        return std::all_of(rates.begin(), rates.end(),
+                           [f](double rate) { return whole_multiple(rate, f); });
     };
     const double lowest = *std::min_element(rates.begin(), rates.end());
     if (divides_all(44100)) return 44100;
     if (divides_all(lowest)) return lowest;
-    throw store::UsageError(fmt::format("--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
+    throw store::UsageError(fmt::format(
+        "--rates: neither 44100 nor {} divides all of them; say --tap-rate HZ", lowest));
 }
 
-void add_jobs(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue, const study::Point& common, const study::Job& like) {
+void add_jobs(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue,
+              const study::Point& common, const study::Job& like) {
     std::string kinds;  // of rows
     for (const CompareRequest& part : with_common_rows(r))
         if (add_point(into, part, catalogue, common, like, kinds.empty()))
-            kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ", into.points.back().references.front().settings.tap_rate);
+            kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ",
+                                 into.points.back().references.front().settings.tap_rate);
     if (kinds.find(' ') != std::string::npos)
-        note(into, fmt::format("rates of {} rows a second: each kind has rows and a run of the reference of its own, for they have no rows "
+        note(into, fmt::format("rates of {} rows a second: each kind has rows and a run of the "
+                               "reference of its own, for they have no rows "
                                "in common. Nothing is resampled",
                                kinds));
 }
 
-std::vector<study::ReferenceChoice> references_of(const CompareRequest& r, const Catalogue& catalogue, const Scene& scene) {
+std::vector<study::ReferenceChoice> references_of(const CompareRequest& r,
+                                                  const Catalogue& catalogue, const Scene& scene) {
     std::vector<bool> used(r.options.size(), false);
-    return references_for(r, catalogue, scene, settings_of(r, scene, rates_of(r)), *schemes_for(r, catalogue, scene).front(), used);
+    return references_for(r, catalogue, scene, settings_of(r, scene, rates_of(r)),
+                          *schemes_for(r, catalogue, scene).front(), used);
 }
 
 }  // namespace jvari::bench::compare

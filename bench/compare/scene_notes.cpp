@@ -12,27 +12,30 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double least_length = 0.03, most_length = 4;  // of an instrument's string, from a piano's highest to its lowest [m]
-constexpr double least_pitch = 10, most_pitch = 1e4;    // [Hz]
-constexpr double most_start = 0.1;                      // of the length: beyond, the equations of small motion do not hold
+// of an instrument's string, from a piano's highest to its lowest [m]
+constexpr double least_length = 0.03, most_length = 4;
+constexpr double least_pitch = 10, most_pitch = 1e4;  // [Hz]
+// of the length: beyond, the equations of small motion do not hold
+constexpr double most_start = 0.1;
 
-bool plucked(const String& s) {
-    return s.pluck && s.pluck->amplitude != 0;
-}
+bool plucked(const String& s) { return s.pluck && s.pluck->amplitude != 0; }
 bool pressed(const String& s) {  // at rest something above or below it pushes or pulls
     const auto above = [](const LumpedBarrier& b) { return b.height > 0; };
     const auto somewhere = [](const ProfileBarrier& b) {
         const auto* table = std::get_if<TableCurve>(&b.curve);
         const auto is_above = [&](double x) { return height(b.curve, x) > 0; };
-        return is_above(b.from) || is_above(b.to) || (table && std::ranges::any_of(table->height, [](double h) { return h > 0; }));
+        return is_above(b.from) || is_above(b.to) ||
+               (table && std::ranges::any_of(table->height, [](double h) { return h > 0; }));
     };
-    return (s.thread && s.thread->height != 0) || std::ranges::any_of(s.barriers, [&](const Barrier& b) {
+    return (s.thread && s.thread->height != 0) ||
+           std::ranges::any_of(s.barriers, [&](const Barrier& b) {
                const auto* lumped = std::get_if<LumpedBarrier>(&b);
                return lumped ? above(*lumped) : somewhere(std::get<ProfileBarrier>(b));
            });
 }
 bool set_in_motion(const String& s, double before) {
-    const bool shaped = s.initial && std::visit([](const auto& shape) { return shape.amplitude != 0; }, *s.initial);
+    const bool shaped =
+        s.initial && std::visit([](const auto& shape) { return shape.amplitude != 0; }, *s.initial);
     return shaped || pressed(s) || (plucked(s) && s.pluck->start < before);
 }
 }  // namespace
@@ -40,15 +43,17 @@ bool set_in_motion(const String& s, double before) {
 std::string tuning_text(const String& s) {
     const double f1 = pitch_of(s);
     const std::string note = note_of(f1);
-    return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, inharmonicity {:.2g}", f1, note.empty() ? "" : " (" + note + ")", s.tension,
-                       inharmonicity(s));
+    return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, inharmonicity {:.2g}", f1,
+                       note.empty() ? "" : " (" + note + ")", s.tension, inharmonicity(s));
 }
 
 std::string untouched_text(const Scene& scene, const Figures& run) {
-    const bool any = std::ranges::any_of(scene.strings, [](const String& s) { return !s.barriers.empty(); });
+    const bool any =
+        std::ranges::any_of(scene.strings, [](const String& s) { return !s.barriers.empty(); });
     if (!any || run.largest_contact_force != 0 || run.deepest_penetration > 0) return "";
     return fmt::format(
-        "no string of {} touches a barrier in {:g} s, so no contact is in this run. Are height [m], position and the side of "
+        "no string of {} touches a barrier in {:g} s, so no contact is in this run. Are height "
+        "[m], position and the side of "
         "the start as meant?",
         scene.name, scene.duration);
 }
@@ -56,26 +61,38 @@ std::string untouched_text(const Scene& scene, const Figures& run) {
 void note_scene(const Scene& scene, const store::Listener& listener) {
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const String& s = scene.strings[i];
-        const auto doubt = [&](bool doubtful, const char* key, double value, const char* unit, const char* usual) {
+        const auto doubt = [&](bool doubtful, const char* key, double value, const char* unit,
+                               const char* usual) {
             if (doubtful)
-                listener.note(fmt::format("warning: string {}: {} = {:g} {}; expected {}. Is the unit right?", i, key, value, unit, usual));
+                listener.note(
+                    fmt::format("warning: string {}: {} = {:g} {}; expected {}. Is the unit right?",
+                                i, key, value, unit, usual));
         };
-        doubt(s.length < least_length || s.length > most_length, "length", s.length, "m", "0.03 to 4 m");
-        doubt(pitch_of(s) < least_pitch || pitch_of(s) > most_pitch, "the pitch that length, tension and linear_density give", pitch_of(s),
-              "Hz", "10 to 10000 Hz");
-        const double start = s.initial ? std::visit([](const auto& shape) { return std::abs(shape.amplitude); }, *s.initial) : 0;
-        doubt(start > most_start * s.length, "initial.amplitude", start, "m", "less than a tenth of the length");
-        doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude", plucked(s) ? s.pluck->amplitude : 0, "N",
-              "less than the tension");
+        doubt(s.length < least_length || s.length > most_length, "length", s.length, "m",
+              "0.03 to 4 m");
+        doubt(pitch_of(s) < least_pitch || pitch_of(s) > most_pitch,
+              "the pitch that length, tension and linear_density give", pitch_of(s), "Hz",
+              "10 to 10000 Hz");
+        const double start =
+            s.initial ? std::visit([](const auto& shape) { return std::abs(shape.amplitude); },
+                                   *s.initial)
+                      : 0;
+        doubt(start > most_start * s.length, "initial.amplitude", start, "m",
+              "less than a tenth of the length");
+        doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude",
+              plucked(s) ? s.pluck->amplitude : 0, "N", "less than the tension");
     }
     const auto moves = [&](const String& s) { return set_in_motion(s, scene.duration); };
-    if (scene.body && !scene.body->modes.empty() && std::ranges::any_of(scene.strings, moves)) return;  // one shakes the others
+    // one shakes the others
+    if (scene.body && !scene.body->modes.empty() && std::ranges::any_of(scene.strings, moves))
+        return;
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const String& s = scene.strings[i];
         if (moves(s)) continue;
-        const std::string why = plucked(s)
-                                    ? fmt::format("its pluck begins at {:g} s, and the run ends at {:g} s", s.pluck->start, scene.duration)
-                                    : "nothing sets it in motion; give it [string.initial] or [string.pluck]";
+        const std::string why =
+            plucked(s) ? fmt::format("its pluck begins at {:g} s, and the run ends at {:g} s",
+                                     s.pluck->start, scene.duration)
+                       : "nothing sets it in motion; give it [string.initial] or [string.pluck]";
         listener.note(fmt::format("warning: string {} of {} stays silent: {}", i, scene.name, why));
     }
 }

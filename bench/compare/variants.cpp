@@ -18,7 +18,8 @@ namespace jvari::bench::compare {
 namespace {
 constexpr double multiples[] = {1.35, 2, 3, 4};  // of the modes that a scheme takes unasked
 
-std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene, const Settings& settings) {
+std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene,
+                                      const Settings& settings) {
     try {
         make_scheme(d, scene, settings);
         return std::nullopt;
@@ -28,7 +29,8 @@ std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene, c
 }
 
 // Own and matched; of matched the rates at which it can be made.
-std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene, Settings settings, Untried& untried) {
+std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene, Settings settings,
+                       Untried& untried) {
     Form own = form, matched{form.options, {}};
     own.options.emplace_back(compliance_option.name, "own");
     matched.options.emplace_back(compliance_option.name, "matched");
@@ -48,23 +50,30 @@ std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene
 }  // namespace
 
 bool touched(const Scene& scene) {
-    return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return s.thread || !s.barriers.empty(); });
+    return std::any_of(scene.strings.begin(), scene.strings.end(),
+                       [](const String& s) { return s.thread || !s.barriers.empty(); });
 }
 
 bool sets(const OptionValues& values, const Option& option) {
     return std::ranges::any_of(values, [&option](const auto& v) { return v.first == option.name; });
 }
 
-std::vector<OptionValues> asked_of(const std::vector<SchemeOption>& options, const Descriptor& d, std::vector<bool>& used) {
+std::vector<OptionValues> asked_of(const std::vector<SchemeOption>& options, const Descriptor& d,
+                                   std::vector<bool>& used) {
     std::vector<OptionValues> all{{}};
-    const auto takes = [&d](const SchemeOption& o) { return o.scheme.empty() ? declares(d, o.name) : o.scheme == d.name; };
+    const auto takes = [&d](const SchemeOption& o) {
+        return o.scheme.empty() ? declares(d, o.name) : o.scheme == d.name;
+    };
     for (std::size_t k = 0; k < options.size(); ++k) {
         if (!takes(options[k])) continue;
-        const auto same = [&](const SchemeOption& o) { return takes(o) && o.name == options[k].name; };
+        const auto same = [&](const SchemeOption& o) {
+            return takes(o) && o.name == options[k].name;
+        };
         const auto first = std::ranges::find_if(options, same);
         if (first->scheme != options[k].scheme)
-            throw store::UsageError(
-                fmt::format("--option {}: found more than once for {}, expected one value or one list", first->name, d.name));
+            throw store::UsageError(fmt::format(
+                "--option {}: found more than once for {}, expected one value or one list",
+                first->name, d.name));
         used[k] = true;
         if (&*first != &options[k]) continue;  // with the first of its values
         std::vector<OptionValues> more;
@@ -79,36 +88,45 @@ std::vector<OptionValues> asked_of(const std::vector<SchemeOption>& options, con
 void must_be_used(const std::vector<SchemeOption>& options, const std::vector<bool>& used) {
     for (std::size_t k = 0; k < used.size(); ++k)
         if (!used[k])
-            throw store::UsageError(fmt::format("--option {}{}{}: {}", options[k].scheme, options[k].scheme.empty() ? "" : ":",
-                                                options[k].name,
-                                                options[k].scheme.empty() ? "no compared scheme has it" : "that scheme is not compared"));
+            throw store::UsageError(
+                fmt::format("--option {}{}{}: {}", options[k].scheme,
+                            options[k].scheme.empty() ? "" : ":", options[k].name,
+                            options[k].scheme.empty() ? "no compared scheme has it"
+                                                      : "that scheme is not compared"));
 }
 
-void Untried::add(const Descriptor& d, const std::vector<double>& rates, bool at_all, const std::string& reason) {
+void Untried::add(const Descriptor& d, const std::vector<double>& rates, bool at_all,
+                  const std::string& reason) {
     std::string who = d.name, why = reason;
     if (!at_all) {
         std::vector<std::string> at;
         for (const double rate : rates) at.push_back(fmt::format("{:.4g}", rate / 1000));
         who += fmt::format(" at {} kHz", fmt::join(at, ", "));
     }
-    if (const std::string name = d.name + std::string(": "); why.starts_with(name)) why.erase(0, name.size());
+    if (const std::string name = d.name + std::string(": "); why.starts_with(name))
+        why.erase(0, name.size());
     std::string& all = who_[why];
     all += (all.empty() ? "" : ", ") + who;
 }
 
 std::vector<std::string> Untried::notes() const {
     std::vector<std::string> all;
-    for (const auto& [why, who] : who_) all.push_back(fmt::format("compliance=matched was not tried with {}: {}", who, why));
+    for (const auto& [why, who] : who_)
+        all.push_back(fmt::format("compliance=matched was not tried with {}: {}", who, why));
     return all;
 }
 
-std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const Scene& scene, const Settings& settings,
-                           const std::vector<double>& rates, std::vector<bool>& used, Untried& untried) {
+std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const Scene& scene,
+                           const Settings& settings, const std::vector<double>& rates,
+                           std::vector<bool>& used, Untried& untried) {
     std::vector<Form> forms;
-    for (const OptionValues& values : asked_of(r.options, d, used)) forms.push_back({values, rates});
+    for (const OptionValues& values : asked_of(r.options, d, used))
+        forms.push_back({values, rates});
     const bool compliance = sets(forms.front().options, compliance_option);
-    const bool measured = std::ranges::any_of(scene.strings, [](const String& s) { return modes_measured(s).has_value(); });
-    const bool has_both = d.clock != Clock::continuous && declares(d, compliance_option.name) && touched(scene) && !measured;
+    const bool measured = std::ranges::any_of(
+        scene.strings, [](const String& s) { return modes_measured(s).has_value(); });
+    const bool has_both = d.clock != Clock::continuous && declares(d, compliance_option.name) &&
+                          touched(scene) && !measured;
     if (!r.search || !r.reference_modes || compliance || !has_both) return forms;
     std::vector<Form> all;
     for (const Form& form : forms)
@@ -122,13 +140,14 @@ int most_modes_sought(const Scene& scene, int unasked, double rate) {
     return std::max(most, unasked);
 }
 
-std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const Scene& scene, const Settings& settings,
-                           const std::vector<double>& rates) {
+std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const Scene& scene,
+                           const Settings& settings, const std::vector<double>& rates) {
     std::vector<Rung> rungs;
     for (const int modes : r.modes) rungs.push_back({modes, rates, false});
     if (!rungs.empty()) return rungs;
     rungs.push_back({settings.modes, rates, false});
-    const bool its_own = settings.modes == 0 && scene.strings.size() == 1;  // as one whose nodes are its points of contact
+    // as one whose nodes are its points of contact
+    const bool its_own = settings.modes == 0 && scene.strings.size() == 1;
     if (!r.search || !r.reference_modes || d.clock == Clock::continuous || its_own) return rungs;
     const int unasked = settings.modes > 0 ? settings.modes : modes_for(scene, settings);
     for (const double multiple : multiples) {
@@ -140,7 +159,9 @@ std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const S
     if (rungs.size() == 1) return rungs;
     Settings at_lowest = settings;
     at_lowest.sample_rate = rungs[1].rates.front();
-    if (dofs_with(settings.modes, d, scene, at_lowest) == dofs_with(rungs[1].modes, d, scene, at_lowest)) rungs.resize(1);
+    if (dofs_with(settings.modes, d, scene, at_lowest) ==
+        dofs_with(rungs[1].modes, d, scene, at_lowest))
+        rungs.resize(1);
     return rungs;
 }
 

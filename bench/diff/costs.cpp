@@ -32,25 +32,31 @@ double median_of(const std::vector<Ratio>& ratios, Of of) {
 
 // Cells of one rate are timed in turn, so they drift together; too few of them drift with all.
 void take_off_drift(std::vector<Ratio>& ratios) {
-    const auto middle = [](const std::vector<Ratio>& of) { return median_of(of, [](const Ratio& r) { return r.value; }); };
+    const auto middle = [](const std::vector<Ratio>& of) {
+        return median_of(of, [](const Ratio& r) { return r.value; });
+    };
     std::map<std::string, std::vector<Ratio>> by_rate;
     for (const Ratio& r : ratios) by_rate[r.rate].push_back(r);
     std::map<std::string, double> drift;
-    for (const auto& [rate, beside] : by_rate) drift[rate] = middle(beside.size() < fewest_series ? ratios : beside);
+    for (const auto& [rate, beside] : by_rate)
+        drift[rate] = middle(beside.size() < fewest_series ? ratios : beside);
     for (Ratio& r : ratios) r.drift = drift[r.rate];
 }
 
 struct Noise {
     double disturbed = 0;  // of a cell, relative to its drift, in logarithms: a standard deviation
 
-    // Times: the median of so many cells that lies further out is disturbed by more than the machine.
+    // Times: the median of so many cells that lies further out is disturbed by more than the
+    // machine.
     double beyond(std::size_t cells) const {
-        const double of_median = std::min(1.0, std::sqrt(std::numbers::pi / 2 / static_cast<double>(cells)));
+        const double of_median =
+            std::min(1.0, std::sqrt(std::numbers::pi / 2 / static_cast<double>(cells)));
         return std::max(least_change, std::exp(disturbances * of_median * disturbed));
     }
 };
 Noise noise_of(const std::vector<Ratio>& ratios) {
-    return {1.4826 * median_of(ratios, [](const Ratio& r) { return std::abs(std::log(r.change())); })};
+    return {1.4826 *
+            median_of(ratios, [](const Ratio& r) { return std::abs(std::log(r.change())); })};
 }
 
 struct Clock {  // the columns of one, and which of them is steadiest
@@ -58,93 +64,116 @@ struct Clock {  // the columns of one, and which of them is steadiest
 };
 constexpr Clock wall{"cost_s_per_s", "cost_lower", "cost_upper", "cost_s_per_s"};
 // Other programs disturb it far less, and only to the slower side: its lower quartile least of all.
-constexpr Clock processor{"processor_s_per_s", "processor_lower", "processor_upper", "processor_lower"};
+constexpr Clock processor{"processor_s_per_s", "processor_lower", "processor_upper",
+                          "processor_lower"};
 
 Clock clock_of(const store::Table& a, const store::Table& b) {
     return a.column(processor.median) >= 0 && b.column(processor.median) >= 0 ? processor : wall;
 }
 
 // Of a series: worse, better or same.
-Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& series, const Noise& noise, const Clock& clock) {
+Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& series,
+                   const Noise& noise, const Clock& clock) {
     const double change = median_of(series, [](const Ratio& r) { return r.change(); });
     const double beyond = noise.beyond(series.size());
     if (change < beyond && change > 1 / beyond) return Turn::same;
     const auto apart = std::count_if(series.begin(), series.end(), [&](const Ratio& r) {
-        return change > 1 ? b.cells.number(r.after, clock.lower) / r.drift > a.cells.number(r.before, clock.upper)
-                          : b.cells.number(r.after, clock.upper) / r.drift < a.cells.number(r.before, clock.lower);
+        return change > 1 ? b.cells.number(r.after, clock.lower) / r.drift >
+                                a.cells.number(r.before, clock.upper)
+                          : b.cells.number(r.after, clock.upper) / r.drift <
+                                a.cells.number(r.before, clock.lower);
     });
     if (2 * static_cast<std::size_t>(apart) <= series.size()) return Turn::same;
     return change > 1 ? Turn::worse : Turn::better;
 }
 
-std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<Pair>& pairs, const Clock& clock) {
+std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<Pair>& pairs,
+                             const Clock& clock) {
     std::vector<std::string> names = store::naming_columns(a.cells);
     std::vector<Ratio> ratios;
     for (const Pair& p : pairs) {
-        const double was = a.cells.number(p.before, clock.compared), is = b.cells.number(p.after, clock.compared);
+        const double was = a.cells.number(p.before, clock.compared),
+                     is = b.cells.number(p.after, clock.compared);
         if (!(was > 0) || !(is > 0)) continue;
         std::string series;
         for (const std::string& name : names) series += a.cells.at(p.before, name) + "\t";
-        ratios.push_back({series, a.cells.at(p.before, "rate"), p.name, p.before, p.after, is / was});
+        ratios.push_back(
+            {series, a.cells.at(p.before, "rate"), p.name, p.before, p.after, is / was});
     }
     return ratios;
 }
 }  // namespace
 
-void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs, Difference& d) {
+void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs,
+                   Difference& d) {
     const auto costs = [](const Folder& f) {
-        return std::ranges::any_of(store::all_rows(f.cells), [&f](std::size_t i) { return f.cells.number(i, wall.median) > 0; });
+        return std::ranges::any_of(store::all_rows(f.cells), [&f](std::size_t i) {
+            return f.cells.number(i, wall.median) > 0;
+        });
     };
     if (!costs(b)) {
-        if (costs(a)) d.notes.push_back("no cell of the second folder has a cost: none was measured, or they are gone");
+        if (costs(a))
+            d.notes.push_back(
+                "no cell of the second folder has a cost: none was measured, or they are gone");
         return;
     }
     for (const Pair& p : pairs) {  // a cell that ran has a cost, whatever the machine
         if (b.cells.at(p.after, "status") != "ok") continue;
         for (const char* column : {wall.median, processor.median})
             if (a.cells.number(p.before, column) > 0 && !(b.cells.number(p.after, column) > 0))
-                d.findings.push_back(
-                    {Turn::worse, p.name, column, a.cells.at(p.before, column), b.cells.at(p.after, column), "its cost is gone"});
+                d.findings.push_back({Turn::worse, p.name, column, a.cells.at(p.before, column),
+                                      b.cells.at(p.after, column), "its cost is gone"});
     }
     const Clock clock = clock_of(a.cells, b.cells);
     std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;
     if (!a.made.same_machine(b.made)) {
-        d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}", a.made.machine(), b.made.machine()));
+        d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}",
+                                      a.made.machine(), b.made.machine()));
         return;
     }
     if (a.made.system != b.made.system)
-        d.notes.push_back(fmt::format("costs are of one machine under two systems: {} and {}", a.made.system, b.made.system));
+        d.notes.push_back(fmt::format("costs are of one machine under two systems: {} and {}",
+                                      a.made.system, b.made.system));
     std::set<std::string> names;
     for (const Ratio& r : ratios) names.insert(r.series);
     const bool few = names.size() < fewest_series;
     if (!few) take_off_drift(ratios);
     std::vector<std::pair<std::string, std::vector<Ratio>>> series;
     for (const Ratio& r : ratios) {
-        auto it = std::find_if(series.begin(), series.end(), [&r](const auto& s) { return s.first == r.series; });
+        auto it = std::find_if(series.begin(), series.end(),
+                               [&r](const auto& s) { return s.first == r.series; });
         if (it == series.end()) it = series.insert(series.end(), {r.series, {}});
         it->second.push_back(r);
     }
     const Noise noise = few ? Noise{} : noise_of(ratios);
-    const auto drift_of = [](const std::vector<Ratio>& of) { return median_of(of, [](const Ratio& r) { return r.drift; }); };
+    const auto drift_of = [](const std::vector<Ratio>& of) {
+        return median_of(of, [](const Ratio& r) { return r.drift; });
+    };
     if (const double drift = drift_of(ratios); drift > told || drift < 1 / told)
         d.notes.push_back(
-            fmt::format("the middle cell took {:.2f} times as long: the machine's doing or the program's, which a clock cannot "
+            fmt::format("the middle cell took {:.2f} times as long: the machine's doing or the "
+                        "program's, which a clock cannot "
                         "tell; each is judged relative to that",
                         drift));
     double beyond = least_change;
     for (const auto& [name, cells] : series) beyond = std::max(beyond, noise.beyond(cells.size()));
     if (beyond > least_change)
-        d.notes.push_back(fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are not told apart", beyond));
+        d.notes.push_back(
+            fmt::format("the clock was disturbed: costs that changed by less than {:.2f} times are "
+                        "not told apart",
+                        beyond));
     for (const auto& [name, cells] : series) {
         d.compared += static_cast<int>(cells.size());
         const Turn turn = turn_of_costs(a, b, cells, noise, clock);
         if (turn == Turn::same) continue;
         const double change = median_of(cells, [](const Ratio& r) { return r.change(); });
-        const std::string detail = few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", change)
-                                       : fmt::format("{:.2f} times beyond a drift of {:.2f}", change, drift_of(cells));
+        const std::string detail =
+            few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", change)
+                : fmt::format("{:.2f} times beyond a drift of {:.2f}", change, drift_of(cells));
         for (const Ratio& r : cells)
-            d.findings.push_back({few ? Turn::moved : turn, r.name, clock.median, a.cells.at(r.before, clock.median),
+            d.findings.push_back({few ? Turn::moved : turn, r.name, clock.median,
+                                  a.cells.at(r.before, clock.median),
                                   b.cells.at(r.after, clock.median), detail});
     }
 }

@@ -1,4 +1,5 @@
-// Two folders of results: what changed from one to the other, number by number (rules.hpp) and by the clock (costs.hpp).
+// Two folders of results: what changed from one to the other, number by number (rules.hpp) and by
+// the clock (costs.hpp).
 #pragma once
 
 #include <string>
@@ -15,7 +16,8 @@ struct Finding {
     std::string row;     // what names it: "tanpura_c3_release modal_two_point 44100 Hz"
     std::string column;  // "error_l2_50ms", "cost_s_per_s", "outcome"
     std::string before, after;
-    std::string detail;  // what the numbers do not say; of a cost: how many times, and of how many cells
+    // what the numbers do not say; of a cost: how many times, and of how many cells
+    std::string detail;
 };
 
 struct Only {  // what one of the folders has alone
@@ -23,10 +25,15 @@ struct Only {  // what one of the folders has alone
 };
 
 struct Difference {
-    std::vector<Finding> findings;  // of what both have; those of a row stand together, headline columns first
+    // of what both have; those of a row stand together, headline columns first
+    std::vector<Finding> findings;
     Only cells, columns, points, boundaries, modes;
     std::vector<std::pair<const char*, const Only*>> alone() const {  // each kind by its name
-        return {{"cells", &cells}, {"columns", &columns}, {"modes", &modes}, {"points", &points}, {"boundaries", &boundaries}};
+        return {{"cells", &cells},
+                {"columns", &columns},
+                {"modes", &modes},
+                {"points", &points},
+                {"boundaries", &boundaries}};
     }
     std::string references;          // that they are others, and how; "": they are the same
     std::vector<std::string> notes;  // what could not be compared, and why
@@ -43,7 +50,9 @@ struct Difference {
 // Throws UsageError where no row is in both.
 Difference difference(const Folder& before, const Folder& after);
 
-std::string text_of(const Difference&, const Folder& before, const Folder& after, std::size_t most_lines = 20);  // of each kind
+// of each kind
+std::string text_of(const Difference&, const Folder& before, const Folder& after,
+                    std::size_t most_lines = 20);
 std::string json_of(const Difference&, const Folder& before, const Folder& after);
 
 }  // namespace jvari::bench::diff

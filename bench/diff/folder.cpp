@@ -18,7 +18,9 @@ Made made_by(const store::Folder& folder) {
     const Json m = folder.manifest();
     const auto text = [&](const char* key) {
         const auto found = m.find(key);
-        return found == m.end() ? "unknown" : found->is_string() ? found->get<std::string>() : found->dump();
+        return found == m.end()     ? "unknown"
+               : found->is_string() ? found->get<std::string>()
+                                    : found->dump();
     };
     return {text("commit"), text("date"),  text("compiler"), text("flags"), text("build"),
             text("cpu"),    text("cores"), text("vectors"),  text("system")};
@@ -41,7 +43,8 @@ std::string counted(std::map<std::string, int>& seen, const std::string& text) {
     return n == 1 ? text : fmt::format("{} #{}", text, n);
 }
 
-std::string cell_text(const store::Table& t, std::size_t row, const std::vector<std::string>& names) {
+std::string cell_text(const store::Table& t, std::size_t row,
+                      const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) {
         const std::string& value = t.at(row, name);
@@ -58,7 +61,8 @@ std::string Made::machine() const {
 
 Folder read_folder(const fs::path& path) {
     std::error_code error;
-    if (!fs::is_directory(path, error)) throw store::UsageError(fmt::format("{}: no such folder", path.string()));
+    if (!fs::is_directory(path, error))
+        throw store::UsageError(fmt::format("{}: no such folder", path.string()));
     const store::Folder folder{path};
     Folder f{path.string(),
              made_by(folder),
@@ -69,7 +73,8 @@ Folder read_folder(const fs::path& path) {
              ""};
     f.altered = altered_column(f.cells, folder.table("errors"));
     if (f.cells.columns.empty() && f.maps.columns.empty())
-        throw store::UsageError(fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", f.name));
+        throw store::UsageError(
+            fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", f.name));
     return f;
 }
 
@@ -87,7 +92,9 @@ Named named_cells(const store::Table& cells, bool with_modes, bool with_scene) {
     auto names = store::naming_columns(cells);
     if (!with_scene) std::erase(names, "scene");
     for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        const std::string modes = with_modes && !cells.at(i, "modes").empty() ? ", " + cells.at(i, "modes") + " modes" : "";
+        const std::string modes = with_modes && !cells.at(i, "modes").empty()
+                                      ? ", " + cells.at(i, "modes") + " modes"
+                                      : "";
         named[counted(seen, cell_text(cells, i, names) + modes)] = i;
     }
     return named;

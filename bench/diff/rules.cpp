@@ -18,38 +18,49 @@ constexpr double row = 1.0 / 44100;                               // [s]
 
 template <std::size_t n>
 bool begins(const std::string& column, const char* const (&names)[n]) {
-    return std::any_of(names, names + n, [&](const char* name) { return column.starts_with(name); });
+    return std::any_of(names, names + n,
+                       [&](const char* name) { return column.starts_with(name); });
 }
 
 // Facts that follow from closed forms, or count what the settings fix.
 bool is_closed_form(const std::string& column) {
-    return begins(column, {"fact_static_compliance", "fact_start_phase_offset", "fact_start_phase_error", "fact_period_error_cents",
-                           "fact_loss_fit_", "fact_grid_intervals", "fact_interior_nodes", "fact_modes_above_nyquist",
-                           "fact_contact_points", "fact_bridge_nodes", "fact_theta", "fact_stable_stiffness_limit"});
+    return begins(column,
+                  {"fact_static_compliance", "fact_start_phase_offset", "fact_start_phase_error",
+                   "fact_period_error_cents", "fact_loss_fit_", "fact_grid_intervals",
+                   "fact_interior_nodes", "fact_modes_above_nyquist", "fact_contact_points",
+                   "fact_bridge_nodes", "fact_theta", "fact_stable_stiffness_limit"});
 }
 
 // The row's own sensitivity: the largest noise floor of its relative L2 errors.
 double sensitivity(const store::Table& t, std::size_t i) {
     double largest = 0;
     for (const std::string& column : t.columns)
-        if (column.starts_with("floor_error_l2_whole")) largest = std::fmax(largest, t.number(i, column));
+        if (column.starts_with("floor_error_l2_whole"))
+            largest = std::fmax(largest, t.number(i, column));
     return largest;
 }
 
-// error_in_model_l2_50ms, third_octave_db_in_model_nut: the error of that name against the scene, which has a noise floor.
+// error_in_model_l2_50ms, third_octave_db_in_model_nut: the error of that name against the scene,
+// which has a noise floor.
 std::string against_the_scene(std::string column) {
     const std::string part = "_in_model";
     if (const auto at = column.find(part); at != std::string::npos) column.erase(at, part.size());
     return column;
 }
 
-// A noise floor counts as the lower of the two: one that was raised in either folder excuses nothing.
-double tolerance_of(const std::string& column, const store::Table& before, std::size_t i, const store::Table& after, std::size_t k) {
+// A noise floor counts as the lower of the two: one that was raised in either folder excuses
+// nothing.
+double tolerance_of(const std::string& column, const store::Table& before, std::size_t i,
+                    const store::Table& after, std::size_t k) {
     const double old = std::abs(before.number(i, column));
-    const double motion = (floors * std::min(sensitivity(before, i), sensitivity(after, k)) + 1e-6) * old;
+    const double motion =
+        (floors * std::min(sensitivity(before, i), sensitivity(after, k)) + 1e-6) * old;
     const std::string of_scene = against_the_scene(column);
-    if (const double floor = std::fmin(before.number(i, "floor_" + of_scene), after.number(k, "floor_" + of_scene)); !std::isnan(floor)) {
-        const double noise = floors * floor + rounding * (old + (column.starts_with("centroid_hz") ? centroid : 0));
+    if (const double floor =
+            std::fmin(before.number(i, "floor_" + of_scene), after.number(k, "floor_" + of_scene));
+        !std::isnan(floor)) {
+        const double noise =
+            floors * floor + rounding * (old + (column.starts_with("centroid_hz") ? centroid : 0));
         return of_scene == column ? noise : std::fmax(noise, motion);
     }
     switch (study::rule_of(column)) {
@@ -66,7 +77,8 @@ double tolerance_of(const std::string& column, const store::Table& before, std::
 }
 
 bool same_number(double before, double after, double tolerance) {
-    return (std::isnan(before) && std::isnan(after)) || before == after || std::abs(before - after) <= tolerance;
+    return (std::isnan(before) && std::isnan(after)) || before == after ||
+           std::abs(before - after) <= tolerance;
 }
 
 // 1: larger is worse, -1: larger is better, 0: neither.
@@ -89,13 +101,17 @@ std::set<std::string> words_of(const std::string& text) {
 
 Turn text_turn(const std::string& column, const std::string& before, const std::string& after) {
     if (before == after) return Turn::same;
-    if (column == "status") return before == "ok" ? Turn::worse : after == "ok" ? Turn::better : Turn::moved;
+    if (column == "status")
+        return before == "ok" ? Turn::worse : after == "ok" ? Turn::better : Turn::moved;
     if (column == "flags") {  // one that was not there before is worse, whatever else is gone
-        const auto lacks_one_of = [](const std::set<std::string>& all, const std::set<std::string>& of) {
+        const auto lacks_one_of = [](const std::set<std::string>& all,
+                                     const std::set<std::string>& of) {
             return !std::ranges::includes(all, of);
         };
         const auto was = words_of(before), is = words_of(after);
-        return lacks_one_of(was, is) ? Turn::worse : lacks_one_of(is, was) ? Turn::better : Turn::same;
+        return lacks_one_of(was, is)   ? Turn::worse
+               : lacks_one_of(is, was) ? Turn::better
+                                       : Turn::same;
     }
     return Turn::moved;
 }
@@ -106,22 +122,19 @@ const char* name_of(Turn t) {
     return names[static_cast<int>(t)];
 }
 
-bool is_cost(const std::string& column) {
-    return study::rule_of(column) == study::Rule::clock;
-}
+bool is_cost(const std::string& column) { return study::rule_of(column) == study::Rule::clock; }
 
-bool is_judged(const std::string& column) {
-    return worse_where_larger(column) != 0;
-}
+bool is_judged(const std::string& column) { return worse_where_larger(column) != 0; }
 
-bool is_skipped(const std::string& column) {
-    return study::rule_of(column) == study::Rule::name;
-}
+bool is_skipped(const std::string& column) { return study::rule_of(column) == study::Rule::name; }
 
-Turn turn_of(const std::string& column, const store::Table& before, std::size_t i, const store::Table& after, std::size_t k) {
-    if (study::rule_of(column) == study::Rule::text) return text_turn(column, before.at(i, column), after.at(k, column));
+Turn turn_of(const std::string& column, const store::Table& before, std::size_t i,
+             const store::Table& after, std::size_t k) {
+    if (study::rule_of(column) == study::Rule::text)
+        return text_turn(column, before.at(i, column), after.at(k, column));
     const double was = before.number(i, column), is = after.number(k, column);
-    if (is < 0 && !(was < 0) && never_negative(column)) return Turn::worse;  // no error is: the table is damaged
+    // no error is: the table is damaged
+    if (is < 0 && !(was < 0) && never_negative(column)) return Turn::worse;
     if (same_number(was, is, tolerance_of(column, before, i, after, k))) return Turn::same;
     const int sign = worse_where_larger(column);
     if (sign == 0) return Turn::moved;
@@ -131,15 +144,19 @@ Turn turn_of(const std::string& column, const store::Table& before, std::size_t 
         return std::isnan(c) ? 0 : c;
     };
     const double certain_before = certain(before, i);
-    if (!(std::abs(is - was) > certain_before + std::min(certain_before, certain(after, k)))) return Turn::moved;
+    if (!(std::abs(is - was) > certain_before + std::min(certain_before, certain(after, k))))
+        return Turn::moved;
     return sign * (is - was) > 0 ? Turn::worse : Turn::better;
 }
 
 Turn dispersion_turn(const std::string& column, double before, double after) {
-    const double tolerance = column.starts_with("own_") ? 1e-8 : column == "trace_cents" ? 1e-4 : 1e-3;
+    const double tolerance = column.starts_with("own_") ? 1e-8
+                             : column == "trace_cents"  ? 1e-4
+                                                        : 1e-3;
     if (same_number(before, after, tolerance)) return Turn::same;
     if (!column.ends_with("_cents")) return Turn::moved;
-    if (std::isnan(before) || std::isnan(after)) return std::isnan(after) ? Turn::worse : Turn::better;
+    if (std::isnan(before) || std::isnan(after))
+        return std::isnan(after) ? Turn::worse : Turn::better;
     return std::abs(after) > std::abs(before) ? Turn::worse : Turn::better;
 }
 

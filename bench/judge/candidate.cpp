@@ -19,29 +19,32 @@
 namespace jvari::bench::judge {
 
 namespace {
-constexpr Option reported{"cost", "none", "who measured it: a trace has no cost of its own", {"none", "as_reported"}};
+constexpr Option reported{
+    "cost", "none", "who measured it: a trace has no cost of its own", {"none", "as_reported"}};
 constexpr const char* no_cost = "not reported";
 
 std::unique_ptr<Scheme> made(const Descriptor& d, const Scene&, const Settings& settings) {
     const auto& traces = static_cast<const Candidate*>(d.own)->traces;
     const auto found = traces.find(settings.sample_rate);
-    if (found == traces.end()) throw Refusal(fmt::format("{} has no trace at {:.12g} Hz", d.name, settings.sample_rate));
+    if (found == traces.end())
+        throw Refusal(fmt::format("{} has no trace at {:.12g} Hz", d.name, settings.sample_rate));
     return played(found->second);
 }
 
 std::string enter(Candidate candidate) {  // as a guest; returns its path
     const std::string path = "trace " + candidate.name;
-    const auto* kept = new Candidate(std::move(candidate));  // NOLINT(cppcoreguidelines-owning-memory): lives as long as its guest
-    Descriptor d{kept->name.c_str(), "traces of another program", every_feature, Balance::none, Clock::stepped, made};
+    // NOLINT(cppcoreguidelines-owning-memory): lives as long as its guest
+    const auto* kept = new Candidate(std::move(candidate));
+    Descriptor d{kept->name.c_str(), "traces of another program",
+                 every_feature,      Balance::none,
+                 Clock::stepped,     made};
     d.options = {&reported, 1};
     d.all_strings = true;
     d.own = kept;
     d.untimed = no_cost;
     try {
         add_guest({path, {d}, kept->contents});
-    } catch (const std::runtime_error& e) {
-        throw store::UsageError(e.what());
-    }
+    } catch (const std::runtime_error& e) { throw store::UsageError(e.what()); }
     return path;
 }
 
@@ -55,12 +58,15 @@ void report_costs(compare::Comparison& c, const std::map<double, double>& costs)
     }
 }
 
-// A trace does not say what compliance its string has. Where it is nearer to the scene than to a string of as many modes with its own
-// compliance, it is not of such a string, and its error in the model is unknown.
+// A trace does not say what compliance its string has. Where it is nearer to the scene than to a
+// string of as many modes with its own compliance, it is not of such a string, and its error in the
+// model is unknown.
 void forget_errors_in_other_models(compare::Comparison& c) {
-    const std::size_t whole = study::measure("error_l2_whole"), nut = static_cast<std::size_t>(c.headline.nut);
+    const std::size_t whole = study::measure("error_l2_whole"),
+                      nut = static_cast<std::size_t>(c.headline.nut);
     for (study::Record& r : c.outcome.records)
-        if (is_candidate(r.cell) && !r.cell.in_model.empty() && r.cell.in_model[nut][whole] > r.cell.errors[nut][whole])
+        if (is_candidate(r.cell) && !r.cell.in_model.empty() &&
+            r.cell.in_model[nut][whole] > r.cell.errors[nut][whole])
             r.cell.in_model.clear();
 }
 
@@ -71,32 +77,49 @@ std::string sentence_of(const store::Table& cells, std::size_t row) {
     using Says = compare::Bound::Says;
     switch (bound.says()) {
         case Says::nothing: return text + "no error can be told";
-        case Says::measured: text += fmt::format("errs by {}", compare::percent(bound.error)); break;
+        case Says::measured:
+            text += fmt::format("errs by {}", compare::percent(bound.error));
+            break;
         case Says::at_most:
-            text += fmt::format("errs by {} at most: {} is measured, and the reference is uncertain by {}", compare::percent(bound.most()),
-                                compare::percent(bound.error), compare::percent(bound.certificate));
+            text += fmt::format(
+                "errs by {} at most: {} is measured, and the reference is uncertain by {}",
+                compare::percent(bound.most()), compare::percent(bound.error),
+                compare::percent(bound.certificate));
             break;
         case Says::unknown:
-            return text + fmt::format("cannot be judged: the reference is uncertain by {}", compare::percent(bound.certificate));
+            return text + fmt::format("cannot be judged: the reference is uncertain by {}",
+                                      compare::percent(bound.certificate));
         case Says::unsure:
-            text += fmt::format("differs by {} from a reference whose own uncertainty is unknown", compare::percent(bound.error));
+            text += fmt::format("differs by {} from a reference whose own uncertainty is unknown",
+                                compare::percent(bound.error));
     }
-    const double own = cells.number(row, "error_in_model_" + headline.substr(std::string("error_").size()));
-    if (std::isfinite(own)) text += fmt::format(", {} of it against a string of as many modes", compare::percent(own));
-    const double horizon = cells.number(row, "horizon_s"), octaves = cells.number(row, "third_octave_db");
-    text += fmt::format(" ({}); within 10 % for {}{}", headline, compare::time_text(horizon), compare::after_pluck(cells, row));
-    return std::isfinite(octaves) ? text + fmt::format("; third octaves {:.2g} dB apart", octaves) : text;
+    const double own =
+        cells.number(row, "error_in_model_" + headline.substr(std::string("error_").size()));
+    if (std::isfinite(own))
+        text += fmt::format(", {} of it against a string of as many modes", compare::percent(own));
+    const double horizon = cells.number(row, "horizon_s"),
+                 octaves = cells.number(row, "third_octave_db");
+    text += fmt::format(" ({}); within 10 % for {}{}", headline, compare::time_text(horizon),
+                        compare::after_pluck(cells, row));
+    return std::isfinite(octaves) ? text + fmt::format("; third octaves {:.2g} dB apart", octaves)
+                                  : text;
 }
 
-// How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two programs compute the same.
+// How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two
+// programs compute the same.
 std::string beside(const compare::Comparison& c, const study::Record& own) {
-    const Trace& trace = *static_cast<const Candidate*>(own.cell.scheme->own)->traces.at(own.cell.settings.sample_rate);
+    const Trace& trace = *static_cast<const Candidate*>(own.cell.scheme->own)
+                              ->traces.at(own.cell.settings.sample_rate);
     std::string text;
     for (const study::Record& r : c.outcome.records) {
         const Settings& settings = r.cell.settings;
-        if (is_candidate(r.cell) || r.cell.status() != "ok" || settings.sample_rate != own.cell.settings.sample_rate) continue;
+        if (is_candidate(r.cell) || r.cell.status() != "ok" ||
+            settings.sample_rate != own.cell.settings.sample_rate)
+            continue;
         const TapErrors apart = relative_l2(trace, run(*r.cell.scheme, c.scene(), settings).trace);
-        text += fmt::format("\n  it differs from {} by", store::variant_name(r.cell.scheme->name, store::options_text(settings.options)));
+        text += fmt::format(
+            "\n  it differs from {} by",
+            store::variant_name(r.cell.scheme->name, store::options_text(settings.options)));
         for (std::size_t k = 0; k < apart.tap.size(); ++k)
             text += fmt::format("{} {:.2g} ({})", k > 0 ? "," : "", apart.tap[k], trace.names[k]);
     }
@@ -104,9 +127,7 @@ std::string beside(const compare::Comparison& c, const study::Record& own) {
 }
 }  // namespace
 
-bool is_candidate(const study::Cell& cell) {
-    return cell.scheme->untimed == no_cost;
-}
+bool is_candidate(const study::Cell& cell) { return cell.scheme->untimed == no_cost; }
 
 Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
     Settings settings;
@@ -114,8 +135,9 @@ Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
     return {settings.tap_rate, rows_of(scene, settings)};
 }
 
-compare::Comparison judge(Candidate candidate, compare::CompareRequest request, const std::vector<std::string>& plugins,
-                          const store::Listener& listener, study::Kept& keep) {
+compare::Comparison judge(Candidate candidate, compare::CompareRequest request,
+                          const std::vector<std::string>& plugins, const store::Listener& listener,
+                          study::Kept& keep) {
     request.rates.clear();
     for (const auto& [rate, trace] : candidate.traces) request.rates.push_back(rate);
     request.schemes.insert(request.schemes.begin(), candidate.name);
@@ -137,17 +159,23 @@ std::string verdict_of(const compare::Comparison& c) {
         if (!is_candidate(c.outcome.records[i].cell)) continue;
         const study::Cell& cell = c.outcome.records[i].cell;
         if (cell.status() == "diverged")
-            text += fmt::format("{}{}: {}: its taps go beyond what ten times the energy of the scene could make", text.empty() ? "" : "\n",
-                                store::run_name(cells, i), cell.reason);
-        else text += (text.empty() ? "" : "\n") + sentence_of(cells, i) + beside(c, c.outcome.records[i]);
+            text += fmt::format(
+                "{}{}: {}: its taps go beyond what ten times the energy of the scene could make",
+                text.empty() ? "" : "\n", store::run_name(cells, i), cell.reason);
+        else
+            text += (text.empty() ? "" : "\n") + sentence_of(cells, i) +
+                    beside(c, c.outcome.records[i]);
     }
     const store::Table orders = compare::convergence_of(cells);
     for (std::size_t i = 0; i < orders.rows.size(); ++i)
-        if (orders.at(i, "scheme") == c.outcome.records.front().cell.scheme->name && orders.at(i, "window") == "50ms" &&
+        if (orders.at(i, "scheme") == c.outcome.records.front().cell.scheme->name &&
+            orders.at(i, "window") == "50ms" &&
             orders.at(i, "tap") == c.scene().taps[static_cast<std::size_t>(c.headline.nut)].name)
-            text += fmt::format(
-                "\nobserved order of convergence over 50 ms: {:.2f}{}", orders.number(i, "order"),
-                orders.at(i, "half_width").empty() ? ", of two rates" : fmt::format(" +- {:.2f}", orders.number(i, "half_width")));
+            text += fmt::format("\nobserved order of convergence over 50 ms: {:.2f}{}",
+                                orders.number(i, "order"),
+                                orders.at(i, "half_width").empty()
+                                    ? ", of two rates"
+                                    : fmt::format(" +- {:.2f}", orders.number(i, "half_width")));
     return text;
 }
 

@@ -42,20 +42,30 @@ std::string last_line(const std::string& text) {
 
 using Unwanted = std::function<bool()>;
 
-std::shared_ptr<const Trace> computed(const External& e, const Exported& of, const std::string& problem, const Unwanted& unwanted) {
+std::shared_ptr<const Trace> computed(const External& e, const Exported& of,
+                                      const std::string& problem, const Unwanted& unwanted) {
     const store::Scratch folder;
-    if (folder.path.empty()) throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
+    if (folder.path.empty())
+        throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
     const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
     store::write_fresh(asked, problem);
-    const store::Said said = store::run_program({"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, unwanted);
+    const store::Said said = store::run_program(
+        {"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, unwanted);
     if (said.code == refuses) throw Refusal(fmt::format("{}: {}", e.name, last_line(said.text)));
-    if (said.code != 0) throw BadScheme(fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
-    if (!fs::exists(given)) throw BadScheme(e.command + ": wrote no trace, its last argument; it said: " + last_line(said.text));
-    return std::make_shared<const Trace>(read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
+    if (said.code != 0)
+        throw BadScheme(
+            fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
+    if (!fs::exists(given))
+        throw BadScheme(e.command +
+                        ": wrote no trace, its last argument; it said: " + last_line(said.text));
+    return std::make_shared<const Trace>(
+        read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
 }
 
-// Each problem is computed once: a cell is run by the search, for its errors, and once more where it is looked at again.
-std::shared_ptr<const Trace> known(const External& e, const Exported& of, const Unwanted& unwanted) {
+// Each problem is computed once: a cell is run by the search, for its errors, and once more where
+// it is looked at again.
+std::shared_ptr<const Trace> known(const External& e, const Exported& of,
+                                   const Unwanted& unwanted) {
     struct Each {
         std::once_flag once;
         std::shared_ptr<const Trace> trace;
@@ -70,9 +80,7 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of, const 
     std::call_once(each.once, [&] {  // whoever asks for it meanwhile waits
         try {
             each.trace = computed(e, of, problem, unwanted);
-        } catch (const Refusal& refusal) {
-            each.refusal = refusal.what();
-        }
+        } catch (const Refusal& refusal) { each.refusal = refusal.what(); }
     });
     if (!each.refusal.empty()) throw Refusal(each.refusal);
     return each.trace;
@@ -80,7 +88,8 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of, const 
 
 class Called final : public Scheme {
 public:
-    Called(const External& e, const Scene& scene, const Settings& settings) : external_(e), of_{scene, settings} {
+    Called(const External& e, const Scene& scene, const Settings& settings)
+        : external_(e), of_{scene, settings} {
         refuse_beyond_arrays(scene);
         dofs_ = 2 * modes_for(scene, settings);
     }
@@ -94,7 +103,9 @@ public:
         } catch (const std::exception& e) {
             refused_ = dynamic_cast<const Refusal*>(&e) != nullptr;
             failure_ = e.what();
-            for (int k = 0; k < out.taps; ++k) std::fill_n(out.tap + k * out.stride, out.rows, std::numeric_limits<double>::quiet_NaN());
+            for (int k = 0; k < out.taps; ++k)
+                std::fill_n(out.tap + k * out.stride, out.rows,
+                            std::numeric_limits<double>::quiet_NaN());
             return {};
         }
     }
@@ -118,7 +129,8 @@ std::unique_ptr<Scheme> called(const Descriptor& d, const Scene& scene, const Se
     return std::make_unique<Called>(*static_cast<const External*>(d.own), scene, settings);
 }
 
-// As the shell reads them, its operators aside; none where the command has what only the shell can know.
+// As the shell reads them, its operators aside; none where the command has what only the shell can
+// know.
 std::vector<std::string> words_in(std::string command) {
     char quote = 0;
     for (std::size_t k = 0; k < command.size(); ++k) {
@@ -129,7 +141,8 @@ std::vector<std::string> words_in(std::string command) {
     }
     wordexp_t all{};
     std::vector<std::string> words;
-    if (wordexp(command.c_str(), &all, WRDE_NOCMD) == 0) words.assign(all.we_wordv, all.we_wordv + all.we_wordc);
+    if (wordexp(command.c_str(), &all, WRDE_NOCMD) == 0)
+        words.assign(all.we_wordv, all.we_wordv + all.we_wordc);
     wordfree(&all);
     return words;
 }
@@ -141,7 +154,8 @@ fs::path file_of(const std::string& word) {
     const char* folders = std::getenv("PATH");
     std::istringstream path(folders && word.find('/') == std::string::npos ? folders : "");
     for (std::string folder; std::getline(path, folder, ':');)
-        if (const fs::path file = fs::path(folder) / word; fs::is_regular_file(file, error)) return file;
+        if (const fs::path file = fs::path(folder) / word; fs::is_regular_file(file, error))
+            return file;
     return {};
 }
 }  // namespace
@@ -151,12 +165,17 @@ std::string enter_external(const std::string& command) {
     std::string name = "external", contents = command;
     for (const std::string& word : words_in(command)) {
         const fs::path file = file_of(word);
-        contents += fmt::format("\n{}: {}", word, file.empty() ? "no file" : store::hash_of_file(file));
+        contents +=
+            fmt::format("\n{}: {}", word, file.empty() ? "no file" : store::hash_of_file(file));
         if (!file.empty() && file == fs::path(word)) name = file.stem().string();
     }
     auto* kept = new External{command, name};  // NOLINT(cppcoreguidelines-owning-memory)
-    Descriptor d{kept->name.c_str(), "an external command", every_feature - (Features(Feature::moving_body) | Feature::polarisation),
-                 Balance::none,      Clock::stepped,        called};
+    Descriptor d{kept->name.c_str(),
+                 "an external command",
+                 every_feature - (Features(Feature::moving_body) | Feature::polarisation),
+                 Balance::none,
+                 Clock::stepped,
+                 called};
     d.own = kept;
     d.untimed = "external, not compared";
     add_guest({path, {d}, contents, "external", command});

@@ -21,18 +21,15 @@ using Json = nlohmann::ordered_json;
 constexpr const char* format = "jvari problem 1";
 constexpr double most_steps = 1e7;  // of plucks: 200 MB of text
 
-Json numbers(const double* data, std::int64_t n) {
-    return std::vector<double>(data, data + n);
-}
+Json numbers(const double* data, std::int64_t n) { return std::vector<double>(data, data + n); }
 Json json_of(const Matrix& m) {
     if (m.rows < 0) return numbers(m.data, m.columns);
     Json rows = Json::array();
-    for (std::int64_t r = 0; r < m.rows; ++r) rows.push_back(numbers(m.data + r * m.columns, m.columns));
+    for (std::int64_t r = 0; r < m.rows; ++r)
+        rows.push_back(numbers(m.data + r * m.columns, m.columns));
     return rows;
 }
-Json json_of(const Words& w) {
-    return std::vector<std::string>(w.data, w.data + w.count);
-}
+Json json_of(const Words& w) { return std::vector<std::string>(w.data, w.data + w.count); }
 template <class Plain>
 Json json_of(const Plain& value) {
     return value;
@@ -53,13 +50,15 @@ Json reference_json(const Scene& scene, const study::Truth& truth) {
            {"horizon_of_1e-12_s", horizon(free(moved), free(trace), trace.tap_rate)},
            {"horizon_of_half_s", truth.horizon}};
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
-        const std::string window = std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());
+        const std::string window =
+            std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());
         Json known = Json::array();
         for (std::size_t k = 0; k < scene.taps.size(); ++k) known.push_back(r.trust.of_scene(k, w));
         j["uncertainty_" + window] = known;
     }
     Json taps = Json::array();
-    for (int k = 0; k < trace.taps(); ++k) taps.push_back(numbers(trace.column(k).data(), trace.rows));
+    for (int k = 0; k < trace.taps(); ++k)
+        taps.push_back(numbers(trace.column(k).data(), trace.rows));
     j["trace"] = taps;
     return j;
 }
@@ -74,34 +73,42 @@ Exported exported(const compare::CompareRequest& request) {
     if (const double ratio = e.settings.sample_rate / e.settings.tap_rate;
         !(std::abs(ratio - std::round(ratio)) < 1e-9 * ratio) || ratio < 0.5)
         throw store::UsageError(
-            fmt::format("--tap-rate: found {:.12g}; {:.12g} Hz is no whole multiple of it", e.settings.tap_rate, e.settings.sample_rate));
+            fmt::format("--tap-rate: found {:.12g}; {:.12g} Hz is no whole multiple of it",
+                        e.settings.tap_rate, e.settings.sample_rate));
     double steps = 0;  // each holds a force of every pluck
     for (const String& s : e.scene.strings)
-        if (s.pluck) steps += e.settings.sample_rate * std::min(s.pluck->start + s.pluck->duration, e.scene.duration);
+        if (s.pluck)
+            steps += e.settings.sample_rate *
+                     std::min(s.pluck->start + s.pluck->duration, e.scene.duration);
     if (steps > most_steps)
         throw store::UsageError(
-            fmt::format("the pluck takes {:.2g} steps at {:.12g} Hz, and the file holds at most {:.0e}: export at a lower rate", steps,
-                        e.settings.sample_rate, most_steps));
+            fmt::format("the pluck takes {:.2g} steps at {:.12g} Hz, and the file holds at most "
+                        "{:.0e}: export at a lower rate",
+                        steps, e.settings.sample_rate, most_steps));
     return e;
 }
 
-study::Truth reference_of(const compare::CompareRequest& request, const Exported& e, const compare::Catalogue& catalogue,
-                          const store::Listener& listener) {
+study::Truth reference_of(const compare::CompareRequest& request, const Exported& e,
+                          const compare::Catalogue& catalogue, const store::Listener& listener) {
     compare::CompareRequest plain = request;
     plain.modes.clear();
     plain.search = false;
-    return study::run_truth(compare::references_of(plain, catalogue, e.scene), e.scene, request.reference_modes.value_or(0), request.jobs,
-                            listener);
+    return study::run_truth(compare::references_of(plain, catalogue, e.scene), e.scene,
+                            request.reference_modes.value_or(0), request.jobs, listener);
 }
 
 std::string problem_json(const Exported& e, const study::Truth* truth) {
     const Problem problem(e.scene, e.settings);
-    Json j{{"format", format}, {"program", "jvari " + store::machine().version}, {"scene_hash", scene_hash(e.scene)}};
-    each_member(problem.arrays(), [&j](const char* name, const auto& value) { j[name] = json_of(value); });
+    Json j{{"format", format},
+           {"program", "jvari " + store::machine().version},
+           {"scene_hash", scene_hash(e.scene)}};
+    each_member(problem.arrays(),
+                [&j](const char* name, const auto& value) { j[name] = json_of(value); });
     if (truth) j["reference"] = reference_json(e.scene, *truth);
     std::string text;  // a member a line
     for (const auto& [key, value] : j.items())
-        text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace);
+        text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": " +
+                value.dump(-1, ' ', false, Json::error_handler_t::replace);
     return text + "\n}\n";
 }
 

@@ -1,6 +1,6 @@
-// finite_difference_explicit against a plain loop with the same contact equation, in one run: 20 contacts, 155 and 436 intervals. Counter
-// `error`: from the plain loop in long double over the first 3 ms, 1.5 ms of them in contact (later,
-// 20 contacts have amplified rounding too far).
+// finite_difference_explicit against a plain loop with the same contact equation, in one run: 20
+// contacts, 155 and 436 intervals. Counter `error`: from the plain loop in long double over the
+// first 3 ms, 1.5 ms of them in contact (later, 20 contacts have amplified rounding too far).
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -42,10 +42,14 @@ struct Plain {
         const Scene scene = twenty_contacts(N);
         const String& s = scene.strings.front();
         const LossFit loss = fit_losses(s);
-        const GridString g = on_grid(finite_difference_explicit, scene, {rate_of(N), rate_of(N), 0, {}}, {N, s.length / N}, loss);
-        const Real h2 = static_cast<Real>(g.grid.dx) * g.grid.dx, S = static_cast<Real>(g.c2) * dt * dt / h2,
-                   q = static_cast<Real>(g.kappa2) * dt * dt / (h2 * h2), z = 2 * static_cast<Real>(loss.sigma1) * dt / h2,
-                   z4 = 2 * static_cast<Real>(loss.sigma2) * dt / (h2 * h2), D = 1 + static_cast<Real>(loss.sigma0) * dt;
+        const GridString g = on_grid(finite_difference_explicit, scene,
+                                     {rate_of(N), rate_of(N), 0, {}}, {N, s.length / N}, loss);
+        const Real h2 = static_cast<Real>(g.grid.dx) * g.grid.dx,
+                   S = static_cast<Real>(g.c2) * dt * dt / h2,
+                   q = static_cast<Real>(g.kappa2) * dt * dt / (h2 * h2),
+                   z = 2 * static_cast<Real>(loss.sigma1) * dt / h2,
+                   z4 = 2 * static_cast<Real>(loss.sigma2) * dt / (h2 * h2),
+                   D = 1 + static_cast<Real>(loss.sigma0) * dt;
         a0 = (2 - 2 * S - 6 * q - 2 * z - 6 * z4) / D;
         a1 = (S + 4 * q + z + 4 * z4) / D;
         a2 = -(q + z4) / D;
@@ -56,29 +60,38 @@ struct Plain {
         k = g.points.contacts.laws.front().k;
         now.assign(g.initial.begin(), g.initial.end());
         before = next = now;
-        step();                                                                     // with u- = u: u + dt^2 (acceleration)
-        for (int l = 1; l < N; ++l) now[l] = before[l] + (now[l] - before[l]) / 2;  // no contact at the start: the string is above
+        // with u- = u: u + dt^2 (acceleration)
+        step();
+        // no contact at the start: the string is above
+        for (int l = 1; l < N; ++l) now[l] = before[l] + (now[l] - before[l]) / 2;
     }
-    static Real contact(Real stiffness, Real eta, Real b, Real theta) {  // solve_linear_contact in Real
+    // solve_linear_contact in Real
+    static Real contact(Real stiffness, Real eta, Real b, Real theta) {
         const Real phi = theta * stiffness / 2;
         if (eta <= 0 && eta + b <= 0) return 0;
         if (eta > 0) {
             if (eta * (1 - phi) + b > 0) return stiffness * (eta + b / 2) / (1 + phi);
             const Real root = std::sqrt(b * b + 4 * phi * eta * eta);
-            return stiffness * eta * eta / 2 / (b > 0 ? 2 * phi * eta * eta / (b + root) : (root - b) / 2);
+            return stiffness * eta * eta / 2 /
+                   (b > 0 ? 2 * phi * eta * eta / (b + root) : (root - b) / 2);
         }
-        const Real gap = -eta, free = eta + b, p = gap - free, root = std::sqrt(p * p + 4 * (1 + phi) * free * gap);
+        const Real gap = -eta, free = eta + b, p = gap - free,
+                   root = std::sqrt(p * p + 4 * (1 + phi) * free * gap);
         const Real x = p > 0 ? 2 * free * gap / (p + root) : (root - p) / 2 / (1 + phi);
         return stiffness * x / (gap + x) * x / 2;
     }
     void step() {
         for (int l = 1; l < N; ++l) {
-            const Real left2 = l > 1 ? now[l - 2] : -now[1], right2 = l < N - 1 ? now[l + 2] : -now[N - 1];
-            const Real old_left2 = l > 1 ? before[l - 2] : -before[1], old_right2 = l < N - 1 ? before[l + 2] : -before[N - 1];
-            next[l] = a0 * now[l] + a1 * (now[l - 1] + now[l + 1]) + a2 * (left2 + right2) + b0 * before[l] +
-                      b1 * (before[l - 1] + before[l + 1]) + b2 * (old_left2 + old_right2);
+            const Real left2 = l > 1 ? now[l - 2] : -now[1],
+                       right2 = l < N - 1 ? now[l + 2] : -now[N - 1];
+            const Real old_left2 = l > 1 ? before[l - 2] : -before[1],
+                       old_right2 = l < N - 1 ? before[l + 2] : -before[N - 1];
+            next[l] = a0 * now[l] + a1 * (now[l - 1] + now[l + 1]) + a2 * (left2 + right2) +
+                      b0 * before[l] + b1 * (before[l - 1] + before[l + 1]) +
+                      b2 * (old_left2 + old_right2);
         }
-        for (int l = 2; l <= 21; ++l) next[l] += gain * contact(k, -before[l], before[l] - next[l], theta);
+        for (int l = 2; l <= 21; ++l)
+            next[l] += gain * contact(k, -before[l], before[l] - next[l], theta);
         std::swap(before, now);
         std::swap(now, next);
     }
@@ -91,7 +104,8 @@ double against_long_double(const std::vector<double>& u, int N) {
         Plain<long double> p(N);
         const int steps = static_cast<int>(0.003 * rate_of(N));
         for (int n = 0; n < steps; ++n) {
-            want.push_back(displacement_stencil({N, 1.0 / N}, 0.03).read(std::vector<double>(p.before.begin(), p.before.end()).data()));
+            want.push_back(displacement_stencil({N, 1.0 / N}, 0.03)
+                               .read(std::vector<double>(p.before.begin(), p.before.end()).data()));
             p.step();
         }
     }
@@ -117,7 +131,8 @@ void plain(benchmark::State& state) {
     for (auto _ : state)
         for (int n = 0; n < steps; ++n) p.step();
     benchmark::DoNotOptimize(p.now.data());
-    state.counters["per_step"] = benchmark::Counter(steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["per_step"] = benchmark::Counter(
+        steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.counters["error"] = against_long_double(y, N);
 }
 
@@ -136,10 +151,16 @@ void kernel(benchmark::State& state) {
     const Block one{1, 1, 1, &cell, nullptr};
     const FlushDenormals flush;
     for (auto _ : state) s->advance(one);
-    state.counters["per_step"] = benchmark::Counter(steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-    state.counters["error"] = against_long_double({r.trace.column(0).begin(), r.trace.column(0).end()}, N);
+    state.counters["per_step"] = benchmark::Counter(
+        steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["error"] =
+        against_long_double({r.trace.column(0).begin(), r.trace.column(0).end()}, N);
 }
 
-BENCHMARK(kernel)->Name("pair/five_point/kernel")->Arg(155)->Arg(436)->Unit(benchmark::kMillisecond);
+BENCHMARK(kernel)
+    ->Name("pair/five_point/kernel")
+    ->Arg(155)
+    ->Arg(436)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(plain)->Name("pair/five_point/plain")->Arg(155)->Arg(436)->Unit(benchmark::kMillisecond);
 }  // namespace

@@ -1,7 +1,9 @@
-// modal_spatial_newton against the modal recursion with synthesis at the nodes of the obstacle, in plain Eigen with the same contact
-// solver: 1001 modes, 1 MHz, the point bridge and the 19 mm parabola of Issanchou et al. 2016. The time is per step over 20 ms from the
-// release; contact begins after 1.3 ms. Counter `error`: relative L2 distance of the displacement at x = 10 mm over the first 4 ms from the
-// plain form in long double: later the parabola has multiplied any rounding beyond use.
+// modal_spatial_newton against the modal recursion with synthesis at the nodes of the obstacle, in
+// plain Eigen with the same contact solver: 1001 modes, 1 MHz, the point bridge and the 19 mm
+// parabola of Issanchou et al. 2016. The time is per step over 20 ms from the release; contact
+// begins after 1.3 ms. Counter `error`: relative L2 distance of the displacement at x = 10 mm over
+// the first 4 ms from the plain form in long double: later the parabola has multiplied any rounding
+// beyond use.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
@@ -29,7 +31,8 @@ Scene scene_of(bool parabola) {
     s.bending_stiffness = 3.2683823738748857e-4;
     s.damping = QualityFactorDamping{0.43e-3, 1.8e-5, 1.2, 0.0045, 0.000203};
     s.initial = TriangleInitial{0.501, 1.8e-3, 0.02};
-    if (parabola) s.barriers.push_back(ProfileBarrier{ParabolaCurve{0.0065}, 0, 19e-3, {1e13}, 1.3, 0});
+    if (parabola)
+        s.barriers.push_back(ProfileBarrier{ParabolaCurve{0.0065}, 0, 19e-3, {1e13}, 1.3, 0});
     else s.barriers.push_back(LumpedBarrier{6e-3, 0, 0, {1e10}, 1.3, 0});
     Scene scene;
     scene.name = "benchmark";
@@ -70,9 +73,11 @@ struct Coefficients {
         const Modes m = modes_of(s, M);
         const auto start = initial_displacement(m, s);
         for (int j = 0; j < M; ++j) {
-            const Real sigma = m.sigma[j], square = Real(m.omega0[j]) * m.omega0[j] - sigma * sigma, e = std::exp(-sigma * Real(dt));
+            const Real sigma = m.sigma[j], square = Real(m.omega0[j]) * m.omega0[j] - sigma * sigma,
+                       e = std::exp(-sigma * Real(dt));
             const Real omega = std::sqrt(std::abs(square)), a = omega * Real(dt);
-            const Real c = square > 0 ? std::cos(a) : std::cosh(a), q = square > 0 ? std::sin(a) : std::sinh(a);
+            const Real c = square > 0 ? std::cos(a) : std::cosh(a),
+                       q = square > 0 ? std::sin(a) : std::sinh(a);
             C[j] = 2 * e * c;
             Ct[j] = e * e;
             y0[j] = start[j];
@@ -86,8 +91,12 @@ struct Coefficients {
 // r + b = theta [V(eta) - V(eta - r)]/r in long double: the double solution, refined by Newton.
 long double force_of(const ContactLaw& law, long double eta, long double b, long double theta) {
     if (eta <= 0 && eta + b <= 0) return 0;
-    const auto V = [&](long double e) { return e > 0 ? law.k * std::pow(e, law.alpha + 1.0L) / (law.alpha + 1.0L) : 0.0L; };
-    const auto dV = [&](long double e) { return e > 0 ? law.k * std::pow(e, (long double)law.alpha) : 0.0L; };
+    const auto V = [&](long double e) {
+        return e > 0 ? law.k * std::pow(e, law.alpha + 1.0L) / (law.alpha + 1.0L) : 0.0L;
+    };
+    const auto dV = [&](long double e) {
+        return e > 0 ? law.k * std::pow(e, (long double)law.alpha) : 0.0L;
+    };
     long double r = solve_power_contact(law, double(eta), double(b), double(theta)).r;
     for (int i = 0; i < 3; ++i) {
         if (std::abs(r) < 1e-7L * std::abs(eta)) break;
@@ -103,10 +112,12 @@ double force_of(const ContactLaw& law, double eta, double b, double theta) {
 template <class Real>
 class PlainRestricted {
 public:
-    explicit PlainRestricted(bool parabola) : grid(parabola), c(scene_of(parabola).strings[0]), Phi(M, grid.count()), tap(M) {
+    explicit PlainRestricted(bool parabola)
+        : grid(parabola), c(scene_of(parabola).strings[0]), Phi(M, grid.count()), tap(M) {
         for (int j = 1; j <= M; ++j) {
             for (int z = 0; z < grid.count(); ++z)
-                Phi(j - 1, z) = std::sin(std::numbers::pi_v<Real> * ((long(j) * grid.node[z]) % (2 * N)) / N);
+                Phi(j - 1, z) =
+                    std::sin(std::numbers::pi_v<Real> * ((long(j) * grid.node[z]) % (2 * N)) / N);
             tap[j - 1] = std::sin(std::numbers::pi_v<Real> * ((long(j) * 10) % (2 * N)) / N);
         }
         older = c.y0;
@@ -120,7 +131,8 @@ public:
         u_next.noalias() = Phi.transpose() * next;
         bool touching = false;
         for (int z = 0; z < grid.count(); ++z) {
-            force[z] = force_of(grid.law, grid.height[z] - u_older[z], u_older[z] - u_next[z], c.theta);
+            force[z] =
+                force_of(grid.law, grid.height[z] - u_older[z], u_older[z] - u_next[z], c.theta);
             touching = touching || force[z] != 0;
         }
         if (touching) {
@@ -164,8 +176,8 @@ void report(benchmark::State& state, long steps, const std::vector<double>& y, b
         sum += std::pow(y[n] - truth[parabola][n], 2);
         size += std::pow(truth[parabola][n], 2);
     }
-    state.counters["per_step"] =
-        benchmark::Counter(double(steps), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["per_step"] = benchmark::Counter(
+        double(steps), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.counters["error"] = std::sqrt(sum / size);
 }
 
@@ -193,10 +205,18 @@ void plain(benchmark::State& state, bool parabola) {
     report(state, long(rows) * steps_per_row, trace_of(s, 81), parabola);
 }
 
-BENCHMARK_CAPTURE(kernel, point, false)->Name("pair/spatial_newton/kernel/point")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(plain, point, false)->Name("pair/spatial_newton/plain/point")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(kernel, parabola, true)->Name("pair/spatial_newton/kernel/parabola")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(plain, parabola, true)->Name("pair/spatial_newton/plain/parabola")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(kernel, point, false)
+    ->Name("pair/spatial_newton/kernel/point")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plain, point, false)
+    ->Name("pair/spatial_newton/plain/point")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(kernel, parabola, true)
+    ->Name("pair/spatial_newton/kernel/parabola")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plain, parabola, true)
+    ->Name("pair/spatial_newton/plain/parabola")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace jvari

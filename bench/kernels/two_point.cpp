@@ -1,6 +1,8 @@
-// The fused kernel of modal_two_point beside a plain Eigen form of the same scheme, in one run: the plucked C3 string, 133 modes, with nut,
-// bridge and thread taps at every step of 44.1 kHz. Counter `error`: bridge force over 1 s against the same scheme in long double, relative
-// to the largest. (Released from the first mode instead, the same string amplifies a rounding by 1e8 in 1 s, and both forms end near 1e-8.)
+// The fused kernel of modal_two_point beside a plain Eigen form of the same scheme, in one run: the
+// plucked C3 string, 133 modes, with nut, bridge and thread taps at every step of 44.1 kHz. Counter
+// `error`: bridge force over 1 s against the same scheme in long double, relative to the largest.
+// (Released from the first mode instead, the same string amplifies a rounding by 1e8 in 1 s, and
+// both forms end near 1e-8.)
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,9 +16,7 @@
 namespace {
 using namespace jvari;
 
-constexpr Settings settings() {
-    return {44100, 44100, 133, {}};
-}
+constexpr Settings settings() { return {44100, 44100, 133, {}}; }
 
 Scene three_taps() {
     Scene scene = c3_pluck();
@@ -33,7 +33,8 @@ std::unique_ptr<Scheme> plain(const Scene& scene, const Settings& s) {
 }
 
 double bridge_error(Scheme& scheme, const Scene& scene) {
-    static const Run truth = run(*plain<long double>(three_taps(), settings()), three_taps(), settings());
+    static const Run truth =
+        run(*plain<long double>(three_taps(), settings()), three_taps(), settings());
     const Run r = run(scheme, scene, settings());
     const auto want = truth.trace.column(1), got = r.trace.column(1);
     double largest = 0, difference = 0;
@@ -59,7 +60,8 @@ void step(benchmark::State& state) {
         if (state.iterations() % 690 == 689) scheme->reset();  // stay within the first second
     }
     state.counters["per_step"] =
-        benchmark::Counter(static_cast<double>(state.iterations()) * rows, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+        benchmark::Counter(static_cast<double>(state.iterations()) * rows,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["error"] = error;
 }
 BENCHMARK(step<fused>)->Name("pair/two_point/kernel");

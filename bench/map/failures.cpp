@@ -23,15 +23,14 @@ namespace jvari::bench::map {
 namespace {
 namespace fs = std::filesystem;
 
-long steps_of(const JudgedPoint& p) {
-    return p.tried.record.cell.summary.steps;
-}
+long steps_of(const JudgedPoint& p) { return p.tried.record.cell.summary.steps; }
 
 std::string scene_text(const Reproducer& r) {
     const Trial& t = r.trial;
-    return fmt::format("# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {} --energy\n{}", t.scheme->name,
-                       name_of(r.expected.verdict), r.expected.detail, r.file, compare::arguments_of(*t.scheme, t.settings),
-                       write_scene(t.scene));
+    return fmt::format(
+        "# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {} --energy\n{}",
+        t.scheme->name, name_of(r.expected.verdict), r.expected.detail, r.file,
+        compare::arguments_of(*t.scheme, t.settings), write_scene(t.scene));
 }
 
 bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Reproducer& into) {
@@ -46,32 +45,43 @@ bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Repr
 }
 }  // namespace
 
-std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalogue& catalogue, const MapRequest& request,
-                                       const store::Listener& listener) {
+std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalogue& catalogue,
+                                       const MapRequest& request, const store::Listener& listener) {
     std::map<std::pair<std::string, study::Verdict>, const JudgedPoint*> cheapest;
     for (const JudgedPoint& p : run.points) {
         const study::Verdict v = p.tried.judgement.verdict;
-        if (study::is_stable(v) || v == study::Verdict::unjudged || !p.tried.record.cell.ran() || !p.at.map->reproduce) continue;
+        if (study::is_stable(v) || v == study::Verdict::unjudged || !p.tried.record.cell.ran() ||
+            !p.at.map->reproduce)
+            continue;
         const JudgedPoint*& kept = cheapest[{p.at.scheme->name, v}];
         if (!kept || steps_of(p) < steps_of(*kept)) kept = &p;
     }
     std::vector<Reproducer> all;
     for (const auto& [key, point] : cheapest)
-        all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)), trial_at(point->at), point->tried.judgement});
-    store::side_by_side(std::vector<double>(all.size(), 1), request.jobs, listener, "failures", [&](std::size_t i, store::Done& done) {
-        Reproducer& r = all[i];
-        Trials trials(catalogue);  // nobody else's: a minimisation waits for nothing
-        const std::string address = trials.plan_of(r.trial).jobs.front().id + name_of(r.expected.verdict) + request.program;
-        const fs::path folder = request.folder.empty() ? fs::path() : request.folder / "points" / store::hash_of(address);
-        const store::FileLock lock(folder, "minimises how " + std::string(r.trial.scheme->name) + " fails");
-        if (request.resume && read_back(folder, catalogue, r)) return;
-        const study::Verdict wanted = r.expected.verdict;
-        r.trial = minimised(r.trial, [&](const Trial& t) { return trials(t, done).judgement.verdict == wanted; });
-        r.trial.scene.name += "_minimised";
-        r.expected = trials(r.trial, done).judgement;
-        if (folder.empty()) return;
-        write_failures(folder, {r});
-    });
+        all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)),
+                       trial_at(point->at), point->tried.judgement});
+    store::side_by_side(
+        std::vector<double>(all.size(), 1), request.jobs, listener, "failures",
+        [&](std::size_t i, store::Done& done) {
+            Reproducer& r = all[i];
+            Trials trials(catalogue);  // nobody else's: a minimisation waits for nothing
+            const std::string address = trials.plan_of(r.trial).jobs.front().id +
+                                        name_of(r.expected.verdict) + request.program;
+            const fs::path folder = request.folder.empty()
+                                        ? fs::path()
+                                        : request.folder / "points" / store::hash_of(address);
+            const store::FileLock lock(
+                folder, "minimises how " + std::string(r.trial.scheme->name) + " fails");
+            if (request.resume && read_back(folder, catalogue, r)) return;
+            const study::Verdict wanted = r.expected.verdict;
+            r.trial = minimised(r.trial, [&](const Trial& t) {
+                return trials(t, done).judgement.verdict == wanted;
+            });
+            r.trial.scene.name += "_minimised";
+            r.expected = trials(r.trial, done).judgement;
+            if (folder.empty()) return;
+            write_failures(folder, {r});
+        });
     return all;
 }
 
@@ -79,13 +89,16 @@ void write_failures(const fs::path& folder, const std::vector<Reproducer>& all) 
     store::make_folder(folder);
     store::must_be_writable(folder / "index.csv");
     store::Table index;
-    index.columns = {"file", "scheme", "rate", "modes", "options", "reference", "reference_modes", "outcome", "step", "detail"};
+    index.columns = {"file",      "scheme",          "rate",    "modes", "options",
+                     "reference", "reference_modes", "outcome", "step",  "detail"};
     for (const Reproducer& r : all) {
         store::write_fresh(folder / r.file, scene_text(r));
         const Settings& s = r.trial.settings;
-        index.rows.push_back({r.file, r.trial.scheme->name, store::text_of(s.sample_rate), std::to_string(s.modes),
-                              store::options_text(s.options), r.trial.reference, std::to_string(r.trial.reference_modes),
-                              name_of(r.expected.verdict), std::to_string(r.expected.step), r.expected.detail});
+        index.rows.push_back({r.file, r.trial.scheme->name, store::text_of(s.sample_rate),
+                              std::to_string(s.modes), store::options_text(s.options),
+                              r.trial.reference, std::to_string(r.trial.reference_modes),
+                              name_of(r.expected.verdict), std::to_string(r.expected.step),
+                              r.expected.detail});
     }
     store::write_fresh(folder / "index.csv", store::csv(index));
 }
@@ -107,8 +120,10 @@ std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Cat
         s.tap_rate = row_rate(s.sample_rate);
         s.modes = static_cast<int>(index.number(i, "modes"));
         std::istringstream options(index.at(i, "options"));
-        for (std::string word; options >> word;) s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
-        r.expected = {study::verdict_named(index.at(i, "outcome")), index.at(i, "detail"), static_cast<long>(index.number(i, "step"))};
+        for (std::string word; options >> word;)
+            s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
+        r.expected = {study::verdict_named(index.at(i, "outcome")), index.at(i, "detail"),
+                      static_cast<long>(index.number(i, "step"))};
         all.push_back(std::move(r));
     }
     return all;
@@ -119,14 +134,14 @@ bool still(const Fails& fails, const Trial& t) {
     try {
         validate(t.scene);
         return fails(t);
-    } catch (const std::exception&) {
-        return false;
-    }
+    } catch (const std::exception&) { return false; }
 }
 
-// The parts that are taken away, in turn: what is large goes first, and one string and something that moves it stay.
+// The parts that are taken away, in turn: what is large goes first, and one string and something
+// that moves it stay.
 bool is_removal(const Reduction& r) {
-    return r.part != Part::contact_stiffness && r.part != Part::footprint && r.part != Part::damping_term && r.part != Part::tap;
+    return r.part != Part::contact_stiffness && r.part != Part::footprint &&
+           r.part != Part::damping_term && r.part != Part::tap;
 }
 
 // The first tap alone: what fails is judged by taps of its own.
@@ -145,7 +160,8 @@ bool remove_what_can_be(Trial& t, const Fails& fails) {
         if (!is_removal(r)) continue;
         Trial x = t;
         r.apply(x.scene);
-        if (x.scene.taps.empty()) x.scene = heard_at_one_point(x.scene);  // they went with their string
+        // they went with their string
+        if (x.scene.taps.empty()) x.scene = heard_at_one_point(x.scene);
         if (!still(fails, x)) continue;
         t = std::move(x);
         left = reductions_of(t.scene);  // the others may have changed their places
@@ -163,13 +179,15 @@ long shortened(long n, long least, const std::function<bool(long)>& fails_with) 
 
 // A grid takes no modes: they would only take them from the reference.
 bool has_modes(const Trial& t) {
-    const auto five = compare::dofs_with(5, *t.scheme, t.scene, t.settings), six = compare::dofs_with(6, *t.scheme, t.scene, t.settings);
+    const auto five = compare::dofs_with(5, *t.scheme, t.scene, t.settings),
+               six = compare::dofs_with(6, *t.scheme, t.scene, t.settings);
     return five && six && five != six;
 }
 
 bool shorten(Trial& t, const Fails& fails) {
     bool shorter = false;
-    const auto try_out = [&](long& value, long least, const std::function<void(Trial&, long)>& apply) {
+    const auto try_out = [&](long& value, long least,
+                             const std::function<void(Trial&, long)>& apply) {
         const long n = shortened(value, least, [&](long k) {
             Trial x = t;
             apply(x, k);
@@ -180,7 +198,9 @@ bool shorten(Trial& t, const Fails& fails) {
         shorter = true;
     };
     long rows = std::lround(t.scene.duration * t.settings.tap_rate);
-    try_out(rows, 1, [](Trial& x, long k) { x.scene.duration = static_cast<double>(k) / x.settings.tap_rate; });
+    try_out(rows, 1, [](Trial& x, long k) {
+        x.scene.duration = static_cast<double>(k) / x.settings.tap_rate;
+    });
     if (t.settings.modes > 0 && has_modes(t)) {
         long modes = t.settings.modes;
         try_out(modes, 1, [](Trial& x, long k) { x.settings.modes = static_cast<int>(k); });
@@ -188,7 +208,8 @@ bool shorten(Trial& t, const Fails& fails) {
     for (std::size_t i = 0; i < t.settings.options.size(); ++i)
         if (t.settings.options[i].first == grid_option.name) {
             long intervals = std::atol(t.settings.options[i].second.c_str());
-            try_out(intervals, 5, [i](Trial& x, long k) { x.settings.options[i].second = std::to_string(k); });
+            try_out(intervals, 5,
+                    [i](Trial& x, long k) { x.settings.options[i].second = std::to_string(k); });
         }
     return shorter;
 }
@@ -202,7 +223,8 @@ Trial minimised(Trial t, const Fails& fails) {
     }
     t.scene = heard_at_one_point(t.scene);
     for (bool smaller = true; smaller;) {
-        smaller = remove_what_can_be(t, fails);  // while there is time and bandwidth enough to fail without
+        // while there is time and bandwidth enough to fail without
+        smaller = remove_what_can_be(t, fails);
         smaller = shorten(t, fails) || smaller;
     }
     return t;

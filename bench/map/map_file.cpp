@@ -16,35 +16,40 @@ namespace jvari::bench::map {
 namespace {
 constexpr double most_points = 1e6;  // of a map: each is a run
 
-bool is_option(const std::string& key) {
-    return key.rfind("option:", 0) == 0;
-}
+bool is_option(const std::string& key) { return key.rfind("option:", 0) == 0; }
 
-const std::map<std::string, store::Kind<double>>& plain_numbers() {  // what may stand for all points, or along an axis
+// what may stand for all points, or along an axis
+const std::map<std::string, store::Kind<double>>& plain_numbers() {
     static const std::map<std::string, store::Kind<double>> all = {
-        {"rate", store::positive("Hz")}, {"duration", store::positive("s")}, {"amplitude", store::positive()}};
+        {"rate", store::positive("Hz")},
+        {"duration", store::positive("s")},
+        {"amplitude", store::positive()}};
     return all;
 }
 
 std::string value_text(const store::Entry& e, const std::string& axis) {
     if (is_option(axis)) return e.option_text();
     if (axis == "modes") return std::to_string(store::count().read(e));
-    if (const auto plain = plain_numbers().find(axis); plain != plain_numbers().end()) return number_text(plain->second.read(e));
+    if (const auto plain = plain_numbers().find(axis); plain != plain_numbers().end())
+        return number_text(plain->second.read(e));
     return e.toml();
 }
 
 // ---- An axis
 
 std::vector<store::Key<MapAxis>> axis_keys() {
-    return {
-        store::needed("key", &MapAxis::key, store::text(), "rate, modes, duration, amplitude, option:[SCHEME:]NAME, or a key of the scene"),
-        {{"values", "values that ascend", "from ... to", "along the axis"},
-         [](MapAxis& a, const store::Entry& e) {
-             for (const store::Entry& one : e.items()) a.values.push_back(value_text(one, a.key));
-         }},
-        store::key("from", &MapAxis::from, store::positive(), "the first value", ""),
-        store::key("to", &MapAxis::to, store::positive(), "the last", ""),
-        store::key("points", &MapAxis::points, store::count(), "how many, spaced by equal ratios", "")};
+    return {store::needed(
+                "key", &MapAxis::key, store::text(),
+                "rate, modes, duration, amplitude, option:[SCHEME:]NAME, or a key of the scene"),
+            {{"values", "values that ascend", "from ... to", "along the axis"},
+             [](MapAxis& a, const store::Entry& e) {
+                 for (const store::Entry& one : e.items())
+                     a.values.push_back(value_text(one, a.key));
+             }},
+            store::key("from", &MapAxis::from, store::positive(), "the first value", ""),
+            store::key("to", &MapAxis::to, store::positive(), "the last", ""),
+            store::key("points", &MapAxis::points, store::count(),
+                       "how many, spaced by equal ratios", "")};
 }
 
 // The values between `from` and `to`.
@@ -54,9 +59,14 @@ void spread(MapAxis& a, const store::Entry& e) {
     if (a.points > most_points) e.need("points").refuse(fmt::format("at most {}", most_points));
     if (!(a.to > a.from)) e.need("to").refuse("more than from");
     for (int i = 0; i < a.points; ++i) {
-        const double x = i + 1 == a.points ? a.to : a.from * std::pow(a.to / a.from, static_cast<double>(i) / (a.points - 1));
-        const double tidy = std::strtod(fmt::format("{:.12g}", x).c_str(), nullptr);  // 1e6, and not 999999.9999999998
-        a.values.push_back(a.key == "modes" ? std::to_string(std::lround(tidy)) : number_text(tidy));
+        const double x =
+            i + 1 == a.points
+                ? a.to
+                : a.from * std::pow(a.to / a.from, static_cast<double>(i) / (a.points - 1));
+        // 1e6, and not 999999.9999999998
+        const double tidy = std::strtod(fmt::format("{:.12g}", x).c_str(), nullptr);
+        a.values.push_back(a.key == "modes" ? std::to_string(std::lround(tidy))
+                                            : number_text(tidy));
     }
 }
 
@@ -71,58 +81,72 @@ void finish(MapAxis& a, const store::Entry& e) {
     if (a.at.size() < a.values.size()) a.at.clear();
     if (std::adjacent_find(a.at.begin(), a.at.end(), std::greater_equal<>()) != a.at.end())
         e.need(listed ? "values" : "points").refuse("numbers that ascend");
-    const auto digits = [](const std::string& t) { return t.find_first_not_of("0123456789") == std::string::npos; };
-    a.whole = a.key == "modes" || (is_option(a.key) && std::all_of(a.values.begin(), a.values.end(), digits));
+    const auto digits = [](const std::string& t) {
+        return t.find_first_not_of("0123456789") == std::string::npos;
+    };
+    a.whole = a.key == "modes" ||
+              (is_option(a.key) && std::all_of(a.values.begin(), a.values.end(), digits));
 }
 
-store::Kind<MapAxis> axis() {
-    return store::table(axis_keys(), finish);
-}
+store::Kind<MapAxis> axis() { return store::table(axis_keys(), finish); }
 
 // ---- A map
 
-store::Key<Map> plain(const char* name, const std::string& says, const char* absent, const char* meaning) {
+store::Key<Map> plain(const char* name, const std::string& says, const char* absent,
+                      const char* meaning) {
     return {{name, says, absent, meaning},
-            [name = std::string(name)](Map& m, const store::Entry& e) { m.fixed.emplace_back(name, value_text(e, name)); }};
+            [name = std::string(name)](Map& m, const store::Entry& e) {
+                m.fixed.emplace_back(name, value_text(e, name));
+            }};
 }
 store::Key<Map> plain(const char* name, const char* absent, const char* meaning) {
     return plain(name, plain_numbers().at(name).says, absent, meaning);
 }
 
 std::vector<store::Key<Map>> map_keys() {
-    return {store::needed("name", &Map::name, store::name_of_file(), "what it is called"),
-            store::needed("scene", &Map::scene, store::text(), "a file, or a name of the library"),
-            store::key("schemes", &Map::schemes, store::several(store::text()), "what is run", "all that represent the scene"),
-            store::needed("x", &Map::x, axis(), "the axis along which boundaries are sought"),
-            store::key("y", &Map::y, axis(), "the other axis", "one row"),
-            plain("rate", "44100 Hz", "of all points"),
-            plain("modes", store::count().says, "the scheme's", "of all points"),
-            plain("duration", "the scene's", "of all points"),
-            plain("amplitude", "1", "scales initial shapes and plucks"),
-            {{"options", "a table: [SCHEME:]NAME = value", "", "of schemes"},
-             [](Map& m, const store::Entry& e) {
-                 for (const auto& [name, value] : e.members()) m.fixed.emplace_back("option:" + name, value.option_text());
-             }},
-            {{"set", "a table: key = value", "", "any key of the scene"},
-             [](Map& m, const store::Entry& e) {
-                 for (const auto& [name, value] : e.members()) m.fixed.emplace_back(name, value.toml());
-             }},
-            store::key("reference", &Map::reference, store::text(), "what the runs are judged by, or \"none\"",
-                       "the highest that represents the scene"),
-            store::key("reference_modes", &Map::reference_modes, store::count(), "of the reference at every point", "those of the point"),
-            store::key("refine", &Map::refine, store::count(), "bisections of each boundary along x"),
-            store::key("reproduce", &Map::reproduce, store::yes_or_no(),
-                       "false: its failures are not minimised, as those of rounding, which differ on another machine"),
-            store::key("theory", &Map::theory, store::word("theory", theories()), "a boundary that is known")};
+    return {
+        store::needed("name", &Map::name, store::name_of_file(), "what it is called"),
+        store::needed("scene", &Map::scene, store::text(), "a file, or a name of the library"),
+        store::key("schemes", &Map::schemes, store::several(store::text()), "what is run",
+                   "all that represent the scene"),
+        store::needed("x", &Map::x, axis(), "the axis along which boundaries are sought"),
+        store::key("y", &Map::y, axis(), "the other axis", "one row"),
+        plain("rate", "44100 Hz", "of all points"),
+        plain("modes", store::count().says, "the scheme's", "of all points"),
+        plain("duration", "the scene's", "of all points"),
+        plain("amplitude", "1", "scales initial shapes and plucks"),
+        {{"options", "a table: [SCHEME:]NAME = value", "", "of schemes"},
+         [](Map& m, const store::Entry& e) {
+             for (const auto& [name, value] : e.members())
+                 m.fixed.emplace_back("option:" + name, value.option_text());
+         }},
+        {{"set", "a table: key = value", "", "any key of the scene"},
+         [](Map& m, const store::Entry& e) {
+             for (const auto& [name, value] : e.members()) m.fixed.emplace_back(name, value.toml());
+         }},
+        store::key("reference", &Map::reference, store::text(),
+                   "what the runs are judged by, or \"none\"",
+                   "the highest that represents the scene"),
+        store::key("reference_modes", &Map::reference_modes, store::count(),
+                   "of the reference at every point", "those of the point"),
+        store::key("refine", &Map::refine, store::count(), "bisections of each boundary along x"),
+        store::key("reproduce", &Map::reproduce, store::yes_or_no(),
+                   "false: its failures are not minimised, as those of rounding, which differ on "
+                   "another machine"),
+        store::key("theory", &Map::theory, store::word("theory", theories()),
+                   "a boundary that is known")};
 }
 
 void hold_together(Map& m, const store::Entry& e) {
-    const double points = static_cast<double>(m.x.values.size()) * static_cast<double>(std::max<std::size_t>(1, m.y.values.size())) *
+    const double points = static_cast<double>(m.x.values.size()) *
+                          static_cast<double>(std::max<std::size_t>(1, m.y.values.size())) *
                           static_cast<double>(std::max<std::size_t>(1, m.schemes.size()));
-    if (points > most_points) e.fail(fmt::format("found {} points, expected at most {}", points, most_points));
+    if (points > most_points)
+        e.fail(fmt::format("found {} points, expected at most {}", points, most_points));
     for (const auto& [key, value] : m.fixed)
         for (const char* axis : {"x", "y"})
-            if (key == (*axis == 'x' ? m.x : m.y).key) e.need(axis).need("key").refuse("a key that is not set for all points as well");
+            if (key == (*axis == 'x' ? m.x : m.y).key)
+                e.need(axis).need("key").refuse("a key that is not set for all points as well");
     if (!m.x.at.empty()) return;
     for (const char* along_x : {"refine", "theory"})
         if (const auto v = e.at(along_x)) v->refuse("an axis x of numbers");

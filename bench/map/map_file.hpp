@@ -1,4 +1,5 @@
-// Maps of a suite file: what becomes of each scheme over two settings of one scene. map_file.cpp declares their keys.
+// Maps of a suite file: what becomes of each scheme over two settings of one scene. map_file.cpp
+// declares their keys.
 #pragma once
 
 #include <string>
@@ -9,13 +10,16 @@
 
 namespace jvari::bench::map {
 
-// "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and plucks), "option:[SCHEME:]NAME", else a key of the scene.
+// "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and plucks),
+// "option:[SCHEME:]NAME", else a key of the scene.
 struct MapAxis {
     std::string key;
-    std::vector<std::string> values;  // in TOML syntax, an option's as the scheme reads it; numbers ascend
-    std::vector<double> at;           // as numbers, between which a boundary can be sought; empty where one of them is none
-    bool whole = false;               // modes, and options given as whole numbers
-    double from = 0, to = 0;          // as the file may say its values; 0: absent, as of points
+    // in TOML syntax, an option's as the scheme reads it; numbers ascend
+    std::vector<std::string> values;
+    // as numbers, between which a boundary can be sought; empty where one of them is none
+    std::vector<double> at;
+    bool whole = false;       // modes, and options given as whole numbers
+    double from = 0, to = 0;  // as the file may say its values; 0: absent, as of points
     int points = 0;
 };
 

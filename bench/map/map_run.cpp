@@ -23,15 +23,19 @@ std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue
     const Scene scene = compare::load_scene(m.scene, {}, std::nullopt);
     for (const Descriptor* d : catalogue.schemes)
         if (represents(*d, scene)) chosen.push_back(d);
-    if (chosen.empty()) throw store::UsageError(fmt::format("map {}: no scheme represents scene {}", m.name, m.scene));
+    if (chosen.empty())
+        throw store::UsageError(
+            fmt::format("map {}: no scheme represents scene {}", m.name, m.scene));
     return chosen;
 }
 
-std::vector<PointPlace> places_of(const std::vector<Map>& maps, const compare::Catalogue& catalogue) {
+std::vector<PointPlace> places_of(const std::vector<Map>& maps,
+                                  const compare::Catalogue& catalogue) {
     std::vector<PointPlace> places;
     for (const Map& m : maps) {
         if (!m.reference.empty() && m.reference != "none") catalogue.find(m.reference);
-        const std::vector<std::string> ys = m.y.values.empty() ? std::vector<std::string>{""} : m.y.values;
+        const std::vector<std::string> ys =
+            m.y.values.empty() ? std::vector<std::string>{""} : m.y.values;
         for (const Descriptor* d : schemes_of(m, catalogue))
             for (const std::string& y : ys)
                 for (const std::string& x : m.x.values) places.push_back({&m, d, x, y});
@@ -43,19 +47,23 @@ std::string axis_text(const MapAxis& axis, double x) {
     return axis.whole ? std::to_string(std::lround(x)) : store::text_of(x);
 }
 
-// Where the theory's margin changes its sign between the ends of the axis, from its first point on where the theory has something to say.
+// Where the theory's margin changes its sign between the ends of the axis, from its first point on
+// where the theory has something to say.
 double theory_along(const PointPlace& row) {
     const MapAxis& axis = row.map->x;
     if (row.map->theory.empty() || axis.at.empty()) return std::numeric_limits<double>::quiet_NaN();
     const auto side = [&row](double x) {
         const Trial t = trial_at({row.map, row.scheme, axis_text(row.map->x, x), row.y});
         const double margin = theory_margin(row.map->theory, *t.scheme, t.scene, t.settings);
-        return std::isnan(margin) ? study::Verdict::refused : margin > 0 ? study::Verdict::sound : study::Verdict::diverged;
+        return std::isnan(margin) ? study::Verdict::refused
+               : margin > 0       ? study::Verdict::sound
+                                  : study::Verdict::diverged;
     };
     std::size_t first = 0;
     while (first + 1 < axis.at.size() && side(axis.at[first]) == study::Verdict::refused) ++first;
     const Bracket ends{axis.at[first], axis.at.back(), side(axis.at[first]), side(axis.at.back())};
-    if (ends.at_low == ends.at_high || ends.at_low == study::Verdict::refused || ends.at_high == study::Verdict::refused)
+    if (ends.at_low == ends.at_high || ends.at_low == study::Verdict::refused ||
+        ends.at_high == study::Verdict::refused)
         return std::numeric_limits<double>::quiet_NaN();
     const Bracket b = bisect(ends, 60, axis.whole, side);
     return 0.5 * (b.low + b.high);
@@ -64,14 +72,18 @@ double theory_along(const PointPlace& row) {
 void compare_with_theory(std::vector<Boundary>& all) {
     for (std::size_t i = 0; i < all.size();) {
         std::size_t end = i;
-        while (end < all.size() && all[end].map == all[i].map && all[end].scheme == all[i].scheme && all[end].y == all[i].y) ++end;
+        while (end < all.size() && all[end].map == all[i].map && all[end].scheme == all[i].scheme &&
+               all[end].y == all[i].y)
+            ++end;
         const double theory = theory_along({all[i].map, all[i].scheme, "", all[i].y});
         const auto distance = [theory](const Boundary& b) {
             if (study::is_stable(b.low) == study::is_stable(b.high)) return HUGE_VAL;
-            return std::abs(0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)) - theory);
+            return std::abs(0.5 * (store::number_of(b.x_low) + store::number_of(b.x_high)) -
+                            theory);
         };
-        const auto nearest = std::min_element(all.begin() + static_cast<long>(i), all.begin() + static_cast<long>(end),
-                                              [&](const Boundary& a, const Boundary& b) { return distance(a) < distance(b); });
+        const auto nearest = std::min_element(
+            all.begin() + static_cast<long>(i), all.begin() + static_cast<long>(end),
+            [&](const Boundary& a, const Boundary& b) { return distance(a) < distance(b); });
         if (distance(*nearest) < HUGE_VAL) nearest->theory = theory;
         i = end;
     }
@@ -93,38 +105,45 @@ double Boundary::relative_difference() const {
     return 0.5 * (store::number_of(x_low) + store::number_of(x_high)) / theory - 1;
 }
 
-MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue, const MapRequest& request,
-                const store::Listener& listener) {
+MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue,
+                const MapRequest& request, const store::Listener& listener) {
     if (maps.empty()) return {};  // no folder is made for them
     const std::vector<PointPlace> places = places_of(maps, catalogue);
-    for (const PointPlace& p : places) trial_at(p);  // scenes and keys that are none are said before anything runs
+    // scenes and keys that are none are said before anything runs
+    for (const PointPlace& p : places) trial_at(p);
     Trials trials(catalogue, request);
     std::vector<Tried> tried(places.size());
-    store::side_by_side(std::vector<double>(places.size(), 1), request.jobs, listener, "points",
-                        [&](std::size_t i, store::Done& done) { tried[i] = trials(trial_at(places[i]), done); });
+    store::side_by_side(
+        std::vector<double>(places.size(), 1), request.jobs, listener, "points",
+        [&](std::size_t i, store::Done& done) { tried[i] = trials(trial_at(places[i]), done); });
 
     std::vector<std::size_t> changes;  // between this point and the next
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         const PointPlace &p = places[i], &q = places[i + 1];
         const bool same_row = p.map == q.map && p.scheme == q.scheme && p.y == q.y;
-        if (same_row && !p.map->x.at.empty() && tried[i].judgement.verdict != tried[i + 1].judgement.verdict) changes.push_back(i);
+        if (same_row && !p.map->x.at.empty() &&
+            tried[i].judgement.verdict != tried[i + 1].judgement.verdict)
+            changes.push_back(i);
     }
     MapRun result;
     result.boundaries.resize(changes.size());
     std::vector<int> asked(changes.size());
     store::side_by_side(
-        std::vector<double>(changes.size(), 1), request.jobs, listener, "boundaries", [&](std::size_t i, store::Done& done) {
+        std::vector<double>(changes.size(), 1), request.jobs, listener, "boundaries",
+        [&](std::size_t i, store::Done& done) {
             const PointPlace &low = places[changes[i]], &high = places[changes[i] + 1];
-            const study::Verdict at_low = tried[changes[i]].judgement.verdict, at_high = tried[changes[i] + 1].judgement.verdict;
+            const study::Verdict at_low = tried[changes[i]].judgement.verdict,
+                                 at_high = tried[changes[i] + 1].judgement.verdict;
             const MapAxis& axis = low.map->x;
             asked[i] = 0;  // it may have been begun before, and have met a point that was busy
             const Bracket b =
-                bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high}, low.map->refine, axis.whole, [&](double x) {
-                    PointPlace at = low;
-                    at.x = axis_text(axis, x);
-                    ++asked[i];
-                    return trials(trial_at(at), done).judgement.verdict;
-                });
+                bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high},
+                       low.map->refine, axis.whole, [&](double x) {
+                           PointPlace at = low;
+                           at.x = axis_text(axis, x);
+                           ++asked[i];
+                           return trials(trial_at(at), done).judgement.verdict;
+                       });
             result.boundaries[i] = {low.map,
                                     low.scheme,
                                     low.y,
@@ -134,10 +153,12 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
                                     axis_text(axis, b.high),
                                     std::numeric_limits<double>::quiet_NaN()};
         });
-    for (std::size_t i = 0; i < places.size(); ++i) result.points.push_back({places[i], std::move(tried[i])});
+    for (std::size_t i = 0; i < places.size(); ++i)
+        result.points.push_back({places[i], std::move(tried[i])});
     compare_with_theory(result.boundaries);
     result.ran = trials.ran();
-    result.read_back = std::accumulate(asked.begin(), asked.end(), static_cast<int>(places.size())) - result.ran;
+    result.read_back =
+        std::accumulate(asked.begin(), asked.end(), static_cast<int>(places.size())) - result.ran;
     return result;
 }
 
@@ -157,20 +178,24 @@ double nyquist_margin(const Scene& scene, const Settings& settings) {
 std::vector<std::string> theories() {
     std::vector<std::string> names{nyquist};
     for (const Descriptor& d : schemes())
-        if (d.limit.name && std::find(names.begin(), names.end(), d.limit.name) == names.end()) names.emplace_back(d.limit.name);
+        if (d.limit.name && std::find(names.begin(), names.end(), d.limit.name) == names.end())
+            names.emplace_back(d.limit.name);
     return names;
 }
 
 std::string motion_of(const std::string& theory) {
     if (theory == "grid_limit") return "any motion: it is of the grid alone";
     if (theory == "penalty_limit")
-        return "lasting contact; where the string parts from the barrier, failures were seen to begin 16 to 71 % off";
+        return "lasting contact; where the string parts from the barrier, failures were seen to "
+               "begin 16 to 71 % off";
     return "any motion: it is of the highest mode alone";
 }
 
-double theory_margin(const std::string& name, const Descriptor& d, const Scene& scene, const Settings& settings) {
+double theory_margin(const std::string& name, const Descriptor& d, const Scene& scene,
+                     const Settings& settings) {
     if (name == nyquist) return nyquist_margin(scene, settings);
-    return d.limit.name && name == d.limit.name ? margin_of(d, scene, settings) : std::numeric_limits<double>::quiet_NaN();
+    return d.limit.name && name == d.limit.name ? margin_of(d, scene, settings)
+                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace jvari::bench::map

@@ -12,22 +12,22 @@
 namespace jvari::bench::map {
 
 namespace {
-constexpr double listening_points[] = {0.3, 0.437};  // of the length: no low mode has a node at both
+// of the length: no low mode has a node at both
+constexpr double listening_points[] = {0.3, 0.437};
 
 double worst_nut(const study::Errors& errors, const Scene& scene) {
     double worst = store::nan;
     for (std::size_t k = 0; k < errors.size(); ++k)
-        if (scene.taps[k].quantity == Quantity::nut_force) worst = std::fmax(worst, errors[k][study::measure("error_l2_whole")]);
+        if (scene.taps[k].quantity == Quantity::nut_force)
+            worst = std::fmax(worst, errors[k][study::measure("error_l2_whole")]);
     return worst;
 }
 }  // namespace
 
-double row_rate(double rate) {
-    return rate / std::max(1.0, std::round(rate / 44100));
-}
+double row_rate(double rate) { return rate / std::max(1.0, std::round(rate / 44100)); }
 
-Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::string& reference, const std::vector<Assignment>& all,
-               int reference_modes) {
+Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::string& reference,
+               const std::vector<Assignment>& all, int reference_modes) {
     Trial t{&scheme, {}, {}, reference, reference_modes};
     std::vector<std::string> overrides;
     std::optional<double> duration;
@@ -40,7 +40,8 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
         else if (key == "amplitude") amplitude = store::number_of(value);
         else if (key.rfind("option:", 0) == 0) {
             const auto o = compare::SchemeOption::of(key.substr(7), value);  // behind "option:"
-            if (o.scheme.empty() || o.scheme == scheme.name) t.settings.options.emplace_back(o.name, o.value);
+            if (o.scheme.empty() || o.scheme == scheme.name)
+                t.settings.options.emplace_back(o.name, o.value);
         } else overrides.push_back(key + "=" + value);
     }
     t.settings.tap_rate = row_rate(t.settings.sample_rate);
@@ -61,7 +62,8 @@ Scene listened(Scene scene) {
     return scene;
 }
 
-Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request) : catalogue_(catalogue), request_(request) {
+Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request)
+    : catalogue_(catalogue), request_(request) {
     if (request.folder.empty()) return;
     keep_.folder = request.folder / "points";
     keep_.resume = request.resume;
@@ -69,7 +71,8 @@ Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request) :
     store::must_be_writable(keep_.folder / "any");
 }
 
-// The references that represent the scene, or the one that is named, whatever it is: a scheme takes eight times the rate.
+// The references that represent the scene, or the one that is named, whatever it is: a scheme takes
+// eight times the rate.
 std::vector<study::ReferenceChoice> Trials::references_of(const Trial& t) const {
     std::vector<study::ReferenceChoice> choices;
     if (t.reference == "none") return choices;
@@ -80,7 +83,9 @@ std::vector<study::ReferenceChoice> Trials::references_of(const Trial& t) const 
         Settings s;
         s.sample_rate = d->clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
         s.tap_rate = t.settings.tap_rate;
-        s.modes = t.reference_modes > 0 ? t.reference_modes : t.settings.modes > 0 ? t.settings.modes : modes_for(t.scene, t.settings);
+        s.modes = t.reference_modes > 0  ? t.reference_modes
+                  : t.settings.modes > 0 ? t.settings.modes
+                                         : modes_for(t.scene, t.settings);
         study::ReferenceChoice c{d, s, ""};
         c.kept = catalogue_.is_reference(*d) && !request_.folder.empty();
         if (request_.resume) c.kept_in = request_.folder / "references";
@@ -107,7 +112,8 @@ Tried Trials::operator()(const Trial& t, const store::Done& done) {
     const study::Plan plan = plan_of(t);
     const study::Job& job = plan.jobs.front();
     if (job.judged) references_.hold(*job.point);
-    const study::Record r = study::record_of(job, references_, keep_, done, [&done](long, long) { done.look(); });
+    const study::Record r =
+        study::record_of(job, references_, keep_, done, [&done](long, long) { done.look(); });
     const double error = worst_nut(r.cell.errors, job.point->scene);
     return {r, error, study::judge(r.cell, error)};
 }

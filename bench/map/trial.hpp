@@ -1,5 +1,5 @@
-// One point of a map: a scheme at its settings on one scene, run for as long as the scene says and judged. A trial is what is varied; a job
-// of bench/study is what is run of it.
+// One point of a map: a scheme at its settings on one scene, run for as long as the scene says and
+// judged. A trial is what is varied; a job of bench/study is what is run of it.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,16 @@ struct Trial {
     const Descriptor* scheme;
     Scene scene;
     Settings settings;
-    std::string reference;    // "none"; a name; "": the first of the references that represents the scene
+    // "none"; a name; "": the first of the references that represents the scene
+    std::string reference;
     int reference_modes = 0;  // 0: those of this trial
 };
 
-// The trial that the assignments describe; keys as an axis of a map has them. `rate` is 44100 Hz unless set. Rows are taken at the rate
-// divided by the whole number that brings it nearest to 44.1 kHz. Throws SceneFileError, BadScene, UsageError.
-Trial trial_of(const std::string& scene, const Descriptor&, const std::string& reference, const std::vector<Assignment>&,
-               int reference_modes = 0);
+// The trial that the assignments describe; keys as an axis of a map has them. `rate` is 44100 Hz
+// unless set. Rows are taken at the rate divided by the whole number that brings it nearest to 44.1
+// kHz. Throws SceneFileError, BadScene, UsageError.
+Trial trial_of(const std::string& scene, const Descriptor&, const std::string& reference,
+               const std::vector<Assignment>&, int reference_modes = 0);
 
 double row_rate(double sample_rate);
 
@@ -33,10 +35,11 @@ double row_rate(double sample_rate);
 Scene listened(Scene);
 
 struct MapRequest {
-    std::string program;           // program_identity: counts into the address of what is kept
-    std::filesystem::path folder;  // DIR, in whose points/ records are kept, and references in references/; "" for nowhere
-    bool resume = false;           // what lies there is read back
-    int jobs = 0;                  // 0: as many as there are cores
+    std::string program;  // program_identity: counts into the address of what is kept
+    // DIR, in whose points/ records are kept, and references in references/; "" for nowhere
+    std::filesystem::path folder;
+    bool resume = false;  // what lies there is read back
+    int jobs = 0;         // 0: as many as there are cores
 };
 
 struct Tried {

@@ -1,5 +1,6 @@
-// What the page joins with the folder's tables: what the program says of each cell, each scene and each line. Judgements and statistics are
-// made here, once; the page's JavaScript looks them up and draws them.
+// What the page joins with the folder's tables: what the program says of each cell, each scene and
+// each line. Judgements and statistics are made here, once; the page's JavaScript looks them up and
+// draws them.
 #pragma once
 
 #include <map>
@@ -10,7 +11,8 @@
 namespace jvari::bench::report {
 
 // judged:   of each cell, trusted, may_win, run (its name in a sentence),
-//           line (its series beside the front; none where another of its scheme's numbers of modes is better)
+//           line (its series beside the front; none where another of its scheme's numbers of modes
+//           is better)
 // bounds:   row, column, shown, text: errors that are no more than bounded (compare/bound.hpp)
 // scenes:   problem, headline, certificate (of its first cell), spread and busy (of its clock)
 // cheapest: problem, then what compare::cheapest_of says, and goal ("10 %")

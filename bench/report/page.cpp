@@ -15,7 +15,8 @@
 namespace jvari::bench::report {
 
 namespace {
-// JSON that stands inside <script>: '<' occurs in its strings alone, and may be written as an escape there.
+// JSON that stands inside <script>: '<' occurs in its strings alone, and may be written as an
+// escape there.
 std::string island(const nlohmann::ordered_json& j) {
     std::string safe;
     for (const char c : j.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
@@ -33,21 +34,24 @@ std::string joined(std::initializer_list<const char*> files) {
 }  // namespace
 
 std::string shared_program() {
-    return joined({"data.js", "looks.js", "work_precision.js", "along.js", "maps.js", "sound_charts.js", "run.js", "verdict.js"});
+    return joined({"data.js", "looks.js", "work_precision.js", "along.js", "maps.js",
+                   "sound_charts.js", "run.js", "verdict.js"});
 }
 static std::string page_program() {
     return shared_program() + joined({"table.js", "view.js", "chart.js", "player.js", "page.js"});
 }
 
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts) {
-    const std::pair<const char*, std::string> parts[] = {{"@TITLE@", store::escaped(data.at("title"))},
-                                                         {"@STYLE@", page_text("page.css")},
-                                                         {"@SCRIPTS@", scripts},
-                                                         {"@DATA@", island(data)},
-                                                         {"@PROGRAM@", page_program()}};
+    const std::pair<const char*, std::string> parts[] = {
+        {"@TITLE@", store::escaped(data.at("title"))},
+        {"@STYLE@", page_text("page.css")},
+        {"@SCRIPTS@", scripts},
+        {"@DATA@", island(data)},
+        {"@PROGRAM@", page_program()}};
     std::string text;
     std::string rest = page_text("page.html");
-    for (const auto& [mark, part] : parts) {  // in the order in which they stand, so that what is put in is not looked through
+    // in the order in which they stand, so that what is put in is not looked through
+    for (const auto& [mark, part] : parts) {
         const auto at = rest.find(mark);
         text += rest.substr(0, at) + part;
         rest.erase(0, at + std::string(mark).size());
@@ -67,14 +71,16 @@ std::string playground() {
     std::error_code error;
     for (const fs::path& page : {installed("play.html"), fs::path(JVARI_SOURCE_PLAYGROUND)})
         if (fs::is_regular_file(page, error)) return store::read_whole(page);
-    throw store::UsageError("the playground has not been built: " JVARI_SOURCE_PLAYGROUND " is missing. ./play builds it");
+    throw store::UsageError("the playground has not been built: " JVARI_SOURCE_PLAYGROUND
+                            " is missing. ./play builds it");
 }
 
 std::string with_playground(const std::string& report, const std::string& play) {
-    const std::string added =
-        std::string("<details class=\"part\" id=\"playground\"><summary><h2>The string in the page</h2></summary></details>\n") +
-        "<script type=\"text/plain\" id=\"play\">" + store::base64(play) + "</script>\n<script>\n" + page_text("playground.js") +
-        "</script>\n";
+    const std::string added = std::string(
+                                  "<details class=\"part\" id=\"playground\"><summary><h2>The "
+                                  "string in the page</h2></summary></details>\n") +
+                              "<script type=\"text/plain\" id=\"play\">" + store::base64(play) +
+                              "</script>\n<script>\n" + page_text("playground.js") + "</script>\n";
     std::string whole = report;
     return whole.insert(whole.rfind("</body>"), added);
 }

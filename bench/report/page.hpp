@@ -1,5 +1,5 @@
-// The report's page: one file, no network. Its JavaScript (page/*.js) makes what is seen of the data that the page carries; the same
-// JavaScript under node makes the SVG files (vega.hpp).
+// The report's page: one file, no network. Its JavaScript (page/*.js) makes what is seen of the
+// data that the page carries; the same JavaScript under node makes the SVG files (vega.hpp).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,11 +8,13 @@
 
 namespace jvari::bench::report {
 
-// `scripts`: the chart libraries as <script> elements; "": no chart. `data`: what page/data.js describes, with its title.
+// `scripts`: the chart libraries as <script> elements; "": no chart. `data`: what page/data.js
+// describes, with its title.
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts);
 std::string shared_program();  // what node runs as well: data.js ... verdict.js
 
-// ---- The files of page/, which the build puts into the program: the page's frame, style and scripts, and its charts as Vega-Lite.
+// ---- The files of page/, which the build puts into the program: the page's frame, style and
+// scripts, and its charts as Vega-Lite.
 
 struct PageText {
     const char *name, *text;  // "page.html", what it holds

@@ -25,13 +25,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What parts of a page may weigh [bytes].
-constexpr std::size_t page_limit = 4'900'000, sounds_limit = 3'000'000, pictures_limit = 1'500'000, table_limit = 1'500'000;
+constexpr std::size_t page_limit = 4'900'000, sounds_limit = 3'000'000, pictures_limit = 1'500'000,
+                      table_limit = 1'500'000;
 constexpr double longest_heard = 4;  // [s]
 
 }  // namespace
 
 store::Table fitting(store::Table t, Json& left_out) {
-    const auto size = [](const std::vector<std::string>& fields, std::size_t k) { return fields[k].size() + 1; };
+    const auto size = [](const std::vector<std::string>& fields, std::size_t k) {
+        return fields[k].size() + 1;
+    };
     std::vector<std::pair<std::size_t, std::size_t>> columns(t.columns.size());  // bytes, which
     std::size_t all = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -43,10 +46,12 @@ store::Table fitting(store::Table t, Json& left_out) {
     std::sort(columns.rbegin(), columns.rend());
     std::vector<bool> kept(columns.size(), true);
     const auto needed = [&](const std::string& name) {
-        return std::ranges::any_of(std::initializer_list<const char*>{"problem", "series", "cell", "scene", "scheme", "options", "rate",
-                                                                      "modes", "status", "flags", "error_l2", "certificate_l2",
-                                                                      "third_octave", "cost", "ns_per", "map", "x", "y", "outcome"},
-                                   [&](const char* start) { return name.starts_with(start); });
+        return std::ranges::any_of(
+            std::initializer_list<const char*>{"problem", "series", "cell", "scene", "scheme",
+                                               "options", "rate", "modes", "status", "flags",
+                                               "error_l2", "certificate_l2", "third_octave", "cost",
+                                               "ns_per", "map", "x", "y", "outcome"},
+            [&](const char* start) { return name.starts_with(start); });
     };
     for (const auto& [bytes, k] : columns)
         if (all > table_limit && !needed(t.columns[k])) {
@@ -56,7 +61,8 @@ store::Table fitting(store::Table t, Json& left_out) {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < kept.size(); ++k)
         if (kept[k]) names.push_back(t.columns[k]);
-    left_out.push_back("The table holds the most asked-for columns; all are in the csv file beside the page.");
+    left_out.push_back(
+        "The table holds the most asked-for columns; all are in the csv file beside the page.");
     return t.only(names);
 }
 
@@ -68,11 +74,13 @@ Json measures() {
     return all;
 }
 
-Json kept_levels(const Results& r) {  // of the cells that asked for spectrograms, and of the references that were heard
+// of the cells that asked for spectrograms, and of the references that were heard
+Json kept_levels(const Results& r) {
     Json all = Json::array();
     for (std::size_t i = 0; i < r.cells.rows.size(); ++i) {
         if (r.cells.at(i, "cell").empty()) continue;
-        if (const auto kept = study::read_levels(r.folder / "cells" / (r.cells.at(i, "cell") + ".json"), "spectrogram"))
+        if (const auto kept = study::read_levels(
+                r.folder / "cells" / (r.cells.at(i, "cell") + ".json"), "spectrogram"))
             all.push_back(json_of(*kept)), all.back()["cell"] = i;
     }
     if (all.empty()) return all;
@@ -94,20 +102,24 @@ Json data_of(const Results& r) {
     data["measures"] = measures();
     data["manifest"] = Json::parse(r.manifest, nullptr, false);
     for (const auto& [name, table] : r.tables)
-        if (!table.columns.empty()) data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
+        if (!table.columns.empty())
+            data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
     const auto derived = derived_tables(r);
-    const store::Table cheapest = derived.contains("cheapest") ? derived.at("cheapest") : store::Table{};
+    const store::Table cheapest =
+        derived.contains("cheapest") ? derived.at("cheapest") : store::Table{};
     for (const auto& [name, table] : derived) data["tables"][name] = store::csv(table);
     data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
     return data;
 }
 
-void add_pictures(Json& data, const fs::path& folder, const std::vector<std::string>& own) {  // SVGs of the folder that are none of these
+// SVGs of the folder that are none of these
+void add_pictures(Json& data, const fs::path& folder, const std::vector<std::string>& own) {
     std::vector<fs::path> files;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().extension() == ".svg" && std::find(own.begin(), own.end(), entry.path().filename()) == own.end())
+        if (entry.path().extension() == ".svg" &&
+            std::find(own.begin(), own.end(), entry.path().filename()) == own.end())
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     std::size_t size = 0;
@@ -119,9 +131,12 @@ void add_pictures(Json& data, const fs::path& folder, const std::vector<std::str
             continue;
         }
         size += svg.size();
-        data["pictures"].push_back({{"name", file.stem().string()}, {"data", "data:image/svg+xml;base64," + store::base64(svg)}});
+        data["pictures"].push_back({{"name", file.stem().string()},
+                                    {"data", "data:image/svg+xml;base64," + store::base64(svg)}});
     }
-    if (!left_out.empty()) data["left_out"]["figures"].push_back("Left out for the page's size, they lie beside it:" + left_out + ".");
+    if (!left_out.empty())
+        data["left_out"]["figures"].push_back(
+            "Left out for the page's size, they lie beside it:" + left_out + ".");
 }
 }  // namespace
 
@@ -130,7 +145,11 @@ nlohmann::ordered_json empty_data(const std::string& title, const std::string& a
     Json known = none;
     for (const auto& list : {schemes(), references()})
         for (const Descriptor& d : list) known.push_back({d.name, is_control(d)});
-    Json data{{"title", title}, {"about", about}, {"schemes", known}, {"tables", Json::object()}, {"manifest", Json::object()}};
+    Json data{{"title", title},
+              {"about", about},
+              {"schemes", known},
+              {"tables", Json::object()},
+              {"manifest", Json::object()}};
     for (const char* text : {"source", "command", "missing"}) data[text] = "";
     for (const char* list : {"measures", "sounds", "levels", "pictures"}) data[list] = none;
     for (const char* of : {"cells", "sounds", "figures"}) data["left_out"][of] = none;
@@ -142,19 +161,22 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
     std::size_t excess = html.size() > limit ? html.size() - limit + 2000 : 0;
     if (excess == 0) return html;
     for (const auto& [list, field, said, what] :
-         {std::tuple("pictures", "data", "figures", "pictures"), std::tuple("sounds", "samples", "sounds", "more sounds")}) {
+         {std::tuple("pictures", "data", "figures", "pictures"),
+          std::tuple("sounds", "samples", "sounds", "more sounds")}) {
         std::size_t count = 0;
         for (Json& parts = data[list]; excess > 0 && !parts.empty(); ++count) {
             excess -= std::min(excess, parts.back().at(field).get_ref<const std::string&>().size());
             parts.erase(parts.size() - 1);
         }
         if (count > 0)
-            data["left_out"][said].push_back(fmt::format("{} {} are left out for the page's size; they lie beside it.", count, what));
+            data["left_out"][said].push_back(fmt::format(
+                "{} {} are left out for the page's size; they lie beside it.", count, what));
     }
     return page_of(data, scripts);
 }
 
-std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener, double width) {
+std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener,
+                                      double width) {
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
     Json data = data_of(results);
@@ -176,7 +198,8 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
         data["missing"] = vega.missing;
     }
     add_pictures(data, folder, written);
-    store::write_fresh(folder / "report.html", fitting_page_of(std::move(data), scripts, page_limit));
+    store::write_fresh(folder / "report.html",
+                       fitting_page_of(std::move(data), scripts, page_limit));
     written.emplace_back("report.html");
     return written;
 }

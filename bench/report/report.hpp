@@ -1,4 +1,5 @@
-// From what lies in a folder of compare, suite or trim: report.html beside it, and each of its charts as a picture.
+// From what lies in a folder of compare, suite or trim: report.html beside it, and each of its
+// charts as a picture.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +14,24 @@
 
 namespace jvari::bench::report {
 
-// Returns the names of the files written. Without node or its packages the page comes with tables and sounds alone, the pictures not at
-// all, and a note says what is missing. `width` of the pictures [mm]; 0: a plot of 760 pixels. Throws UsageError where the folder does not
-// hold results or they cannot be read.
-std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Listener&, double width = 0);
+// Returns the names of the files written. Without node or its packages the page comes with tables
+// and sounds alone, the pictures not at all, and a note says what is missing. `width` of the
+// pictures [mm]; 0: a plot of 760 pixels. Throws UsageError where the folder does not hold results
+// or they cannot be read.
+std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Listener&,
+                                      double width = 0);
 
-// A table that is too large goes without the columns that take most room, those that charts need excepted.
+// A table that is too large goes without the columns that take most room, those that charts need
+// excepted.
 store::Table fitting(store::Table, nlohmann::ordered_json& left_out);
-// The page in less than `limit` bytes: pictures, then sounds are left out from the last on, and the page says so.
-std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts, std::size_t limit);
+// The page in less than `limit` bytes: pictures, then sounds are left out from the last on, and the
+// page says so.
+std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts,
+                            std::size_t limit);
 
-// The data of a page with nothing in it: a title, what it is about, the schemes and references that there are (name, is it a control; in
-// the order of their registry), and empty tables, sounds, levels and pictures.
+// The data of a page with nothing in it: a title, what it is about, the schemes and references that
+// there are (name, is it a control; in the order of their registry), and empty tables, sounds,
+// levels and pictures.
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
 
 }  // namespace jvari::bench::report

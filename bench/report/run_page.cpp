@@ -30,8 +30,10 @@ Table wave_of(std::span<const double> x, double rate) {
     const long rows = static_cast<long>(x.size()), count = std::min(rows, most_points);
     for (long k = 0; k < count; ++k) {
         const long from = k * rows / count;
-        const auto [least, most] = std::minmax_element(x.begin() + from, x.begin() + (k + 1) * rows / count);
-        t.rows.push_back({short_text(static_cast<double>(from) / rate), short_text(*least), short_text(*most)});
+        const auto [least, most] =
+            std::minmax_element(x.begin() + from, x.begin() + (k + 1) * rows / count);
+        t.rows.push_back(
+            {short_text(static_cast<double>(from) / rate), short_text(*least), short_text(*most)});
     }
     return t;
 }
@@ -43,32 +45,35 @@ Table spectrum_of(std::span<const double> x, double rate) {  // the strongest bi
     std::vector<double> strongest(bands, 0);
     for (std::size_t k = 1; k < s.power.size(); ++k)
         if (const double hz = static_cast<double>(k) * s.bin_hz; hz >= lowest && hz <= rate / 2) {
-            double& level = strongest[static_cast<std::size_t>(std::min<double>(bands - 1, bands * std::log(hz / lowest) / span))];
+            double& level = strongest[static_cast<std::size_t>(
+                std::min<double>(bands - 1, bands * std::log(hz / lowest) / span))];
             level = std::max(level, s.power[k]);
         }
     const double most = *std::max_element(strongest.begin(), strongest.end());
     Table t{{"f", "level"}, {}};
     for (int k = 0; k < bands; ++k)
         if (const double p = strongest[static_cast<std::size_t>(k)]; p > 0)
-            t.rows.push_back(
-                {short_text(lowest * std::exp(span * (k + 0.5) / bands)), short_text(std::max(-140.0, 10 * std::log10(p / most)))});
+            t.rows.push_back({short_text(lowest * std::exp(span * (k + 0.5) / bands)),
+                              short_text(std::max(-140.0, 10 * std::log10(p / most)))});
     return t;
 }
 
 Table ledger_of(const Trace& trace) {
     const long count = std::min(trace.rows, most_points);
-    const auto stored = trace.energy_column(0), supplied = trace.energy_column(1), dissipated = trace.energy_column(2);
+    const auto stored = trace.energy_column(0), supplied = trace.energy_column(1),
+               dissipated = trace.energy_column(2);
     Table t{{"t", "stored", "supplied", "dissipated"}, {}};
     double in = 0, out = 0;
     std::size_t row = 0;
     for (long k = 0; k < count; ++k) {
-        for (const auto until = static_cast<std::size_t>((k + 1) * trace.rows / count); row < until; ++row) {
+        for (const auto until = static_cast<std::size_t>((k + 1) * trace.rows / count); row < until;
+             ++row) {
             if (row == 0) continue;  // the sums are over the interval that ends at a row
             in += supplied[row];
             out += dissipated[row];
         }
-        t.rows.push_back(
-            {short_text(static_cast<double>(row - 1) / trace.tap_rate), short_text(stored[row - 1]), short_text(in), short_text(out)});
+        t.rows.push_back({short_text(static_cast<double>(row - 1) / trace.tap_rate),
+                          short_text(stored[row - 1]), short_text(in), short_text(out)});
     }
     return t;
 }
@@ -79,21 +84,28 @@ Table contacts_of(const DrawnRun& r, Json& said) {
     std::size_t count = 0;
     const double rate = r.trace.tap_rate;
     for (int k = 0; k < r.trace.taps(); ++k) {
-        if (r.scene.taps.at(static_cast<std::size_t>(k)).quantity != Quantity::bridge_force) continue;
+        if (r.scene.taps.at(static_cast<std::size_t>(k)).quantity != Quantity::bridge_force)
+            continue;
         const auto force = r.trace.column(k);
         for (std::size_t n = 0; n < force.size(); ++n) {
             if (force[n] == 0) continue;  // the mean over the interval that ends at the row
             const std::size_t first = n;
             while (n + 1 < force.size() && force[n + 1] != 0) ++n;
-            const double from = (static_cast<double>(first) - 1) / rate, to = static_cast<double>(n) / rate;
+            const double from = (static_cast<double>(first) - 1) / rate,
+                         to = static_cast<double>(n) / rate;
             sum += to - from;
-            if (++count <= most_contacts) t.rows.push_back({r.trace.names[static_cast<std::size_t>(k)], short_text(from), short_text(to)});
+            if (++count <= most_contacts)
+                t.rows.push_back(
+                    {r.trace.names[static_cast<std::size_t>(k)], short_text(from), short_text(to)});
         }
     }
     const double until = static_cast<double>(r.trace.rows - 1) / rate;
-    said = {{"until", until},
-            {"title", fmt::format("contact: {} times, {:.2g} % of the time{}", count, 100 * sum / until,
-                                  count > most_contacts ? fmt::format("; the first {} are drawn", most_contacts) : "")}};
+    said = {
+        {"until", until},
+        {"title",
+         fmt::format(
+             "contact: {} times, {:.2g} % of the time{}", count, 100 * sum / until,
+             count > most_contacts ? fmt::format("; the first {} are drawn", most_contacts) : "")}};
     return t;
 }
 
@@ -110,13 +122,19 @@ Json run_data(const DrawnRun& r) {
     Json taps = Json::array(), contact;
     std::vector<int> order;  // contact forces first
     for (int k = 0; k < t.taps(); ++k) order.push_back(k);
-    const auto quantity = [&r](int k) { return r.scene.taps.at(static_cast<std::size_t>(k)).quantity; };
-    std::stable_partition(order.begin(), order.end(), [&](int k) { return quantity(k) == Quantity::bridge_force; });
-    const auto add = [&data](const std::string& name, const Table& table) { data["tables"][name] = store::csv(table); };
+    const auto quantity = [&r](int k) {
+        return r.scene.taps.at(static_cast<std::size_t>(k)).quantity;
+    };
+    std::stable_partition(order.begin(), order.end(),
+                          [&](int k) { return quantity(k) == Quantity::bridge_force; });
+    const auto add = [&data](const std::string& name, const Table& table) {
+        data["tables"][name] = store::csv(table);
+    };
     for (const int k : order) {
         add("waves_" + std::to_string(taps.size()), wave_of(t.column(k), t.tap_rate));
-        taps.push_back(
-            {{"name", t.names[static_cast<std::size_t>(k)]}, {"quantity", name_of(quantity(k))}, {"unit", unit_of(quantity(k))}});
+        taps.push_back({{"name", t.names[static_cast<std::size_t>(k)]},
+                        {"quantity", name_of(quantity(k))},
+                        {"unit", unit_of(quantity(k))}});
     }
     const int tap = t.taps() > 0 ? heard_tap(r) : 0;
     std::string heard;
@@ -124,9 +142,13 @@ Json run_data(const DrawnRun& r) {
         heard = t.names[static_cast<std::size_t>(tap)];
         add("spectrum", spectrum_of(t.column(tap), t.tap_rate));
         data["levels"].push_back(json_of(study::levels_of(t.column(tap), t.tap_rate)));
-        if (const store::Sound sound = store::sound_of(t.column(tap), t.tap_rate); !sound.samples.empty()) {
+        if (const store::Sound sound = store::sound_of(t.column(tap), t.tap_rate);
+            !sound.samples.empty()) {
             Json one = json_of(sound, longest_kept);
-            one.update({{"name", r.scheme}, {"tap", heard}, {"quantity", name_of(quantity(tap))}, {"problem", ""}});
+            one.update({{"name", r.scheme},
+                        {"tap", heard},
+                        {"quantity", name_of(quantity(tap))},
+                        {"problem", ""}});
             data["sounds"].push_back(std::move(one));
         }
     }
@@ -136,7 +158,11 @@ Json run_data(const DrawnRun& r) {
         open = fmt::format("{:.1e}", energy_balance(t).accumulated);
     }
     add("contacts", contacts_of(r, contact));
-    data["run"] = {{"scheme", r.scheme}, {"taps", taps}, {"heard", heard}, {"contact", contact}, {"ledger_open", open}};
+    data["run"] = {{"scheme", r.scheme},
+                   {"taps", taps},
+                   {"heard", heard},
+                   {"contact", contact},
+                   {"ledger_open", open}};
     return data;
 }
 

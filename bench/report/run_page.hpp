@@ -1,5 +1,6 @@
-// One run, one picture: its taps over time, spectrum and spectrogram of the first of them, the energy ledger where it was probed, when the
-// string touched; and its sound. Here are the numbers; page/run.js draws them.
+// One run, one picture: its taps over time, spectrum and spectrogram of the first of them, the
+// energy ledger where it was probed, when the string touched; and its sound. Here are the numbers;
+// page/run.js draws them.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -13,10 +13,11 @@ namespace jvari::bench::report {
 nlohmann::ordered_json json_of(const study::Levels&);
 nlohmann::ordered_json json_of(const store::Sound&, double longest);  // [s]
 
-std::filesystem::path sound_file(const Results&, std::size_t row);  // of sounds.csv; throws UsageError where it is not below the folder
+// of sounds.csv; throws UsageError where it is not below the folder
+std::filesystem::path sound_file(const Results&, std::size_t row);
 // The sounds of the folder that fit into `limit` bytes:
 // references, runs that are the cheapest within an accuracy, highest rates, lowest rates, the rest.
-nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, double longest, std::size_t limit,
-                             nlohmann::ordered_json& left_out);
+nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, double longest,
+                             std::size_t limit, nlohmann::ordered_json& left_out);
 
 }  // namespace jvari::bench::report

@@ -1,4 +1,5 @@
-// The npm packages that draw: vega, vega-lite, vega-embed, installed by `npm ci` at the root of the sources.
+// The npm packages that draw: vega, vega-lite, vega-embed, installed by `npm ci` at the root of the
+// sources.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -29,7 +30,8 @@ Drawn draw(const Vega&, const nlohmann::ordered_json& data);
 constexpr double pixels_per_mm = 96 / 25.4;  // of SVG
 double width_of(const std::string& text);    // "85mm", "3.3in" [mm]; throws UsageError
 
-// Text that stands inside <script> without ending it: within a string or a regular expression "<\/script" says the same as "</script".
+// Text that stands inside <script> without ending it: within a string or a regular expression
+// "<\/script" says the same as "</script".
 std::string inside_script(std::string);
 
 }  // namespace jvari::bench::report

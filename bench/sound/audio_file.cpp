@@ -18,45 +18,50 @@
 namespace jvari::bench::sound {
 
 namespace {
-constexpr double slowest_played = 3000, fastest_played = 384000;  // [Hz], a whole number: what players take
-constexpr double most_bytes = 4e9;                                // a .wav counts its bytes in 32 bits
-constexpr double steady = 20;                                     // [Hz]
-constexpr double de_emphasis = 50e-6;                             // [s]
-constexpr double peak_of_full_scale = -1;                         // [dB]
+// [Hz], a whole number: what players take
+constexpr double slowest_played = 3000, fastest_played = 384000;
+// a .wav counts its bytes in 32 bits
+constexpr double most_bytes = 4e9;
+constexpr double steady = 20;              // [Hz]
+constexpr double de_emphasis = 50e-6;      // [s]
+constexpr double peak_of_full_scale = -1;  // [dB]
 
-double decibels(double ratio) {
-    return 20 * std::log10(ratio);
-}
+double decibels(double ratio) { return 20 * std::log10(ratio); }
 
 bool is_driven(const Scene& scene) {
-    return std::any_of(scene.strings.begin(), scene.strings.end(), [](const String& s) { return !lacks(s, Quantity::driving_force); });
+    return std::any_of(scene.strings.begin(), scene.strings.end(),
+                       [](const String& s) { return !lacks(s, Quantity::driving_force); });
 }
 }  // namespace
 
-bool is_audio(const std::filesystem::path& path) {
-    return path.extension() == ".wav";
-}
+bool is_audio(const std::filesystem::path& path) { return path.extension() == ".wav"; }
 
 Scene audible(Scene scene) {
-    const Tap bridge{"bridge", Quantity::driving_force, {}, 0}, nut{"nut", Quantity::nut_force, {}, 0};
+    const Tap bridge{"bridge", Quantity::driving_force, {}, 0},
+        nut{"nut", Quantity::nut_force, {}, 0};
     scene.taps.clear();
     if (scene.body && !scene.body->bridge.empty() && is_driven(scene)) scene.taps.push_back(bridge);
     if (scene.body && !scene.body->nut.empty()) scene.taps.push_back(nut);
     if (!scene.taps.empty()) return scene;
-    scene = unfiltered(std::move(scene));  // its one response, if any, is of a bridge that nothing touches
+    // its one response, if any, is of a bridge that nothing touches
+    scene = unfiltered(std::move(scene));
     scene.taps = {is_driven(scene) ? bridge : nut};
     return scene;
 }
 
-Player::Player(std::filesystem::path path, const Scene& scene, double tap_rate) : path_(std::move(path)) {
+Player::Player(std::filesystem::path path, const Scene& scene, double tap_rate)
+    : path_(std::move(path)) {
     const std::string out = "--out " + path_.string();
     if (tap_rate != std::round(tap_rate) || tap_rate < slowest_played || tap_rate > fastest_played)
-        throw store::UsageError(fmt::format("{}: players take a whole number of rows per second from {} to {}, not {}: say --tap-rate", out,
-                                            slowest_played, fastest_played, tap_rate));
+        throw store::UsageError(
+            fmt::format("{}: players take a whole number of rows per second from {} to {}, not {}: "
+                        "say --tap-rate",
+                        out, slowest_played, fastest_played, tap_rate));
     const double bytes = scene.duration * tap_rate * static_cast<double>(scene.taps.size()) * 3;
     if (bytes > most_bytes)
-        throw store::UsageError(
-            fmt::format("{}: a .wav holds at most {:.0e} bytes, this would be {:.1e}. A .csv holds them", out, most_bytes, bytes));
+        throw store::UsageError(fmt::format(
+            "{}: a .wav holds at most {:.0e} bytes, this would be {:.1e}. A .csv holds them", out,
+            most_bytes, bytes));
     body_ = body_responses(scene, tap_rate);
     store::must_be_writable(path_);
 }
@@ -65,7 +70,8 @@ std::vector<double> without_steady(std::span<const double> force, double rate) {
     const double keep = std::exp(-2 * std::numbers::pi * steady / rate);
     std::vector<double> out;
     double moving = 0;
-    for (std::size_t n = 0; n < force.size(); ++n) out.push_back(moving = keep * (moving + (n > 0 ? force[n] - force[n - 1] : 0)));
+    for (std::size_t n = 0; n < force.size(); ++n)
+        out.push_back(moving = keep * (moving + (n > 0 ? force[n] - force[n - 1] : 0)));
     return out;
 }
 
@@ -81,7 +87,8 @@ Played levelled(std::vector<std::vector<double>> channels) {
     Played p{std::move(channels)};
     long samples = 0;
     for (const auto& channel : p.channels)
-        for (const double v : channel) p.peak = std::isfinite(v) ? std::max(p.peak, std::abs(v)) : HUGE_VAL;
+        for (const double v : channel)
+            p.peak = std::isfinite(v) ? std::max(p.peak, std::abs(v)) : HUGE_VAL;
     if (!(p.peak > 0) || std::isinf(p.peak)) {
         for (auto& channel : p.channels) std::ranges::fill(channel, 0.0);
         return {std::move(p.channels)};
@@ -102,12 +109,13 @@ Played levelled(std::vector<std::vector<double>> channels) {
 
 std::string level_text(const Played& p) {
     if (!(p.full_scale > 0)) return "silence";
-    return fmt::format("full scale {:.3g} N, peak {:.1f} dB, rms {:.1f} dB, {} samples clipped", p.full_scale, decibels(p.peak),
-                       decibels(p.rms), p.clipped);
+    return fmt::format("full scale {:.3g} N, peak {:.1f} dB, rms {:.1f} dB, {} samples clipped",
+                       p.full_scale, decibels(p.peak), decibels(p.rms), p.clipped);
 }
 
 namespace {
-void write_frames(const std::filesystem::path& path, double rate, const std::vector<std::vector<double>>& channels) {
+void write_frames(const std::filesystem::path& path, double rate,
+                  const std::vector<std::vector<double>>& channels) {
     SF_INFO info{};
     info.samplerate = static_cast<int>(std::lround(rate));
     info.channels = static_cast<int>(channels.size());
@@ -121,7 +129,8 @@ void write_frames(const std::filesystem::path& path, double rate, const std::vec
     for (std::size_t n = 0; n < rows; ++n)
         for (const auto& channel : channels) frames.push_back(channel[n]);
     errno = 0;
-    const bool good = sf_writef_double(file, frames.data(), static_cast<sf_count_t>(rows)) == static_cast<sf_count_t>(rows);
+    const bool good = sf_writef_double(file, frames.data(), static_cast<sf_count_t>(rows)) ==
+                      static_cast<sf_count_t>(rows);
     const int reason = errno;
     if (sf_close(file) != 0 || !good) {
         const int why = good ? errno : reason;
@@ -130,7 +139,8 @@ void write_frames(const std::filesystem::path& path, double rate, const std::vec
 }
 }  // namespace
 
-void write_audio(const std::filesystem::path& path, double rate, const std::vector<std::vector<double>>& channels) {
+void write_audio(const std::filesystem::path& path, double rate,
+                 const std::vector<std::vector<double>>& channels) {
     store::FreshFile fresh(path);
     try {
         write_frames(fresh.path(), rate, channels);
@@ -144,7 +154,8 @@ std::string Player::write(const Trace& trace) const {
     std::vector<std::vector<double>> channels;
     if (body_.empty()) channels.push_back(without_body(trace.column(0), trace.tap_rate));
     for (std::size_t k = 0; k < body_.size(); ++k)
-        channels.push_back(convolved(without_steady(trace.column(static_cast<int>(k)), trace.tap_rate), body_[k]));
+        channels.push_back(
+            convolved(without_steady(trace.column(static_cast<int>(k)), trace.tap_rate), body_[k]));
     const Played p = levelled(std::move(channels));
     write_audio(path_, trace.tap_rate, p.channels);
     return level_text(p);

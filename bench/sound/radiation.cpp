@@ -13,19 +13,23 @@ namespace jvari::bench::sound {
 
 namespace {
 constexpr double longest = 10;  // [s]
-constexpr int margin = 64;      // rows of silence at both ends, for what the resampler rings ahead of a response that begins at once
+// rows of silence at both ends, for what the resampler rings ahead of a response that begins at
+// once
+constexpr int margin = 64;
 
 std::vector<float> resampled(std::vector<float> x, double ratio) {
     x.insert(x.begin(), margin, 0.0f);
     x.insert(x.end(), margin, 0.0f);
-    std::vector<float> y(static_cast<std::size_t>(std::ceil(static_cast<double>(x.size()) * ratio)) + 1);
+    std::vector<float> y(
+        static_cast<std::size_t>(std::ceil(static_cast<double>(x.size()) * ratio)) + 1);
     SRC_DATA data{};
     data.data_in = x.data();
     data.data_out = y.data();
     data.input_frames = static_cast<long>(x.size());
     data.output_frames = static_cast<long>(y.size());
     data.src_ratio = ratio;
-    if (const int error = src_simple(&data, SRC_SINC_BEST_QUALITY, 1); error != 0) throw std::runtime_error(src_strerror(error));
+    if (const int error = src_simple(&data, SRC_SINC_BEST_QUALITY, 1); error != 0)
+        throw std::runtime_error(src_strerror(error));
     y.resize(static_cast<std::size_t>(data.output_frames_gen));
     return y;
 }
@@ -35,13 +39,15 @@ struct RadiatingEnd {  // where strings pull at a body
     const char* key;  // of a scene
     std::string Body::*response;
 };
-constexpr RadiatingEnd ends[] = {{Quantity::driving_force, "body.bridge", &Body::bridge}, {Quantity::nut_force, "body.nut", &Body::nut}};
+constexpr RadiatingEnd ends[] = {{Quantity::driving_force, "body.bridge", &Body::bridge},
+                                 {Quantity::nut_force, "body.nut", &Body::nut}};
 }  // namespace
 
 std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key) {
     const auto refuse = [&](const std::string& why) {
         throw store::UsageError(
-            fmt::format("{}: found \"{}\", {}; expected a .wav of one channel and at most {:g} s", key, file, why, longest));
+            fmt::format("{}: found \"{}\", {}; expected a .wav of one channel and at most {:g} s",
+                        key, file, why, longest));
     };
     const store::Signal sound = store::read_signal(file, refuse);
     if (sound.samples.empty()) refuse("which is empty");
@@ -49,7 +55,8 @@ std::vector<double> impulse_response(const std::string& file, double rate, const
     std::vector<float> samples(sound.samples.begin(), sound.samples.end());
     const double ratio = rate / sound.rate;
     if (ratio != 1) {
-        if (!src_is_valid_ratio(ratio)) refuse(fmt::format("whose {} Hz cannot become {:g} Hz", sound.rate, rate));
+        if (!src_is_valid_ratio(ratio))
+            refuse(fmt::format("whose {} Hz cannot become {:g} Hz", sound.rate, rate));
         samples = resampled(samples, ratio);
     }
     std::vector<double> response;

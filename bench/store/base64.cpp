@@ -15,8 +15,11 @@ std::string base64(std::string_view bytes) {
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t three = 0;
-        for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : alphabet[three >> (18 - 6 * k) & 63];
+        for (std::size_t k = 0; k < 3; ++k)
+            three =
+                three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k > bytes.size() ? '=' : alphabet[three >> (18 - 6 * k) & 63];
     }
     return text;
 }
@@ -45,7 +48,8 @@ std::string bytes_of_base64(std::string_view text) {
             if (v < 0) throw std::runtime_error("no base64: it holds other letters");
             three = three << 6 | static_cast<std::uint32_t>(v);
         }
-        for (std::size_t k = 0; k + 1 < letters; ++k) bytes += static_cast<char>(three >> (16 - 8 * k) & 255);
+        for (std::size_t k = 0; k + 1 < letters; ++k)
+            bytes += static_cast<char>(three >> (16 - 8 * k) & 255);
     }
     return bytes;
 }
@@ -54,7 +58,8 @@ std::vector<std::int16_t> samples_of_base64(std::string_view text) {
     const std::string bytes = bytes_of_base64(text);
     std::vector<std::int16_t> samples;
     for (std::size_t n = 0; n + 1 < bytes.size(); n += 2)
-        samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) | static_cast<unsigned char>(bytes[n + 1]) << 8));
+        samples.push_back(static_cast<std::int16_t>(static_cast<unsigned char>(bytes[n]) |
+                                                    static_cast<unsigned char>(bytes[n + 1]) << 8));
     return samples;
 }
 

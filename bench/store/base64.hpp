@@ -10,8 +10,10 @@
 namespace jvari::bench::store {
 
 std::string base64(std::string_view bytes);
-std::string base64(std::span<const std::int16_t> samples);  // least significant byte first, as in a .wav
-std::string bytes_of_base64(std::string_view text);         // throws std::runtime_error where the text is none
+// least significant byte first, as in a .wav
+std::string base64(std::span<const std::int16_t> samples);
+// throws std::runtime_error where the text is none
+std::string bytes_of_base64(std::string_view text);
 std::vector<std::int16_t> samples_of_base64(std::string_view text);
 
 }  // namespace jvari::bench::store

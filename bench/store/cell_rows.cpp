@@ -25,12 +25,14 @@ std::vector<std::string> swept_keys(const Table& cells) {
     return {cells.columns.begin() + from + 1, cells.columns.begin() + to};
 }
 
-std::vector<Rows> alike(const Table& cells, const Rows& rows, const std::vector<std::string>& columns) {
+std::vector<Rows> alike(const Table& cells, const Rows& rows,
+                        const std::vector<std::string>& columns) {
     std::vector<std::pair<std::vector<std::string>, Rows>> groups;
     for (const std::size_t row : rows) {
         std::vector<std::string> key;
         for (const std::string& name : columns) key.push_back(cells.at(row, name));
-        auto it = std::find_if(groups.begin(), groups.end(), [&key](const auto& g) { return g.first == key; });
+        auto it = std::find_if(groups.begin(), groups.end(),
+                               [&key](const auto& g) { return g.first == key; });
         if (it == groups.end()) it = groups.insert(groups.end(), {key, {}});
         it->second.push_back(row);
     }
@@ -39,7 +41,8 @@ std::vector<Rows> alike(const Table& cells, const Rows& rows, const std::vector<
     return all;
 }
 
-std::vector<Rows> differing_in_rate(const Table& cells, const Rows& rows, const std::vector<std::string>& naming) {
+std::vector<Rows> differing_in_rate(const Table& cells, const Rows& rows,
+                                    const std::vector<std::string>& naming) {
     std::vector<Rows> all;
     for (const Rows& group : alike(cells, rows, naming)) {
         std::set<std::string> rates;
@@ -54,7 +57,8 @@ std::vector<Rows> differing_in_rate(const Table& cells, const Rows& rows, const 
 std::string run_name(const Table& cells, std::size_t row) {
     std::string name = variant_name(cells.at(row, "scheme"), cells.at(row, "options"));
     const bool grid = cells.number(row, "fact_grid_intervals") > 0;
-    if (const std::string& modes = cells.at(row, "modes"); !grid && !modes.empty()) name += ", " + modes + " modes";
+    if (const std::string& modes = cells.at(row, "modes"); !grid && !modes.empty())
+        name += ", " + modes + " modes";
     const double rate = cells.number(row, "rate");
     return std::isnan(rate) ? name : name + fmt::format(" at {:.4g} kHz", rate / 1000);
 }

@@ -26,12 +26,16 @@ std::string hash_of_file(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) return "cannot be read";
     std::string hash, part(1 << 20, '\0');
-    for (int k = 0; k < most_parts && stream.read(part.data(), static_cast<std::streamsize>(part.size())).gcount() > 0; ++k)
+    for (int k = 0;
+         k < most_parts &&
+         stream.read(part.data(), static_cast<std::streamsize>(part.size())).gcount() > 0;
+         ++k)
         hash = hash_of(hash + part.substr(0, static_cast<std::size_t>(stream.gcount())));
     std::error_code error;
     if (stream.peek() != std::ifstream::traits_type::eof())
-        hash += fmt::format(" {} {}", std::filesystem::file_size(path, error),
-                            std::filesystem::last_write_time(path, error).time_since_epoch().count());
+        hash +=
+            fmt::format(" {} {}", std::filesystem::file_size(path, error),
+                        std::filesystem::last_write_time(path, error).time_since_epoch().count());
     return hash;
 }
 

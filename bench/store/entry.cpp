@@ -13,7 +13,8 @@ void Entry::refuse(const std::string& expected) const {
 }
 
 void Entry::fail(const std::string& why) const {
-    throw SceneFileError(document_->place(value_->place) + ": " + (key_.empty() ? "" : key_ + ": ") + why);
+    throw SceneFileError(document_->place(value_->place) + ": " +
+                         (key_.empty() ? "" : key_ + ": ") + why);
 }
 
 std::optional<Entry> Entry::at(const std::string& name) const {
@@ -38,7 +39,8 @@ std::vector<std::pair<std::string, Entry>> Entry::members() const {
     const auto* table = std::get_if<TomlTable>(&value_->content);
     if (!table) refuse("a table");
     std::vector<std::pair<std::string, Entry>> all;
-    for (const Member& m : *table) all.emplace_back(m.key, Entry(*document_, m.value, below(m.key)));
+    for (const Member& m : *table)
+        all.emplace_back(m.key, Entry(*document_, m.value, below(m.key)));
     return all;
 }
 
@@ -53,7 +55,8 @@ std::vector<Entry> Entry::tables(const std::string& expected) const {
     const auto* array = std::get_if<Array>(&value_->content);
     if (!array) refuse(expected);
     std::vector<Entry> all;
-    for (std::size_t i = 0; i < array->size(); ++i) all.emplace_back(*document_, (*array)[i], below(std::to_string(i)));
+    for (std::size_t i = 0; i < array->size(); ++i)
+        all.emplace_back(*document_, (*array)[i], below(std::to_string(i)));
     return all;
 }
 
@@ -68,9 +71,7 @@ std::optional<double> Entry::number() const {
     return {};
 }
 
-std::optional<std::int64_t> Entry::whole() const {
-    return value_->whole();
-}
+std::optional<std::int64_t> Entry::whole() const { return value_->whole(); }
 
 bool Entry::truth() const {
     if (const auto* b = std::get_if<bool>(&value_->content)) return *b;
@@ -80,7 +81,9 @@ bool Entry::truth() const {
 std::string Entry::toml() const {
     if (is_text()) return quote(text());
     if (const auto* x = std::get_if<double>(&value_->content)) return number_text(*x);
-    if (std::holds_alternative<TomlTable>(value_->content) || std::holds_alternative<Moment>(value_->content)) refuse("a value");
+    if (std::holds_alternative<TomlTable>(value_->content) ||
+        std::holds_alternative<Moment>(value_->content))
+        refuse("a value");
     if (!is_array()) return value_->found();
     std::string all;
     for (const Entry& item : tables("")) all += (all.empty() ? "" : ", ") + item.toml();

@@ -1,4 +1,5 @@
-// A value of a suite file and the way to it, so that what is wrong is said with file, line and key as in scenes.
+// A value of a suite file and the way to it, so that what is wrong is said with file, line and key
+// as in scenes.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +14,21 @@ namespace jvari::bench::store {
 
 class Entry {
 public:
-    Entry(const Document& document, const Value& value, std::string key) : document_(&document), value_(&value), key_(std::move(key)) {}
+    Entry(const Document& document, const Value& value, std::string key)
+        : document_(&document), value_(&value), key_(std::move(key)) {}
 
-    [[noreturn]] void refuse(const std::string& expected) const;  // "a.toml:3: cells.0.rates: found -1, expected a number > 0 [Hz]"
-    [[noreturn]] void fail(const std::string& why) const;         // "a.toml:3: cells.0: the key scenes is missing"
+    // "a.toml:3: cells.0.rates: found -1, expected a number > 0 [Hz]"
+    [[noreturn]] void refuse(const std::string& expected) const;
+    // "a.toml:3: cells.0: the key scenes is missing"
+    [[noreturn]] void fail(const std::string& why) const;
 
     std::optional<Entry> at(const std::string& name) const;  // of a table
     Entry need(const std::string& name) const;
-    void only(const std::vector<std::string>& known) const;        // it is a table, with these keys alone
-    std::vector<std::pair<std::string, Entry>> members() const;    // of a table
-    std::vector<Entry> items() const;                              // one value, or an array of at least one
+    // it is a table, with these keys alone
+    void only(const std::vector<std::string>& known) const;
+    std::vector<std::pair<std::string, Entry>> members() const;  // of a table
+    // one value, or an array of at least one
+    std::vector<Entry> items() const;
     std::vector<Entry> tables(const std::string& expected) const;  // an array, whatever its length
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
     bool is_array() const { return std::holds_alternative<Array>(value_->content); }
@@ -35,7 +41,9 @@ public:
     std::string option_text() const;  // as a scheme reads its option
 
 private:
-    std::string below(const std::string& name) const { return key_.empty() ? name : key_ + "." + name; }
+    std::string below(const std::string& name) const {
+        return key_.empty() ? name : key_ + "." + name;
+    }
 
     const Document* document_;
     const Value* value_;

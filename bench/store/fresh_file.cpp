@@ -19,7 +19,8 @@ namespace jvari::bench::store {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char *part_begin = ".jvari-", *part_end = ".part";  // a file on its way: sixteen random digits between them
+// a file on its way: sixteen random digits between them
+constexpr const char *part_begin = ".jvari-", *part_end = ".part";
 constexpr auto forsaken = std::chrono::hours(24);
 
 fs::path behind_links(fs::path path) {
@@ -35,32 +36,42 @@ fs::path behind_links(fs::path path) {
 void must_be_writable(const fs::path& named) {
     const fs::path path = behind_links(named);
     std::error_code error;
-    if (fs::is_symlink(path, error)) throw UsageError(fmt::format("cannot write {}: its links lead in a circle", named.string()));
+    if (fs::is_symlink(path, error))
+        throw UsageError(
+            fmt::format("cannot write {}: its links lead in a circle", named.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!path.has_filename() || fs::is_directory(path, error))
         throw UsageError(fmt::format("cannot write {}: it is a folder", path.string()));
     if (!fs::is_directory(folder, error))
-        throw UsageError(fmt::format("cannot write {}: there is no folder {}", path.string(), folder.string()));
-    if (access(folder.c_str(), W_OK) != 0) throw UsageError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+        throw UsageError(
+            fmt::format("cannot write {}: there is no folder {}", path.string(), folder.string()));
+    if (access(folder.c_str(), W_OK) != 0)
+        throw UsageError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
     const bool there = fs::exists(path, error);
-    if (error) throw UsageError(fmt::format("cannot write {}: {}", path.string(), error.message()));  // its name is too long
+    // its name is too long
+    if (error) throw UsageError(fmt::format("cannot write {}: {}", path.string(), error.message()));
     if (there && !fs::is_regular_file(path, error))
-        throw UsageError(fmt::format("cannot write {}: something that is no file stands there", path.string()));
+        throw UsageError(
+            fmt::format("cannot write {}: something that is no file stands there", path.string()));
 }
 
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (!fs::is_directory(folder)) throw UsageError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    if (!fs::is_directory(folder))
+        throw UsageError(
+            fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
 }
 
 FreshFile::FreshFile(fs::path path) : path_(behind_links(std::move(path))) {
     must_be_writable(path_);
     std::random_device random;
     beside_ = path_;
-    beside_.replace_filename(fmt::format("{}{:08x}{:08x}{}", part_begin, random(), random(), part_end));
+    beside_.replace_filename(
+        fmt::format("{}{:08x}{:08x}{}", part_begin, random(), random(), part_end));
     file_ = open(beside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file_ < 0) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+    if (file_ < 0)
+        throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
 }
 
 FreshFile::~FreshFile() {
@@ -70,10 +81,12 @@ FreshFile::~FreshFile() {
 }
 
 void FreshFile::keep() {
-    if (fsync(file_) != 0) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+    if (fsync(file_) != 0)
+        throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
     std::error_code error;
     fs::rename(beside_, path_, error);
-    if (error) throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), error.message()));
+    if (error)
+        throw Unwritable(fmt::format("cannot write {}: {}", path_.string(), error.message()));
     kept_ = true;
 }
 
@@ -82,7 +95,8 @@ void write_fresh(const fs::path& path, const std::string& content) {
     std::ofstream stream(file.path(), std::ios::binary);
     stream << content;
     stream.close();
-    if (!stream) throw Unwritable(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+    if (!stream)
+        throw Unwritable(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
     file.keep();
 }
 
@@ -108,7 +122,8 @@ void sweep_parts(const fs::path& folder) {
         const std::string name = entry.path().filename().string();
         if (!name.starts_with(part_begin) || !name.ends_with(part_end)) continue;
         const auto written = fs::last_write_time(entry.path(), error);
-        if (!error && fs::file_time_type::clock::now() - written > forsaken) parts.push_back(entry.path());
+        if (!error && fs::file_time_type::clock::now() - written > forsaken)
+            parts.push_back(entry.path());
     }
     for (const fs::path& file : parts) fs::remove(file, error);
 }
@@ -116,10 +131,12 @@ void sweep_parts(const fs::path& folder) {
 std::string read_whole(const fs::path& path) {
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-        throw UsageError(fmt::format("cannot read {}: something that is no file stands there", path.string()));
+        throw UsageError(
+            fmt::format("cannot read {}: something that is no file stands there", path.string()));
     std::ifstream stream(path, std::ios::binary);
     std::ostringstream content;
-    if (!stream || !(content << stream.rdbuf())) throw UsageError(fmt::format("cannot read {}", path.string()));
+    if (!stream || !(content << stream.rdbuf()))
+        throw UsageError(fmt::format("cannot read {}", path.string()));
     return content.str();
 }
 

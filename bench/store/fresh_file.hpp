@@ -1,5 +1,6 @@
-// Files appear whole or not at all: written beside their place, then renamed onto it. Where a link stands there, its target is written.
-// What is written beside it has a name that nobody can foretell, and was not there before: no link that somebody planted is followed.
+// Files appear whole or not at all: written beside their place, then renamed onto it. Where a link
+// stands there, its target is written. What is written beside it has a name that nobody can
+// foretell, and was not there before: no link that somebody planted is followed.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +17,8 @@ public:
     FreshFile(const FreshFile&) = delete;
     FreshFile& operator=(const FreshFile&) = delete;
     const std::filesystem::path& path() const { return beside_; }  // write here
-    void keep();                                                   // flushes to the disk and renames; throws Unwritable
+    // flushes to the disk and renames; throws Unwritable
+    void keep();
 
 private:
     Undisturbed writing_;  // an interruption leaves no part behind
@@ -25,14 +27,16 @@ private:
     bool kept_ = false;
 };
 
-void write_fresh(const std::filesystem::path&, const std::string& content);  // throws UsageError, Unwritable
-std::string read_whole(const std::filesystem::path&);                        // throws UsageError
+// throws UsageError, Unwritable
+void write_fresh(const std::filesystem::path&, const std::string& content);
+std::string read_whole(const std::filesystem::path&);  // throws UsageError
 
 void make_folder(const std::filesystem::path&);  // where there is none; throws UsageError
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.
 void must_be_writable(const std::filesystem::path&);
 
-// A folder of our own in $TMPDIR, or /tmp, gone at the end or at an interruption; its path is empty where none can be made.
+// A folder of our own in $TMPDIR, or /tmp, gone at the end or at an interruption; its path is empty
+// where none can be made.
 class Scratch {
 public:
     Scratch();
@@ -47,7 +51,8 @@ private:
     const WhenInterrupted removed_{[this] { remove(); }};
 };
 
-// Removes from a folder of ours what killed programs left: parts of files that nobody has written to for a day.
+// Removes from a folder of ours what killed programs left: parts of files that nobody has written
+// to for a day.
 void sweep_parts(const std::filesystem::path& folder);
 
 }  // namespace jvari::bench::store

@@ -21,11 +21,14 @@ Kind<std::string> text() {
 
 Kind<std::string> name_of_file() {
     const char* says = "lower-case letters, digits, _ and -, for it names a file";
-    return {says, [says](const Entry& e) {
-                std::string name = e.text();
-                if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") != std::string::npos) e.refuse(says);
-                return name;
-            }};
+    return {
+        says, [says](const Entry& e) {
+            std::string name = e.text();
+            if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") !=
+                                    std::string::npos)
+                e.refuse(says);
+            return name;
+        }};
 }
 
 Kind<double> positive(const char* unit) {
@@ -37,7 +40,8 @@ Kind<double> not_negative(const char* unit) {
 }
 
 Kind<int> whole(int least, int most) {
-    const std::string says = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+    const std::string says =
+        "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
     return {says, [says, least, most](const Entry& e) {
                 const auto n = e.whole();
                 if (!n || *n < least || *n > most) e.refuse(says);
@@ -45,9 +49,7 @@ Kind<int> whole(int least, int most) {
             }};
 }
 
-Kind<int> count() {
-    return whole(1, most_counted);
-}
+Kind<int> count() { return whole(1, most_counted); }
 
 Kind<bool> yes_or_no() {
     return {"true or false", [](const Entry& e) { return e.truth(); }};

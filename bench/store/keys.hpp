@@ -1,5 +1,6 @@
-// What the tables of a suite file may say. Each key is declared once, by its kind of value, what holds where it is absent, and its meaning:
-// from there it is read, refused with file and line, listed by `jvari list keys`, and documented.
+// What the tables of a suite file may say. Each key is declared once, by its kind of value, what
+// holds where it is absent, and its meaning: from there it is read, refused with file and line,
+// listed by `jvari list keys`, and documented.
 #pragma once
 
 #include <array>
@@ -66,7 +67,8 @@ Kind<std::string> word(const char* what, const std::vector<std::string>& known);
 
 // Whatever a table holds under keys of the writer's own, each read by `one`.
 template <class T>
-Kind<std::vector<T>> by_name(std::string says, std::function<T(const std::string& name, const Entry&)> one) {
+Kind<std::vector<T>> by_name(std::string says,
+                             std::function<T(const std::string& name, const Entry&)> one) {
     return {std::move(says), [one](const Entry& e) {
                 std::vector<T> all;
                 for (const auto& [name, value] : e.members()) all.push_back(one(name, value));
@@ -88,7 +90,8 @@ std::string default_text(const T& x) {
     else return "";
 }
 template <class Part, class Member, class T>
-Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning, std::string absent, bool needed) {
+Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning,
+              std::string absent, bool needed) {
     return {{name, kind.says, std::move(absent), meaning, needed, kind.below},
             [member, read = kind.read](Part& part, const Entry& e) { part.*member = read(e); }};
 }
@@ -99,11 +102,13 @@ Key<Part> needed(const char* name, Member Part::*member, const Kind<T>& kind, co
     return detail::key(name, member, kind, meaning, "", true);
 }
 template <class Part, class Member, class T>
-Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning) {  // absent: as a Part begins
+// absent: as a Part begins
+Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning) {
     return detail::key(name, member, kind, meaning, detail::default_text(Part{}.*member), false);
 }
 template <class Part, class Member, class T>
-Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning, const char* absent) {
+Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning,
+              const char* absent) {
     return detail::key(name, member, kind, meaning, absent, false);
 }
 
@@ -150,7 +155,8 @@ Kind<std::vector<Part>> tables(const std::string& name, Kind<Part> one) {
                     all.push_back(read(item));
                     if constexpr (requires(Part p) { p.name; })
                         for (std::size_t k = 0; k + 1 < all.size(); ++k)
-                            if (all[k].name == all.back().name) item.need("name").refuse("a name of its own");
+                            if (all[k].name == all.back().name)
+                                item.need("name").refuse("a name of its own");
                 }
                 return all;
             },

@@ -24,7 +24,8 @@ std::string cpu_name() {
     std::ifstream cpuinfo("/proc/cpuinfo");
     for (std::string line; std::getline(cpuinfo, line);)
         if (line.rfind("model name", 0) == 0)
-            if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
+            if (const auto colon = line.find(": "); colon != std::string::npos)
+                return line.substr(colon + 2);
     return "unknown";
 }
 std::string system_name() {
@@ -52,7 +53,8 @@ namespace {
 nlohmann::ordered_json identity_of(const std::string& sources, const Machine& m) {
     return {"jvari", sources, m.compiler, m.flags, m.build, m.vectors};
 }
-std::string contents_hash(const std::string& guest) {  // of a plugin's file, or of what a scheme from outside says
+// of a plugin's file, or of what a scheme from outside says
+std::string contents_hash(const std::string& guest) {
     const Guest* known = find_guest(guest);
     return hash_of(known && !known->contents.empty() ? known->contents : read_whole(guest));
 }
@@ -87,14 +89,23 @@ Stamp stamp_now() {
     const Machine& m = machine();
     char host[256] = "";
     gethostname(host, sizeof host - 1);
-    Stamp s{m.cpu + ", " + std::to_string(m.cores) + " cores, " + m.vectors + ", " + m.compiler + " " + m.flags, host, now_utc(), {}, {}};
+    Stamp s{m.cpu + ", " + std::to_string(m.cores) + " cores, " + m.vectors + ", " + m.compiler +
+                " " + m.flags,
+            host,
+            now_utc(),
+            {},
+            {}};
     if (double load = 0; getloadavg(&load, 1) == 1) s.load = text_of(load);
     std::ifstream("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor") >> s.governor;
     return s;
 }
 
 nlohmann::ordered_json json_of(const Stamp& s) {
-    return {{"name", s.name}, {"host", s.host}, {"at", s.at}, {"load", s.load}, {"governor", s.governor}};
+    return {{"name", s.name},
+            {"host", s.host},
+            {"at", s.at},
+            {"load", s.load},
+            {"governor", s.governor}};
 }
 
 Stamp stamp_of(const nlohmann::ordered_json& j) {
@@ -103,13 +114,19 @@ Stamp stamp_of(const nlohmann::ordered_json& j) {
 
 nlohmann::ordered_json made_by() {
     const Machine& m = machine();
-    nlohmann::ordered_json made{{"program", "jvari"}, {"version", m.version}, {"commit", m.commit},        {"compiler", m.compiler},
-                                {"flags", m.flags},   {"build", m.build},     {"sources", m.cell_sources}, {"vectors", m.vectors},
-                                {"cpu", m.cpu},       {"cores", m.cores},     {"system", m.system},        {"date", now_utc()}};
+    nlohmann::ordered_json made{
+        {"program", "jvari"},        {"version", m.version}, {"commit", m.commit},
+        {"compiler", m.compiler},    {"flags", m.flags},     {"build", m.build},
+        {"sources", m.cell_sources}, {"vectors", m.vectors}, {"cpu", m.cpu},
+        {"cores", m.cores},          {"system", m.system},   {"date", now_utc()}};
     made["command"] = command();
-    if (double load[3]; getloadavg(load, 3) > 0) made["load"] = std::round(100 * load[0]) / 100;  // of the last minute
+    // of the last minute
+    if (double load[3]; getloadavg(load, 3) > 0) made["load"] = std::round(100 * load[0]) / 100;
     for (const Guest* g : guests())
-        made["plugins"].push_back({{"file", g->path}, {"hash", contents_hash(g->path)}, {"compiler", g->compiler}, {"flags", g->flags}});
+        made["plugins"].push_back({{"file", g->path},
+                                   {"hash", contents_hash(g->path)},
+                                   {"compiler", g->compiler},
+                                   {"flags", g->flags}});
     return made;
 }
 

@@ -18,13 +18,12 @@ std::string text_of(double x) {
     return fmt::format("{}", x);
 }
 
-double number_of(const std::string& text) {
-    return jvari::number_of(text).value_or(nan);
-}
+double number_of(const std::string& text) { return jvari::number_of(text).value_or(nan); }
 
 std::string options_text(const Options& options) {
     std::string text;
-    for (const auto& [name, value] : options) text += (text.empty() ? "" : " ") + name + "=" + value;
+    for (const auto& [name, value] : options)
+        text += (text.empty() ? "" : " ") + name + "=" + value;
     return text;
 }
 
@@ -60,7 +59,8 @@ Table Table::only(const std::vector<std::string>& names) const {
 
 namespace {
 bool is_marked(const std::string& field) {  // in a file: "'=1+1"
-    return field.size() > 1 && field[0] == '\'' && std::string_view("=+-@'\t").find(field[1]) != std::string_view::npos;
+    return field.size() > 1 && field[0] == '\'' &&
+           std::string_view("=+-@'\t").find(field[1]) != std::string_view::npos;
 }
 }  // namespace
 
@@ -98,9 +98,11 @@ Table read_csv(const std::string& text) {
             table.columns = fields;
             std::ranges::sort(fields);
             if (const auto twice = std::ranges::adjacent_find(fields); twice != fields.end())
-                throw std::runtime_error(fmt::format("line 1: found two columns {}, expected one", found_text(*twice)));
+                throw std::runtime_error(
+                    fmt::format("line 1: found two columns {}, expected one", found_text(*twice)));
         } else if (fields.size() != table.columns.size()) {
-            throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line, fields.size(), table.columns.size()));
+            throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line,
+                                                 fields.size(), table.columns.size()));
         } else {
             table.rows.push_back(fields);
         }
@@ -126,21 +128,24 @@ Table read_csv(const std::string& text) {
             begun = true;
         }
     }
-    if (inside) throw std::runtime_error(fmt::format("line {}: a quotation mark is not closed", line));
+    if (inside)
+        throw std::runtime_error(fmt::format("line {}: a quotation mark is not closed", line));
     end_row();
     return table;
 }
 
 nlohmann::ordered_json rows_json(const Table& table) {
-    static const std::set<std::string> texts{"scheme",       "status",  "reason",    "flags",   "below_floor", "cell",
-                                             "scene",        "options", "reference", "measure", "ties",        "run",
-                                             "as_published", "perhaps", "why",       "machine", "governor"};
+    static const std::set<std::string> texts{
+        "scheme",       "status",  "reason",    "flags",   "below_floor", "cell",
+        "scene",        "options", "reference", "measure", "ties",        "run",
+        "as_published", "perhaps", "why",       "machine", "governor"};
     auto rows = nlohmann::ordered_json::array();
     for (const auto& row : table.rows) {
         auto j = nlohmann::ordered_json::object();
         for (std::size_t k = 0; k < row.size(); ++k) {
             const std::string& name = table.columns[k];
-            const bool digits = !row[k].empty() && row[k].size() < 18 && row[k].find_first_not_of("0123456789") == std::string::npos;
+            const bool digits = !row[k].empty() && row[k].size() < 18 &&
+                                row[k].find_first_not_of("0123456789") == std::string::npos;
             const double x = number_of(row[k]);
             if (name == "pareto") j[name] = row[k] == "1";
             else if (texts.contains(name) || (std::isnan(x) && !row[k].empty())) j[name] = row[k];

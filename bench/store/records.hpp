@@ -1,5 +1,6 @@
-// Results are rows: a table of text with named columns, and CSV (RFC 4180) to and fro. A text that a spreadsheet would take for a formula,
-// because it begins with = + - @ and is no number, has an apostrophe in front in the file; so has one that begins with an apostrophe.
+// Results are rows: a table of text with named columns, and CSV (RFC 4180) to and fro. A text that
+// a spreadsheet would take for a formula, because it begins with = + - @ and is no number, has an
+// apostrophe in front in the file; so has one that begins with an apostrophe.
 #pragma once
 
 #include <limits>
@@ -15,23 +16,31 @@ std::string text_of(double);
 double number_of(const std::string&);  // NaN for "" and for what is no number
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-using Options = std::vector<std::pair<std::string, std::string>>;                 // of a scheme: name, value
-std::string options_text(const Options&);                                         // "control=none tolerance=1e-9"
-std::string variant_name(const std::string& scheme, const std::string& options);  // "sitar_fdm control=none", or the scheme alone
+// of a scheme: name, value
+using Options = std::vector<std::pair<std::string, std::string>>;
+// "control=none tolerance=1e-9"
+std::string options_text(const Options&);
+// "sitar_fdm control=none", or the scheme alone
+std::string variant_name(const std::string& scheme, const std::string& options);
 
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
 
-    int column(const std::string& name) const;                              // -1: absent
-    const std::string& at(std::size_t row, const std::string& name) const;  // "" where the column is absent
-    double number(std::size_t row, const std::string& name) const { return number_of(at(row, name)); }
-    Table only(const std::vector<std::string>& names) const;  // those columns, in that order; absent ones are left out
+    int column(const std::string& name) const;  // -1: absent
+    // "" where the column is absent
+    const std::string& at(std::size_t row, const std::string& name) const;
+    double number(std::size_t row, const std::string& name) const {
+        return number_of(at(row, name));
+    }
+    // those columns, in that order; absent ones are left out
+    Table only(const std::vector<std::string>& names) const;
 };
 
 std::string quoted(const std::string& field);    // as CSV writes it
 nlohmann::ordered_json rows_json(const Table&);  // one object per row, numbers as numbers
 std::string csv(const Table&);
-Table read_csv(const std::string& text);  // throws std::runtime_error with the line where a row has too few or too many fields
+// throws std::runtime_error with the line where a row has too few or too many fields
+Table read_csv(const std::string& text);
 
 }  // namespace jvari::bench::store

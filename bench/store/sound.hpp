@@ -1,6 +1,8 @@
-// What of a trace is to be heard: the force on the nut, which is what drives the body; 16 bit, scaled to its own peak.
+// What of a trace is to be heard: the force on the nut, which is what drives the body; 16 bit,
+// scaled to its own peak.
 //
-// As the scheme gave it: not differentiated, no body. A scene without a nut force is heard at its first tap.
+// As the scheme gave it: not differentiated, no body. A scene without a nut force is heard at its
+// first tap.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +25,16 @@ Sound sound_of(std::span<const double> signal, double rate);
 std::string wav_of(const Sound&);                           // of a .wav file; its peak is not in it
 Sound read_wav(const std::filesystem::path&, double peak);  // throws UsageError
 
-// What a sound file of one channel holds, in the unit that its samples are in: floating point as it is, whole numbers of full scale 1.
+// What a sound file of one channel holds, in the unit that its samples are in: floating point as it
+// is, whole numbers of full scale 1.
 struct Signal {
     double rate = 0;  // [Hz]
     std::vector<double> samples;
 };
 Signal read_signal(const std::filesystem::path&);  // throws UsageError
 Signal read_signal(const std::filesystem::path&,
-                   const std::function<void(const std::string& why)>& refuse);  // which throws: "which has 2 channels"
+                   // which throws: "which has 2 channels"
+                   const std::function<void(const std::string& why)>& refuse);
 
 struct NamedSound {
     std::vector<std::string> who;  // the cell columns
@@ -40,6 +44,7 @@ struct NamedSound {
     std::string reference;  // the file of its reference, "" where there is none
 };
 // sounds/<file>.wav and sounds.csv: who, tap, quantity, sample_rate, peak, file, reference_file.
-void write_sounds(const std::filesystem::path& folder, const std::vector<std::string>& who, const std::vector<NamedSound>&);
+void write_sounds(const std::filesystem::path& folder, const std::vector<std::string>& who,
+                  const std::vector<NamedSound>&);
 
 }  // namespace jvari::bench::store

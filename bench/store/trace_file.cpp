@@ -42,8 +42,8 @@ void write_csv(const std::filesystem::path& path, const Trace& trace) {
 
 void check_trace_file(const std::filesystem::path& path) {
     if (path.extension() != ".csv")
-        throw UsageError(
-            fmt::format("--out {}: found the extension \"{}\", expected .csv or .wav", path.string(), path.extension().string()));
+        throw UsageError(fmt::format("--out {}: found the extension \"{}\", expected .csv or .wav",
+                                     path.string(), path.extension().string()));
     must_be_writable(path);
 }
 

@@ -1,4 +1,5 @@
-// A trace on disk as .csv, with 17 significant digits: time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J].
+// A trace on disk as .csv, with 17 significant digits:
+// time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J].
 #pragma once
 
 #include <filesystem>
@@ -7,7 +8,8 @@
 
 namespace jvari::bench::store {
 
-inline constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"};
+inline constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J",
+                                               "energy_dissipated_J"};
 
 // Throws UsageError for a path that cannot be written; before the run, so that no work is lost.
 void check_trace_file(const std::filesystem::path&);

@@ -4,7 +4,8 @@
 
 namespace jvari::bench::store {
 
-std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
+std::string unknown(const std::string& kind, const std::string& word,
+                    const std::vector<std::string>& known) {
     const std::string near = nearest(word, known);
     return "unknown " + kind + " " + found_text(word) + "; " +
            (!near.empty()   ? "did you mean " + quote(near) + "?"

@@ -18,6 +18,7 @@ struct Unwritable : std::runtime_error {
 };
 
 // "unknown scheme "modal_two": did you mean modal_two_point?", or what there is.
-std::string unknown(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
+std::string unknown(const std::string& kind, const std::string& word,
+                    const std::vector<std::string>& known);
 
 }  // namespace jvari::bench::store

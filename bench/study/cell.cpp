@@ -13,12 +13,14 @@ namespace jvari::bench::study {
 namespace {
 int modes_used(const Scene& scene, const Settings& settings, const std::vector<Fact>& facts) {
     if (const double n = fact_of(facts, facts::interior_nodes); n == n) return static_cast<int>(n);
-    if (const double n = fact_of(facts, facts::grid_intervals); n == n) return static_cast<int>(n) - 1;
+    if (const double n = fact_of(facts, facts::grid_intervals); n == n)
+        return static_cast<int>(n) - 1;
     return modes_for(scene, settings);
 }
 }  // namespace
 
-Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& settings, const Run& run) {
+Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& settings,
+                   const Run& run) {
     Summary s{};
     static_cast<Figures&>(s) = figures_of(d.balance, scene, modes_for(scene, settings), run);
     const bool continuous = d.clock == Clock::continuous;
@@ -51,14 +53,17 @@ Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
     cell.summary.processor_seconds = took;
     if (result.status.outcome != Outcome::ok)
-        cell.reason =
-            fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome), result.status.step, cell.summary.duration);
+        cell.reason = fmt::format("{} at step {}, after {:.6g} s", name_of(result.status.outcome),
+                                  result.status.step, cell.summary.duration);
     return std::move(result.trace);
 }
 
 void fail(Cell& cell, const std::exception& e) {
-    const bool refused = dynamic_cast<const Refusal*>(&e) || dynamic_cast<const BadScene*>(&e);  // the latter: not with these modes
-    cell.failure = refused ? "refused" : dynamic_cast<const store::PastItsLimit*>(&e) ? "past_time_limit" : "error";
+    // the latter: not with these modes
+    const bool refused = dynamic_cast<const Refusal*>(&e) || dynamic_cast<const BadScene*>(&e);
+    cell.failure = refused                                        ? "refused"
+                   : dynamic_cast<const store::PastItsLimit*>(&e) ? "past_time_limit"
+                                                                  : "error";
     cell.reason = e.what();
 }
 

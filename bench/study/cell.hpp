@@ -50,9 +50,12 @@ void each_figure(Summary_& s, Act act) {
     act("largest_over_bound", s.largest_over_bound);
 }
 
-struct Timing {                                                     // what a clock said of a cell (cost.hpp)
-    Spread wall{};                                                  // of the timed runs [s], of the whole scene or up to the failure
-    Spread processor{};                                             // the same in processor time [s], the drift of the machine taken off
+// what a clock said of a cell (cost.hpp)
+struct Timing {
+    // of the timed runs [s], of the whole scene or up to the failure
+    Spread wall{};
+    // the same in processor time [s], the drift of the machine taken off
+    Spread processor{};
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline
     store::Stamp stamp{};                                           // of the machine
 };
@@ -60,22 +63,28 @@ struct Timing {                                                     // what a cl
 struct Cell {
     const Descriptor* scheme;
     Settings settings;
-    std::string failure{};  // "" where it was run; else its status: "refused", "past_time_limit", "error"
-    std::string reason{};   // of a failure, or why it is not needed
-    Summary summary{};      // of the accuracy run; empty where it was not run
-    Errors errors{};        // from the scene's own motion (truth.hpp)
-    Errors in_model{};      // from that of a string with as many modes: errors of the scheme alone; empty where none was run
-    store::Sound sound{};   // of the headline's nut tap, where the run reached its end and the study wants to hear it
+    // "" where it was run; else its status: "refused", "past_time_limit", "error"
+    std::string failure{};
+    std::string reason{};  // of a failure, or why it is not needed
+    Summary summary{};     // of the accuracy run; empty where it was not run
+    Errors errors{};       // from the scene's own motion (truth.hpp)
+    // from that of a string with as many modes: errors of the scheme alone; empty where none was
+    // run
+    Errors in_model{};
+    // of the headline's nut tap, where the run reached its end and the study wants to hear it
+    store::Sound sound{};
     Timing clock{};
     bool searched = false;  // its modes or its rate were not named
     bool added = false;     // more modes than it takes unasked
     bool needed = true;     // false: run over the headline's window alone, and not timed
     bool ran() const { return failure.empty(); }
     int modes() const { return ran() ? summary.modes : settings.modes; }
-    std::string status() const;  // as tables have it: "ok", "diverged", "not_converged", "not_needed", or its failure
+    // as tables have it: "ok", "diverged", "not_converged", "not_needed", or its failure
+    std::string status() const;
 };
 
-// Runs the cell with its energy probed; fills summary and reason. Throws Refusal. What `progress` throws ends it.
+// Runs the cell with its energy probed; fills summary and reason. Throws Refusal. What `progress`
+// throws ends it.
 using ProgressOf = std::function<void(long done, long rows)>;
 Trace run_cell(Cell&, const Scene& scene, const ProgressOf& progress);
 void fail(Cell&, const std::exception&);  // what running it threw: its failure and the reason

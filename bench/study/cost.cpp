@@ -35,13 +35,15 @@ void sample(Timed& t) {
         seconds += r.wall_seconds;
         const double deadline = options.block_rows / t.cell->settings.tap_rate;
         if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
-            t.cell->clock.worst_block = std::fmin(t.cell->clock.worst_block, r.worst_block / deadline);
+            t.cell->clock.worst_block =
+                std::fmin(t.cell->clock.worst_block, r.worst_block / deadline);
     }
     t.of_processor.push_back((store::processor_seconds() - from) / t.runs);
     t.samples.push_back(seconds / t.runs);
 }
-// What the machine does in a round (another clock frequency, a busy neighbour) meets the cells of one rate alike, which are next to each
-// other in it. So of every sample goes the median over them of a sample over its cell's own median.
+// What the machine does in a round (another clock frequency, a busy neighbour) meets the cells of
+// one rate alike, which are next to each other in it. So of every sample goes the median over them
+// of a sample over its cell's own median.
 void take_off_drift(std::span<Timed> of_one_rate, int rounds) {
     constexpr std::size_t fewest = 3;  // of fewer it cannot be told from theirs
     std::vector<double> middle;
@@ -49,7 +51,8 @@ void take_off_drift(std::span<Timed> of_one_rate, int rounds) {
     for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round) {
         std::vector<double> relative;
         for (std::size_t k = 0; k < of_one_rate.size(); ++k)
-            if (round < of_one_rate[k].of_processor.size()) relative.push_back(of_one_rate[k].of_processor[round] / middle[k]);
+            if (round < of_one_rate[k].of_processor.size())
+                relative.push_back(of_one_rate[k].of_processor[round] / middle[k]);
         if (relative.size() < fewest) return;
         const double drift = spread_of(relative).median;
         for (Timed& t : of_one_rate)
@@ -61,21 +64,25 @@ double seconds_of(const Timed& t) {  // its last sample
 }
 }  // namespace
 
-void time_cells(const std::vector<Contender>& contenders, int repeats, const store::Listener& listener) {
+void time_cells(const std::vector<Contender>& contenders, int repeats,
+                const store::Listener& listener) {
     const store::Stamp stamp = store::stamp_now();  // the load is what others made of it
     std::vector<Timed> timed;
     double work = 0, finished = 0;
     for (const Contender& c : contenders) {
         if (!c.cell->ran()) continue;
         const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
-        const int runs = static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
+        const int runs =
+            static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
         const int most = static_cast<int>(std::clamp(cell_budget / (once * runs), 2.0, 1e6));
         timed.push_back({c, runs, std::min(repeats, most), {}, {}});
         work += once * runs * timed.back().repeats;
     }
-    // competitors at the same rate follow each other, so that what the machine does meanwhile meets them alike
-    std::stable_sort(timed.begin(), timed.end(),
-                     [](const Timed& a, const Timed& b) { return a.cell->settings.sample_rate < b.cell->settings.sample_rate; });
+    // competitors at the same rate follow each other, so that what the machine does meanwhile meets
+    // them alike
+    std::stable_sort(timed.begin(), timed.end(), [](const Timed& a, const Timed& b) {
+        return a.cell->settings.sample_rate < b.cell->settings.sample_rate;
+    });
     int rounds = 0;
     for (const Timed& t : timed) rounds = std::max(rounds, t.repeats);
     const auto progress = listener.begin("cost");
@@ -84,20 +91,24 @@ void time_cells(const std::vector<Contender>& contenders, int repeats, const sto
     for (int round = 0; round < rounds; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
-            const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            std::string text = fmt::format("round {} of {}, about {:.0f} s left", round + 1, rounds,
-                                           finished > 0 ? elapsed * (work - finished) / finished : work);
+            const double elapsed =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            std::string text =
+                fmt::format("round {} of {}, about {:.0f} s left", round + 1, rounds,
+                            finished > 0 ? elapsed * (work - finished) / finished : work);
             if (slowest)
-                text += fmt::format("; longest {:.0f} s: {} at {} Hz", seconds_of(*slowest), slowest->cell->scheme->name,
-                                    slowest->cell->settings.sample_rate);
+                text +=
+                    fmt::format("; longest {:.0f} s: {} at {} Hz", seconds_of(*slowest),
+                                slowest->cell->scheme->name, slowest->cell->settings.sample_rate);
             progress->show(finished / work, text);
             sample(t);
             finished += t.cell->summary.wall_seconds * t.runs;
             if (!slowest || seconds_of(t) > seconds_of(*slowest)) slowest = &t;
         }
     for (auto from = timed.begin(), to = from; from != timed.end(); from = to) {
-        to = std::find_if(from, timed.end(),
-                          [&](const Timed& t) { return t.cell->settings.sample_rate != from->cell->settings.sample_rate; });
+        to = std::find_if(from, timed.end(), [&](const Timed& t) {
+            return t.cell->settings.sample_rate != from->cell->settings.sample_rate;
+        });
         take_off_drift({from, to}, rounds);
     }
     for (Timed& t : timed) {
@@ -117,7 +128,8 @@ Json quoted(const Spread& s) {
 Spread spread_in(const Json& j, int count) {
     Spread s = spread_of({});
     s.count = count;
-    s.median = store::number_of(j.at(0)), s.lower = store::number_of(j.at(1)), s.upper = store::number_of(j.at(2));
+    s.median = store::number_of(j.at(0)), s.lower = store::number_of(j.at(1)),
+    s.upper = store::number_of(j.at(2));
     return s;
 }
 }  // namespace
@@ -142,8 +154,6 @@ std::optional<Timing> read_clock(const fs::path& path, const std::string& identi
     });
 }
 
-std::string clock_file(const Job& job) {
-    return job.id + ".clock";
-}
+std::string clock_file(const Job& job) { return job.id + ".clock"; }
 
 }  // namespace jvari::bench::study

@@ -15,7 +15,8 @@ namespace jvari::bench::study {
 
 class Pair {
 public:
-    Pair(std::span<const double> r, std::span<const double> of, double hz) : run(r), reference(of), rate(hz) {}
+    Pair(std::span<const double> r, std::span<const double> of, double hz)
+        : run(r), reference(of), rate(hz) {}
     const std::span<const double> run, reference;
     const double rate;
     const StftDifference& stft() {  // two measures are of it
@@ -30,13 +31,15 @@ private:
 namespace {
 constexpr double quietest = 1e-6;  // 60 dB below the reference's strongest frame, or its start
 
-// Root mean square difference of the centroid tracks over the mean centroid; frames that are not too quiet.
+// Root mean square difference of the centroid tracks over the mean centroid; frames that are not
+// too quiet.
 double centroid_relative(Pair& p) {
     constexpr int window = 1024, hop = 256;
     if (p.run.size() < p.reference.size()) return HUGE_VAL;
     const Spectrogram of_run = spectrogram(p.run.first(p.reference.size()), p.rate, window, hop);
     const Spectrogram of_reference = spectrogram(p.reference, p.rate, window, hop);
-    const std::vector<double> track = centroid_track(of_run), true_track = centroid_track(of_reference);
+    const std::vector<double> track = centroid_track(of_run),
+                              true_track = centroid_track(of_reference);
     std::vector<double> power;
     for (int m = 0; m < of_reference.frames; ++m) {
         const auto frame = of_reference.frame(m);
@@ -55,8 +58,9 @@ double centroid_relative(Pair& p) {
     return frames > 0 ? std::sqrt(difference / frames) / (mean / frames) : store::nan;
 }
 
-// What is still to come of the energy, from each instant on (M. R. Schroeder 1965): the root mean square difference of the two curves [dB],
-// over the first nine tenths of the run and as far as the reference is not too quiet.
+// What is still to come of the energy, from each instant on (M. R. Schroeder 1965): the root mean
+// square difference of the two curves [dB], over the first nine tenths of the run and as far as the
+// reference is not too quiet.
 double decay(Pair& p) {
     const auto &c = p.run, &r = p.reference;
     if (c.size() < r.size()) return HUGE_VAL;
@@ -93,36 +97,44 @@ const std::vector<Measure>& measures() {
          [](Pair& p) { return horizon(p.run, p.reference, p.rate); }},
         {"third_octave_db", "dB", "third-octave difference [dB rms]", true, true, HUGE_VAL,
          [](Pair& p) { return third_octave_difference(p.run, p.reference, p.rate); }},
-        {"stft_db", "dB", "multi-resolution STFT difference [dB]", false, true, HUGE_VAL, [](Pair& p) { return p.stft().level; }},
+        {"stft_db", "dB", "multi-resolution STFT difference [dB]", false, true, HUGE_VAL,
+         [](Pair& p) { return p.stft().level; }},
         {"stft_convergence", "1", "multi-resolution spectral convergence", false, true, HUGE_VAL,
          [](Pair& p) { return p.stft().convergence; }},
         {"centroid_hz", "Hz", "centroid track difference [Hz rms]", false, true, HUGE_VAL,
          [](Pair& p) { return centroid_difference(p.run, p.reference, p.rate); }},
-        {"centroid_relative", "1", "centroid track, relative difference", false, true, HUGE_VAL, centroid_relative},
+        {"centroid_relative", "1", "centroid track, relative difference", false, true, HUGE_VAL,
+         centroid_relative},
         {"decay_db", "dB", "decay of the energy, difference [dB]", false, true, HUGE_VAL, decay},
     };
     return all;
 }
 
 std::size_t measure(const std::string& column) {
-    return static_cast<std::size_t>(std::ranges::find(measures(), column, &Measure::column) - measures().begin());
+    return static_cast<std::size_t>(std::ranges::find(measures(), column, &Measure::column) -
+                                    measures().begin());
 }
 
-double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference, double rate) {
+double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,
+                double rate) {
     Pair pair(run, reference, rate);
     return measures()[measure].of(pair);
 }
 
-Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only, double from) {
+Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only,
+                 double from) {
     Errors errors;
     for (int k = 0; k < reference.taps(); ++k) {
         auto& of_tap = errors.emplace_back(measures().size(), store::nan);
-        const auto own = std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
+        const auto own =
+            std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
         if (own == candidate.taps()) continue;
         const double rate = reference.tap_rate;
-        Pair pair(rows_from(candidate.column(static_cast<int>(own)), from, rate), rows_from(reference.column(k), from, rate), rate);
+        Pair pair(rows_from(candidate.column(static_cast<int>(own)), from, rate),
+                  rows_from(reference.column(k), from, rate), rate);
         for (std::size_t m = 0; m < measures().size(); ++m)
-            if (only.empty() || std::ranges::find(only, m) != only.end()) of_tap[m] = measures()[m].of(pair);
+            if (only.empty() || std::ranges::find(only, m) != only.end())
+                of_tap[m] = measures()[m].of(pair);
     }
     return errors;
 }

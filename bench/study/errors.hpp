@@ -23,24 +23,28 @@ struct Measure {
 };
 const std::vector<Measure>& measures();
 std::size_t measure(const std::string& column);  // its place among them
-double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference, double rate);
+double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,
+                double rate);
 
 using Measures = std::vector<std::size_t>;  // places; none: all
 
-// One row per tap, one column per measure; NaN where the reference says nothing (a window that it does not cover), +inf for a run
-// that stopped inside the window.
+// One row per tap, one column per measure; NaN where the reference says nothing (a window that it
+// does not cover), +inf for a run that stopped inside the window.
 using Errors = std::vector<std::vector<double>>;
-// Of each tap of the reference, by the run's tap of its name, from the instant `from` [s] on (free_from). NaN for a tap that the run has
-// not, and for measures that are not asked for.
-Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only = {}, double from = 0);
+// Of each tap of the reference, by the run's tap of its name, from the instant `from` [s] on
+// (free_from). NaN for a tap that the run has not, and for measures that are not asked for.
+Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only = {},
+                 double from = 0);
 
-// The taps of the headline columns: the first nut force and the first bridge force, else the first driving force, else the first tap.
+// The taps of the headline columns: the first nut force and the first bridge force, else the first
+// driving force, else the first tap.
 struct Headline {
     int nut = 0, bridge = 0;
     int tap(const Measure& m) const { return m.bridge ? bridge : nut; }
 };
 Headline headline_of(const Scene&);
 double horizon_of(const Errors&, const Headline&);  // [s]
-double headline_window(const Scene&);               // how much [s] the nut tap's headline figure is of, infinite for less than 10 ms
+// how much [s] the nut tap's headline figure is of, infinite for less than 10 ms
+double headline_window(const Scene&);
 
 }  // namespace jvari::bench::study

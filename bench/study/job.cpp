@@ -14,12 +14,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json settings_json(const Settings& s) {
-    return {{"rate", store::text_of(s.sample_rate)}, {"tap_rate", store::text_of(s.tap_rate)}, {"modes", s.modes}, {"options", s.options}};
+    return {{"rate", store::text_of(s.sample_rate)},
+            {"tap_rate", store::text_of(s.tap_rate)},
+            {"modes", s.modes},
+            {"options", s.options}};
 }
 
 Json references_json(const Point& p) {
     Json references = Json::array();
-    for (const ReferenceChoice& c : p.references) references.push_back({{"name", c.name()}, {"settings", settings_json(c.settings)}});
+    for (const ReferenceChoice& c : p.references)
+        references.push_back({{"name", c.name()}, {"settings", settings_json(c.settings)}});
     return references;
 }
 }  // namespace
@@ -66,8 +70,10 @@ void address(Plan& plan, const std::string& of_program) {
 std::string what_of(const Job& job) {
     std::string text = job.point->scene.name;
     for (const auto& [key, value] : job.point->swept) text += " " + key + "=" + value;
-    text += ": " + store::variant_name(job.cell.scheme->name, store::options_text(job.cell.settings.options));
-    if (job.cell.settings.sample_rate > 0) text += fmt::format(" at {} Hz", job.cell.settings.sample_rate);
+    text += ": " + store::variant_name(job.cell.scheme->name,
+                                       store::options_text(job.cell.settings.options));
+    if (job.cell.settings.sample_rate > 0)
+        text += fmt::format(" at {} Hz", job.cell.settings.sample_rate);
     return text;
 }
 

@@ -1,5 +1,6 @@
-// What a study asks: jobs on points. A point is one scene and who is its reference; a job is a cell on it, and what is measured of that.
-// Compare makes the jobs of one point, a suite those of its file.
+// What a study asks: jobs on points. A point is one scene and who is its reference; a job is a cell
+// on it, and what is measured of that. Compare makes the jobs of one point, a suite those of its
+// file.
 #pragma once
 
 #include <cmath>
@@ -20,15 +21,19 @@ struct Point {
     Scene scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value
     std::vector<ReferenceChoice> references;
-    std::optional<int> truth_modes = 0;  // 0: found by doubling; none: the reference with the cells' modes is all there is
-    bool alone = false;                  // nothing is asked of what the reference is uncertain by
-    bool in_model = true;                // errors from a string with as many modes are asked for too, where the truth has others
-    std::optional<Scene> whole{};        // the scene whose motion is the truth, where `scene` is a part of it
+    // 0: found by doubling; none: the reference with the cells' modes is all there is
+    std::optional<int> truth_modes = 0;
+    bool alone = false;  // nothing is asked of what the reference is uncertain by
+    // errors from a string with as many modes are asked for too, where the truth has others
+    bool in_model = true;
+    // the scene whose motion is the truth, where `scene` is a part of it
+    std::optional<Scene> whole{};
     const Scene& true_scene() const { return whole ? *whole : scene; }
     double time_limit = HUGE_VAL;     // of each run, of a reference too [s]
     std::string hash{}, true_hash{};  // of the scene, and of the one whose motion is the truth
     std::string reference_key{};      // points that share it share the reference's run
-    std::string truth_key{};          // likewise of the truth, whose modes are none of the cells'; "": there is none
+    // likewise of the truth, whose modes are none of the cells'; "": there is none
+    std::string truth_key{};
 };
 
 struct Ran {  // a job whose accuracy run reached its end or its failure
@@ -41,12 +46,14 @@ struct Ran {  // a job whose accuracy run reached its end or its failure
 struct Job {
     const Point* point;
     Cell cell;
-    bool judged = true;                                  // against the point's reference
-    Measures errors{};                                   // by these
-    double patience = HUGE_VAL;                          // [s] of processor; a run that takes longer is ended, and not kept
-    bool sounds = false;                                 // its headline's nut tap is to be heard
-    int repeats = 0;                                     // of the clock; 0: it is not timed
-    int set = 0;                                         // jobs of one set are timed in one interleaved run
+    bool judged = true;  // against the point's reference
+    Measures errors{};   // by these
+    // [s] of processor; a run that takes longer is ended, and not kept
+    double patience = HUGE_VAL;
+    bool sounds = false;  // its headline's nut tap is to be heard
+    int repeats = 0;      // of the clock; 0: it is not timed
+    // jobs of one set are timed in one interleaved run
+    int set = 0;
     std::function<void(const Ran&, Record&)> measure{};  // whatever else is measured of it
     std::string measured{};                              // that, as JSON: part of its identity
     std::string identity{};                              // JSON: all that its result depends on

@@ -22,6 +22,7 @@ struct Judgement {
     std::string detail;  // the figure that decided, or the reason why it was not run
     long step = 0;       // where a run failed by itself; else 0
 };
-Judgement judge(const Cell&, double error);  // of a cell that was run with its energy probed, or failed; NaN: there is no error
+// of a cell that was run with its energy probed, or failed; NaN: there is no error
+Judgement judge(const Cell&, double error);
 
 }  // namespace jvari::bench::study

@@ -28,18 +28,24 @@ Errors errors_in(const Json& j) {
     for (const Json& row : j) {
         errors.emplace_back();
         for (const Json& x : row) errors.back().push_back(store::number_of(x));
-        if (errors.back().size() != measures().size()) throw std::runtime_error("not one number for each measure");
+        if (errors.back().size() != measures().size())
+            throw std::runtime_error("not one number for each measure");
     }
     return errors;
 }
 std::vector<std::array<double, 3>> figures_in(const Json& j) {
     std::vector<std::array<double, 3>> figures;
-    for (const Json& row : j) figures.push_back({store::number_of(row.at(0)), store::number_of(row.at(1)), store::number_of(row.at(2))});
+    for (const Json& row : j)
+        figures.push_back({store::number_of(row.at(0)), store::number_of(row.at(1)),
+                           store::number_of(row.at(2))});
     return figures;
 }
 
 Json summary_json(const Summary& s) {
-    Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", {name_of(s.status.outcome), s.status.step}}, {"facts", Json::array()}};
+    Json j{{"scheme", s.scheme},
+           {"scene", s.scene},
+           {"status", {name_of(s.status.outcome), s.status.step}},
+           {"facts", Json::array()}};
     each_figure(s, [&j]<class Number>(const char* name, Number x) {
         if constexpr (std::is_integral_v<Number>) j[name] = x;
         else j[name] = store::text_of(x);
@@ -51,12 +57,14 @@ Summary summary_in(const Json& j) {
     Summary s{};
     s.scheme = j.at("scheme");
     s.scene = j.at("scene");
-    s.status = {store::outcome_named(j.at("status").at(0)), store::whole<long>(j.at("status").at(1))};
+    s.status = {store::outcome_named(j.at("status").at(0)),
+                store::whole<long>(j.at("status").at(1))};
     each_figure(s, [&j]<class Number>(const char* name, Number& x) {
         if constexpr (std::is_integral_v<Number>) x = store::whole<Number>(j.at(name));
         else x = store::number_of(j.at(name));
     });
-    for (const Json& f : j.at("facts")) s.facts.push_back({f.at(0), store::number_of(f.at(1)), f.at(2)});
+    for (const Json& f : j.at("facts"))
+        s.facts.push_back({f.at(0), store::number_of(f.at(1)), f.at(2)});
     return s;
 }
 
@@ -64,14 +72,21 @@ Json sound_json(const store::Sound& s) {
     return {store::text_of(s.rate), store::text_of(s.peak), store::base64(s.samples)};
 }
 store::Sound sound_in(const Json& j) {
-    return {store::number_of(j.at(0)), store::number_of(j.at(1)), store::samples_of_base64(j.at(2).get<std::string>())};
+    return {store::number_of(j.at(0)), store::number_of(j.at(1)),
+            store::samples_of_base64(j.at(2).get<std::string>())};
 }
 
 Json levels_json(const Levels& l) {
-    return {{"frames", l.frames}, {"rows", l.rows}, {"start", l.start}, {"hop", l.hop}, {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
+    return {{"frames", l.frames}, {"rows", l.rows},     {"start", l.start},
+            {"hop", l.hop},       {"row_hz", l.row_hz}, {"tenths_of_db", l.level}};
 }
 Levels levels_in(const Json& j) {
-    Levels l{store::whole<int>(j.at("frames")), store::whole<int>(j.at("rows")), j.at("start"), j.at("hop"), j.at("row_hz"), {}};
+    Levels l{store::whole<int>(j.at("frames")),
+             store::whole<int>(j.at("rows")),
+             j.at("start"),
+             j.at("hop"),
+             j.at("row_hz"),
+             {}};
     for (const Json& tenths : j.at("tenths_of_db")) l.level.push_back(store::whole<int>(tenths));
     if (l.frames < 0 || l.rows < 0 || l.level.size() != static_cast<std::size_t>(l.frames) * l.rows)
         throw std::runtime_error("not one level for each frame and row");
@@ -83,7 +98,8 @@ std::string json_of(const Record& r, const std::string& identity) {
     const Cell& c = r.cell;
     const Against& a = r.against;
     Json rows = Json::object();
-    for (const auto& [facet, table] : r.rows) rows[facet] = {{"columns", table.columns}, {"rows", table.rows}};
+    for (const auto& [facet, table] : r.rows)
+        rows[facet] = {{"columns", table.columns}, {"rows", table.rows}};
     return store::kept_text(identity, {{"failure", c.failure},
                                        {"reason", c.reason},
                                        {"summary", summary_json(c.summary)},
@@ -102,7 +118,8 @@ std::string json_of(const Record& r, const std::string& identity) {
                                        {"rows", rows}});
 }
 
-std::optional<Record> read_record(const std::filesystem::path& path, const std::string& identity, const Cell& planned) {
+std::optional<Record> read_record(const std::filesystem::path& path, const std::string& identity,
+                                  const Cell& planned) {
     return store::read_kept(path, identity, [&planned](const Json& j) {
         Record r{planned, {}, {}, {}};
         r.cell.failure = j.at("failure");
@@ -123,7 +140,8 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         for (const auto& [facet, kept] : j.at("rows").items()) {
             const store::Table& table = r.rows[facet] = {kept.at("columns"), kept.at("rows")};
             for (const auto& fields : table.rows)
-                if (fields.size() != table.columns.size()) throw std::runtime_error("a row without a field for each column");
+                if (fields.size() != table.columns.size())
+                    throw std::runtime_error("a row without a field for each column");
         }
         return r;
     });
@@ -132,7 +150,8 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
 std::optional<Levels> read_levels(const std::filesystem::path& path, const std::string& name) {
     return store::read_kept(path, [&name](const Json& j) {
         const Json measured = Json::parse(j.at("of").at("measured").get<std::string>());
-        if (std::find(measured.begin(), measured.end(), name) == measured.end()) throw std::runtime_error("it was not measured");
+        if (std::find(measured.begin(), measured.end(), name) == measured.end())
+            throw std::runtime_error("it was not measured");
         return levels_in(j.at("levels"));
     });
 }

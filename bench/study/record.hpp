@@ -1,4 +1,5 @@
-// What a job came to, as it is kept: one file per job, FOLDER/<id>.json, written by rename. Numbers stay numbers until a table is written.
+// What a job came to, as it is kept: one file per job, FOLDER/<id>.json, written by rename. Numbers
+// stay numbers until a table is written.
 #pragma once
 
 #include <filesystem>
@@ -24,15 +25,18 @@ struct Against {            // what a cell was measured against
 struct Record {
     Cell cell;
     Against against;
-    Levels levels;                             // of the spectrogram; none where it was not asked for
+    // of the spectrogram; none where it was not asked for
+    Levels levels;
     std::map<std::string, store::Table> rows;  // of each facet that makes rows and was asked for
     bool timed() const { return cell.clock.wall.count > 0; }
 };
 
 // Without what the clock said: that is kept apart (cost.hpp).
 std::string json_of(const Record&, const std::string& identity);
-// Of the cell in `planned`. Nothing where there is no such file, it is of another job, its checksum is not its own, or it cannot be read.
-std::optional<Record> read_record(const std::filesystem::path&, const std::string& identity, const Cell& planned);
+// Of the cell in `planned`. Nothing where there is no such file, it is of another job, its checksum
+// is not its own, or it cannot be read.
+std::optional<Record> read_record(const std::filesystem::path&, const std::string& identity,
+                                  const Cell& planned);
 // The spectrogram in such a file, empty where the run made none.
 // Nothing where the job did not measure what is called `name`, or the file cannot be read.
 std::optional<Levels> read_levels(const std::filesystem::path&, const std::string& name);

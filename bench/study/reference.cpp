@@ -15,7 +15,8 @@ namespace jvari::bench::study {
 
 namespace {
 ProgressOf told_to(store::Done& done) {
-    return [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
+    return
+        [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); };
 }
 
 Run reference_run(const ReferenceChoice& choice, const Scene& scene, const ProgressOf& progress) {
@@ -32,76 +33,89 @@ double last_instant(const Run& r) {
     return static_cast<double>(r.trace.rows - 1) / r.trace.tap_rate;
 }
 
-// A scheme at three rates, the highest of them those of `r.choice`: its run there and its own estimate.
+// A scheme at three rates, the highest of them those of `r.choice`: its run there and its own
+// estimate.
 void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progress) {
     RunOptions options;
     options.progress = progress;
     Settings coarsest = r.choice.settings;
     coarsest.sample_rate /= r.choice.oversampled;
     try {
-        Oversampled o = oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
+        Oversampled o =
+            oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
         if (o.rate == r.choice.settings.sample_rate) {
             r.run = std::move(o.run);
             r.trust = trust::trust_of(o, last_instant(r.run) - free_from(scene));
             return;
         }
         r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
-    } catch (const Refusal& e) {
-        r.trust.missing = e.what();
-    }
+    } catch (const Refusal& e) { r.trust.missing = e.what(); }
     r.run = reference_run(r.choice, scene, progress);  // a coarser one fails: no estimate
 }
 
 // Schemes that may stand in, in order of what they estimate their own error to be.
-void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene, const ProgressOf& progress) {
+void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene,
+                       const ProgressOf& progress) {
     RunOptions options;
     options.progress = progress;
     std::vector<std::pair<double, ReferenceChoice>> tried;
     for (ReferenceChoice& c : choices) {
         Settings coarsest = c.settings;
         coarsest.sample_rate /= c.oversampled;
-        tried.emplace_back(estimate_of(*c.scheme, scene, coarsest, c.oversampled, options), std::move(c));
+        tried.emplace_back(estimate_of(*c.scheme, scene, coarsest, c.oversampled, options),
+                           std::move(c));
     }
     std::ranges::stable_sort(tried, {}, [](const auto& t) { return t.first; });
     for (std::size_t i = 0; i < tried.size(); ++i) choices[i] = std::move(tried[i].second);
 }
 }  // namespace
 
-Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs, const store::Listener& listener,
-                        double time_limit, bool alone) {
+Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs,
+                        const store::Listener& listener, double time_limit, bool alone) {
     if (const double from = free_from(scene); from >= scene.duration && !alone)
-        throw Refusal(
-            fmt::format("a pluck of {} ends at {:.6g} s, and the run at {:.6g} s: errors are measured once nothing pushes the string any "
-                        "more, so there is nothing to measure; a --duration of {:.6g} covers the first 50 ms",
-                        scene.name, from, scene.duration, from + 50e-3));
+        throw Refusal(fmt::format(
+            "a pluck of {} ends at {:.6g} s, and the run at {:.6g} s: errors are measured once "
+            "nothing pushes the string any "
+            "more, so there is nothing to measure; a --duration of {:.6g} covers the first 50 ms",
+            scene.name, from, scene.duration, from + 50e-3));
     std::string refusals;
     bool ordered = false;
     std::vector<ReferenceChoice> in_turn = choices;
     for (std::size_t k = 0; k < in_turn.size(); ++k) try {
             if (in_turn[k].oversampled && k + 1 < in_turn.size() && !ordered) {
-                const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k), in_turn.end());
-                store::side_by_side({1}, 1, listener, "stand-in", [&](std::size_t, store::Done& done) {
-                    least_error_first(rest, scene, store::within(time_limit, told_to(done)));
-                });
+                const std::span<ReferenceChoice> rest(in_turn.begin() + static_cast<long>(k),
+                                                      in_turn.end());
+                store::side_by_side(
+                    {1}, 1, listener, "stand-in", [&](std::size_t, store::Done& done) {
+                        least_error_first(rest, scene, store::within(time_limit, told_to(done)));
+                    });
                 ordered = true;
             }
             const ReferenceChoice& choice = in_turn[k];
             Reference r{choice, {}, {}, {}};
-            store::side_by_side(std::vector<double>(alone ? 1 : 2, 1), jobs, listener, "reference", [&](std::size_t i, store::Done& done) {
-                const ProgressOf progress = store::within(time_limit, told_to(done));
-                if (i == 1) r.moved = reference_run(choice, moved(scene, 1 + floor_displacement), progress);
-                else if (choice.oversampled) run_oversampled(r, scene, progress);
-                else r.run = reference_run(choice, scene, progress);
-            });
+            store::side_by_side(std::vector<double>(alone ? 1 : 2, 1), jobs, listener, "reference",
+                                [&](std::size_t i, store::Done& done) {
+                                    const ProgressOf progress =
+                                        store::within(time_limit, told_to(done));
+                                    if (i == 1)
+                                        r.moved = reference_run(
+                                            choice, moved(scene, 1 + floor_displacement), progress);
+                                    else if (choice.oversampled)
+                                        run_oversampled(r, scene, progress);
+                                    else r.run = reference_run(choice, scene, progress);
+                                });
             if (r.run.trace.rows < 2) {
                 refusals += fmt::format("; {} failed at its start", choice.scheme->name);
                 continue;
             }
             if (alone && r.run.status.outcome != Outcome::ok) {
-                refusals += fmt::format("; {} {}", choice.scheme->name, name_of(r.run.status.outcome));
+                refusals +=
+                    fmt::format("; {} {}", choice.scheme->name, name_of(r.run.status.outcome));
                 continue;
             }
-            if (!choice.oversampled && !alone) r.trust = trust::trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
+            if (!choice.oversampled && !alone)
+                r.trust = trust::trust_of(scene, choice.scheme->name, choice.settings,
+                                          last_instant(r.run));
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();

@@ -15,11 +15,17 @@ namespace jvari::bench::study {
 struct ReferenceChoice {
     const Descriptor* scheme;
     Settings settings;
-    std::string note;                 // why this one, "" where it is the rule or was asked for
-    int oversampled = 0;              // a scheme, and the multiple of the coarsest rate of three; 0: a reference
-    bool kept = false;                // its run may be one of before (kept_run.hpp): the reference is of this program and not of a plugin
-    std::filesystem::path kept_in{};  // a study's own folder, for all of its runs; "": kept_runs_folder(), for those worth keeping
-    std::string name() const { return (oversampled ? "oversampled " : "") + std::string(scheme->name); }
+    std::string note;  // why this one, "" where it is the rule or was asked for
+    // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    int oversampled = 0;
+    // its run may be one of before (kept_run.hpp): the reference is of this program and not of a
+    // plugin
+    bool kept = false;
+    // a study's own folder, for all of its runs; "": kept_runs_folder(), for those worth keeping
+    std::filesystem::path kept_in{};
+    std::string name() const {
+        return (oversampled ? "oversampled " : "") + std::string(scheme->name);
+    }
 };
 
 struct Reference {
@@ -27,12 +33,14 @@ struct Reference {
     Run run, moved;      // moved: started 1e-12 apart
     trust::Trust trust;  // what its certificate, or its own estimate, says of it
 };
-// The first of the choices that represents the scene and gets going, its two runs side by side where `jobs` are not 1; of the schemes that
-// may stand in the one that estimates its own error least goes first. Throws Refusal where none does, and PastItsLimit where one of the two
-// runs computes for longer than `time_limit` [s]: another in its place would make the errors a matter of the machine.
+// The first of the choices that represents the scene and gets going, its two runs side by side
+// where `jobs` are not 1; of the schemes that may stand in the one that estimates its own error
+// least goes first. Throws Refusal where none does, and PastItsLimit where one of the two runs
+// computes for longer than `time_limit` [s]: another in its place would make the errors a matter of
+// the machine.
 //
 // `alone`: the first that reaches its end, by one run; `moved` and `trust` are empty.
-Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs, const store::Listener&, double time_limit = HUGE_VAL,
-                        bool alone = false);
+Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs,
+                        const store::Listener&, double time_limit = HUGE_VAL, bool alone = false);
 
 }  // namespace jvari::bench::study

@@ -20,14 +20,13 @@ public:
         try {
             truth_ = std::make_unique<Truth>(run());
             const Run& moved = truth_->reference.moved;
-            if (moved.trace.rows > 0) floor_ = errors_of(moved.trace, truth_->reference.run.trace, {}, from);
+            if (moved.trace.rows > 0)
+                floor_ = errors_of(moved.trace, truth_->reference.run.trace, {}, from);
         } catch (const store::Busy& busy) {
             busy_ = busy;
             again_ = Clock::now() + std::chrono::milliseconds(500);
             throw;
-        } catch (const std::exception& e) {
-            refused_ = e.what();
-        }
+        } catch (const std::exception& e) { refused_ = e.what(); }
         made_ = true;
     }
     void look() {
@@ -59,7 +58,9 @@ private:
 Against References::Of::against() const {
     if (!truth) return {};
     const Reference& r = truth->reference;
-    return {r.choice.name(), r.choice.settings.modes, truth->said, *floor, r.trust, model ? model->trust : trust::Trust{}};
+    return {r.choice.name(), r.choice.settings.modes,
+            truth->said,     *floor,
+            r.trust,         model ? model->trust : trust::Trust{}};
 }
 
 References::References(std::span<const Job> jobs) {
@@ -86,20 +87,21 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     const double from = free_from(scene);
     Shared& model = of(p.reference_key);
     if (p.in_model || !p.truth_modes)
-        model.make(from, [&] { return Truth{run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}}; });
+        model.make(from, [&] {
+            return Truth{
+                run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}};
+        });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
-    if (p.truth_modes) truth.make(from, [&] { return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit); });
-    return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(), truth.refused()};
+    if (p.truth_modes)
+        truth.make(from, [&] {
+            return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit);
+        });
+    return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(),
+            truth.refused()};
 }
 
-void References::look(const Point& p) {
-    each_of(p, &Shared::look);
-}
-void References::hold(const Point& p) {
-    each_of(p, &Shared::hold);
-}
-void References::release(const Point& p) {
-    each_of(p, &Shared::release);
-}
+void References::look(const Point& p) { each_of(p, &Shared::look); }
+void References::hold(const Point& p) { each_of(p, &Shared::hold); }
+void References::release(const Point& p) { each_of(p, &Shared::release); }
 
 }  // namespace jvari::bench::study

@@ -16,7 +16,8 @@ namespace jvari::bench::study {
 namespace {
 namespace fs = std::filesystem;
 
-Record run_job(const Job& job, References& references, const store::Done& done, const ProgressOf& progress) {
+Record run_job(const Job& job, References& references, const store::Done& done,
+               const ProgressOf& progress) {
     const Point& point = *job.point;
     References::Of known;
     if (job.judged) known = references.make(point, 1, store::PartOf(done));
@@ -24,14 +25,22 @@ Record run_job(const Job& job, References& references, const store::Done& done, 
     Cell& cell = r.cell;
     const Trace* truth = known.truth ? &known.truth->reference.run.trace : nullptr;
     try {
-        const Trace trace = run_cell(cell, point.scene, store::within(std::min(point.time_limit, job.patience), progress));
+        const Trace trace = run_cell(
+            cell, point.scene, store::within(std::min(point.time_limit, job.patience), progress));
         if (truth) {
-            const auto errors_from = [&](const Trace& t) { return errors_of(trace, t, job.errors, free_from(point.true_scene())); };
-            const Reference* own = known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
+            const auto errors_from = [&](const Trace& t) {
+                return errors_of(trace, t, job.errors, free_from(point.true_scene()));
+            };
+            const Reference* own =
+                known.model ? of_modes(cell, *known.model, *known.truth) : nullptr;
             cell.errors = errors_from(*truth);
-            if (own) cell.in_model = &own->run.trace == truth ? cell.errors : errors_from(own->run.trace);
+            if (own)
+                cell.in_model =
+                    &own->run.trace == truth ? cell.errors : errors_from(own->run.trace);
         }
-        if (job.sounds && cell.reason.empty()) cell.sound = store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);
+        if (job.sounds && cell.reason.empty())
+            cell.sound =
+                store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);
         if (job.measure) job.measure({point, cell, trace, truth}, r);
     } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
         fail(cell, e);
@@ -46,53 +55,66 @@ std::optional<Record> kept_record(const Job& job, const Kept& keep) {
     return read_record(keep.folder / (job.id + ".json"), job.identity, job.cell);
 }
 
-// Of the jobs that are not there: run here, or read back where another process has run them meanwhile.
-void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, References& references, Kept& keep, int threads,
-                 const store::Listener& listener, Study& into) {
+// Of the jobs that are not there: run here, or read back where another process has run them
+// meanwhile.
+void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, References& references,
+                 Kept& keep, int threads, const store::Listener& listener, Study& into) {
     std::vector<double> sizes;
     for (const std::size_t i : missing)
-        sizes.push_back(std::max(plan.jobs[i].cell.settings.sample_rate, 44100.0) * std::max(1, plan.jobs[i].cell.settings.modes) *
+        sizes.push_back(std::max(plan.jobs[i].cell.settings.sample_rate, 44100.0) *
+                        std::max(1, plan.jobs[i].cell.settings.modes) *
                         plan.jobs[i].point->scene.duration);
     store::side_by_side(
         sizes, threads, listener, "errors",
         [&](std::size_t k, store::Done& done) {
             const Job& job = plan.jobs[missing[k]];
             if (job.judged) references.look(*job.point);
-            into.records[missing[k]] = record_of(
-                job, references, keep, done, [&done](long rows, long of) { done = static_cast<double>(rows) / static_cast<double>(of); });
+            into.records[missing[k]] =
+                record_of(job, references, keep, done, [&done](long rows, long of) {
+                    done = static_cast<double>(rows) / static_cast<double>(of);
+                });
             if (job.judged) references.release(*job.point);
         },
         [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
 }
 
-// Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile meets them alike.
-void time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into, const store::Listener& listener) {
+// Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile
+// meets them alike.
+void time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into,
+              const store::Listener& listener) {
     std::vector<Contender> contenders;
-    for (const std::size_t i : indices) contenders.push_back({&into.records[i].cell, &plan.jobs[i].point->scene});
+    for (const std::size_t i : indices)
+        contenders.push_back({&into.records[i].cell, &plan.jobs[i].point->scene});
     time_cells(contenders, plan.jobs[indices.front()].repeats, listener);
     for (const std::size_t i : indices) {
         const Job& job = plan.jobs[i];
-        if (!keep.folder.empty()) store::write_fresh(keep.folder / clock_file(job), clock_json(into.records[i].cell.clock, job.identity));
+        if (!keep.folder.empty())
+            store::write_fresh(keep.folder / clock_file(job),
+                               clock_json(into.records[i].cell.clock, job.identity));
         ++into.timed;
     }
 }
 
-// One process of the folder times while no other does. None of them runs jobs then: each begins here once all are there. A folder has the
-// costs of one machine.
+// One process of the folder times while no other does. None of them runs jobs then: each begins
+// here once all are there. A folder has the costs of one machine.
 void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
     store::Rows timed;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i)
-        if (plan.jobs[i].repeats > 0 && !*plan.jobs[i].cell.scheme->untimed && into.records[i].cell.ran()) timed.push_back(i);
+        if (plan.jobs[i].repeats > 0 && !*plan.jobs[i].cell.scheme->untimed &&
+            into.records[i].cell.ran())
+            timed.push_back(i);
     if (timed.empty()) return;
     const auto lock =
-        store::lock_once_free(keep.folder.empty() ? keep.folder : keep.folder / "clock", "times the cells of this folder", listener);
+        store::lock_once_free(keep.folder.empty() ? keep.folder : keep.folder / "clock",
+                              "times the cells of this folder", listener);
     std::map<int, store::Rows> sets;  // of what has no cost
     const std::string here = store::stamp_now().name;
     std::string elsewhere;
     for (const std::size_t i : timed) {
         const Job& job = plan.jobs[i];
         const bool read = keep.resume && !keep.folder.empty();
-        const std::optional<Timing> known = read ? read_clock(keep.folder / clock_file(job), job.identity) : std::nullopt;
+        const std::optional<Timing> known =
+            read ? read_clock(keep.folder / clock_file(job), job.identity) : std::nullopt;
         if (known) into.records[i].cell.clock = *known;
         else sets[job.set].push_back(i);
         if (known && known->stamp.name != here) elsewhere = known->stamp.name;
@@ -101,7 +123,8 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
     if (!elsewhere.empty()) {
         const std::string folder = keep.folder.string();
         listener.note(
-            fmt::format("the costs in {} come from another machine, {}; cells without a cost are not timed here. Remove {}/*.clock "
+            fmt::format("the costs in {} come from another machine, {}; cells without a cost are "
+                        "not timed here. Remove {}/*.clock "
                         "to time all of them on this machine",
                         folder, elsewhere, folder));
         return;
@@ -110,7 +133,8 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
 }
 }  // namespace
 
-Record record_of(const Job& job, References& references, Kept& keep, const store::Done& done, const ProgressOf& progress) {
+Record record_of(const Job& job, References& references, Kept& keep, const store::Done& done,
+                 const ProgressOf& progress) {
     std::optional<Record> record = kept_record(job, keep);
     if (!record) {
         const fs::path file = keep.folder.empty() ? fs::path() : keep.folder / (job.id + ".json");
@@ -119,16 +143,19 @@ Record record_of(const Job& job, References& references, Kept& keep, const store
         if (!record) {
             record = run_job(job, references, done, progress);
             ++keep.ran;
-            const bool given_up = record->cell.failure == "past_time_limit" && job.patience < job.point->time_limit;
+            const bool given_up =
+                record->cell.failure == "past_time_limit" && job.patience < job.point->time_limit;
             const bool worth = record->cell.summary.processor_seconds >= keep.least;
-            if (!file.empty() && worth && !given_up) store::write_fresh(file, json_of(*record, job.identity));
+            if (!file.empty() && worth && !given_up)
+                store::write_fresh(file, json_of(*record, job.identity));
         }
     }
     ++keep.kept;
     return std::move(*record);
 }
 
-Study run(const Plan& plan, References& references, Kept& keep, int threads, const store::Listener& listener) {
+Study run(const Plan& plan, References& references, Kept& keep, int threads,
+          const store::Listener& listener) {
     Study result;
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
@@ -147,7 +174,8 @@ Study run(const Plan& plan, References& references, Kept& keep, int threads, con
     return result;
 }
 
-Study run(const Plan& plan, const fs::path& folder, bool resume, int threads, const store::Listener& listener) {
+Study run(const Plan& plan, const fs::path& folder, bool resume, int threads,
+          const store::Listener& listener) {
     References references(plan.jobs);
     Kept keep{folder, resume};
     return run(plan, references, keep, threads, listener);
@@ -157,17 +185,26 @@ std::string kept_of(const Plan& plan, const fs::path& folder) {
     std::error_code error;
     const auto files = [&](const char* in, const char* extension) {
         return std::count_if(fs::directory_iterator(folder / in, error), fs::directory_iterator(),
-                             [extension](const fs::directory_entry& e) { return e.path().extension() == extension; });
+                             [extension](const fs::directory_entry& e) {
+                                 return e.path().extension() == extension;
+                             });
     };
     std::vector<std::string> kept;
     if (!plan.jobs.empty()) {
-        const auto lies = [&](const Job& c) { return fs::exists(folder / "cells" / (c.id + ".json"), error); };
-        kept.push_back(fmt::format("{} of {} cells", std::count_if(plan.jobs.begin(), plan.jobs.end(), lies), plan.jobs.size()));
+        const auto lies = [&](const Job& c) {
+            return fs::exists(folder / "cells" / (c.id + ".json"), error);
+        };
+        kept.push_back(fmt::format("{} of {} cells",
+                                   std::count_if(plan.jobs.begin(), plan.jobs.end(), lies),
+                                   plan.jobs.size()));
     }
-    if (const auto n = files("points", ".json"); n > 0 || plan.jobs.empty()) kept.push_back(fmt::format("{} points of maps", n));
-    if (const auto n = files("references", ".run"); n > 0) kept.push_back(fmt::format("{} runs of references", n));
+    if (const auto n = files("points", ".json"); n > 0 || plan.jobs.empty())
+        kept.push_back(fmt::format("{} points of maps", n));
+    if (const auto n = files("references", ".run"); n > 0)
+        kept.push_back(fmt::format("{} runs of references", n));
     std::string text = kept.front();
-    for (std::size_t i = 1; i < kept.size(); ++i) text += (i + 1 < kept.size() ? ", " : " and ") + kept[i];
+    for (std::size_t i = 1; i < kept.size(); ++i)
+        text += (i + 1 < kept.size() ? ", " : " and ") + kept[i];
     return text;
 }
 

@@ -31,7 +31,8 @@ Levels levels_of(std::span<const double> signal, double rate) {
             const int row = std::min(l.rows - 1, static_cast<int>(k * s.bin_hz / l.row_hz));
             const double power = s.frame(m)[k];
             int& level = l.level[static_cast<std::size_t>(m) * l.rows + row];
-            if (power > 1e-40) level = std::max(level, static_cast<int>(std::lround(100 * std::log10(power))));
+            if (power > 1e-40)
+                level = std::max(level, static_cast<int>(std::lround(100 * std::log10(power))));
         }
     return l;
 }

@@ -22,8 +22,9 @@ namespace jvari::bench::study {
 
 namespace {
 constexpr int most_modes_found = 4096;
-// Windows of the exact solution are as short as the fastest mode asks. On a string whose modes lie this far apart [Hz], or less, the work of
-// `modes^2` takes the time that `budget` says; on a shorter or stiffer one, that of modes times the highest frequency over this.
+// Windows of the exact solution are as short as the fastest mode asks. On a string whose modes lie
+// this far apart [Hz], or less, the work of `modes^2` takes the time that `budget` says; on a
+// shorter or stiffer one, that of modes times the highest frequency over this.
 constexpr double mode_spacing = 500;
 constexpr double patience = 60;  // [s] of processor, for one run that doubles the modes
 
@@ -31,11 +32,15 @@ struct Size {
     int modes, points;  // points of a profile; 0: none, or they were asked for
     Size twice(int most) const { return {std::min(2 * modes, most), 2 * points}; }
     bool operator==(const Size&) const = default;
-    std::string text() const { return fmt::format("{} modes", modes) + (points > 0 ? fmt::format(" and {} points", points) : ""); }
+    std::string text() const {
+        return fmt::format("{} modes", modes) +
+               (points > 0 ? fmt::format(" and {} points", points) : "");
+    }
 };
 
-// How many times longer than the closed forms of a lumped linear contact a reference takes for the same work, as measured on
-// two_point_bridge and tanpura_c3_release: a contact that is integrated in steps, and a stiff integrator. Points as on sitar_parabola.
+// How many times longer than the closed forms of a lumped linear contact a reference takes for the
+// same work, as measured on two_point_bridge and tanpura_c3_release: a contact that is integrated
+// in steps, and a stiff integrator. Points as on sitar_parabola.
 double dearness(const Descriptor& reference, const Scene& scene) {
     const Features needed = needed_by(scene);
     if (reference.name == std::string_view(sundials.name)) return 1000;
@@ -44,19 +49,23 @@ double dearness(const Descriptor& reference, const Scene& scene) {
 
 bool within_budget(const Descriptor& reference, const Scene& scene, const Size& s) {
     std::size_t contacts = 2;  // the closed forms take two alike
-    for (const String& string : scene.strings) contacts = std::max(contacts, string.barriers.size());
+    for (const String& string : scene.strings)
+        contacts = std::max(contacts, string.barriers.size());
     const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
     const int size = std::max(s.modes, s.points);  // few measured modes may lie under many points
     double work = 0;
     for (const String& string : scene.strings) {
         const int modes = std::min(s.modes, modes_measured(string).value_or(s.modes));
         const double highest = modes_of(string, modes).omega0.back() / (2 * std::numbers::pi);
-        work += scene.duration * size * std::max<double>(size, highest / mode_spacing) * (1 + 2.5 * coupled);
+        work += scene.duration * size * std::max<double>(size, highest / mode_spacing) *
+                (1 + 2.5 * coupled);
     }
-    return s.points <= most_points && s.modes <= most_modes_found && work * dearness(reference, scene) <= budget;
+    return s.points <= most_points && s.modes <= most_modes_found &&
+           work * dearness(reference, scene) <= budget;
 }
 
-// Of a scene whose strings are tables of measured modes: those tables are the strings, and no further mode is left out of them.
+// Of a scene whose strings are tables of measured modes: those tables are the strings, and no
+// further mode is left out of them.
 std::optional<int> measured(const Scene& scene) {
     std::optional<int> all;
     for (const String& s : scene.strings) {
@@ -69,9 +78,12 @@ std::optional<int> measured(const Scene& scene) {
 
 // Modes below 20 kHz, or all that were measured, and the points that a reference takes unasked.
 Size first_size(const Scene& scene, const OptionValues& options) {
-    const bool asked = std::any_of(options.begin(), options.end(), [](const auto& o) { return o.first == std::string(nodes_option.name); });
+    const bool asked = std::any_of(options.begin(), options.end(), [](const auto& o) {
+        return o.first == std::string(nodes_option.name);
+    });
     const bool profile = needed_by(scene).any(any_profile);
-    return {measured(scene).value_or(modes_for(scene, {})), profile && !asked ? std::stoi(nodes_option.fallback) : 0};
+    return {measured(scene).value_or(modes_for(scene, {})),
+            profile && !asked ? std::stoi(nodes_option.fallback) : 0};
 }
 
 ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
@@ -83,42 +95,59 @@ ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
 
 double change(const Run& more, const Run& fewer, int tap, double from, double window) {
     const double rate = more.trace.tap_rate;
-    return relative_difference(rows_from(fewer.trace.column(tap), from, rate), rows_from(more.trace.column(tap), from, rate), rate, window);
+    return relative_difference(rows_from(fewer.trace.column(tap), from, rate),
+                               rows_from(more.trace.column(tap), from, rate), rate, window);
 }
 
-// How far the model is solved is what its certificate says, else its noise floor: an error of rounding grows like a change of the start.
-// What the model leaves out is what is left after the doublings.
-trust::Trust trust_of(const trust::Trust& solved, const Reference& last, const std::vector<Reference>& coarser, const Size& of,
-                      double from) {
+// How far the model is solved is what its certificate says, else its noise floor: an error of
+// rounding grows like a change of the start. What the model leaves out is what is left after the
+// doublings.
+trust::Trust trust_of(const trust::Trust& solved, const Reference& last,
+                      const std::vector<Reference>& coarser, const Size& of, double from) {
     trust::Trust t = solved;
     const Run &more = last.run, &fewer = coarser.back().run;
     const auto taps = static_cast<std::size_t>(more.trace.taps());
     if (!t.any()) t.figure.assign(taps, {store::nan, store::nan, store::nan});
-    const double until = static_cast<double>(std::min(more.trace.rows, fewer.trace.rows) - 1) / more.trace.tap_rate - from;
+    const double until =
+        static_cast<double>(std::min(more.trace.rows, fewer.trace.rows) - 1) / more.trace.tap_rate -
+        from;
     t.left_out.assign(taps, {});
     for (std::size_t k = 0; k < taps; ++k)
         for (std::size_t w = 0; w < t.left_out[k].size(); ++w) {
             const double end = std::array{10e-3, 50e-3, HUGE_VAL}[w];
             const bool covered = w == 2 || end <= until + 1e-6;
-            const auto changed = [&](const Run& a, const Run& b) { return change(a, b, static_cast<int>(k), from, end); };
-            const double before = coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
-            t.left_out[k][w] = covered ? left_after(changed(more, fewer), before, is_matched(last.choice.settings.options)) : store::nan;
-            if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);  // beyond the certificate, too
+            const auto changed = [&](const Run& a, const Run& b) {
+                return change(a, b, static_cast<int>(k), from, end);
+            };
+            const double before =
+                coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
+            t.left_out[k][w] = covered ? left_after(changed(more, fewer), before,
+                                                    is_matched(last.choice.settings.options))
+                                       : store::nan;
+            // beyond the certificate, too
+            if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);
         }
-    t.doubled = of.points == 0                                                       ? "modes"
-                : last.choice.settings.modes == coarser.back().choice.settings.modes ? "points"
-                                                                                     : "modes and points";
+    t.doubled = of.points == 0 ? "modes"
+                : last.choice.settings.modes == coarser.back().choice.settings.modes
+                    ? "points"
+                    : "modes and points";
     return t;
 }
-// What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where the whole would take it too long.
-void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store::Listener& listener, double time_limit) {
-    if (r.trust.any() || r.choice.scheme->name == std::string_view(sundials.name) || !represents(sundials, scene)) return;
+// What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where
+// the whole would take it too long.
+void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store::Listener& listener,
+             double time_limit) {
+    if (r.trust.any() || r.choice.scheme->name == std::string_view(sundials.name) ||
+        !represents(sundials, scene))
+        return;
     const double from = free_from(scene);
-    if (!within_budget(sundials, scene, size)) scene.duration = std::min(scene.duration, from + 50e-3);
+    if (!within_budget(sundials, scene, size))
+        scene.duration = std::min(scene.duration, from + 50e-3);
     if (!within_budget(sundials, scene, size)) return;
     ReferenceChoice other = sized(r.choice, size);
     other.scheme = &sundials;
-    std::erase_if(other.settings.options, [](const auto& o) { return o.first != std::string(nodes_option.name); });
+    std::erase_if(other.settings.options,
+                  [](const auto& o) { return o.first != std::string(nodes_option.name); });
     const Run run = run_reference({other}, scene, jobs, listener, time_limit, true).run;
     const double until = static_cast<double>(run.trace.rows - 1) / run.trace.tap_rate - from;
     const bool whole = run.trace.rows == r.run.trace.rows;
@@ -135,13 +164,15 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
 }
 }  // namespace
 
-Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes, int jobs, const store::Listener& listener,
-                double time_limit) {
+Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes,
+                int jobs, const store::Listener& listener, double time_limit) {
     const bool find = modes == 0;
     std::vector<ReferenceChoice> first;
     for (const ReferenceChoice& c : choices) {
-        const Size size{find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 4), 0};
-        if (const auto nearer = c.oversampled ? std::nullopt : matched(*c.scheme, scene, c.settings.options)) {
+        const Size size{find ? first_size(scene, c.settings.options).modes : std::max(1, modes / 4),
+                        0};
+        if (const auto nearer =
+                c.oversampled ? std::nullopt : matched(*c.scheme, scene, c.settings.options)) {
             first.push_back(sized(c, size));
             first.back().settings.options = *nearer;
         }
@@ -155,7 +186,8 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     const ReferenceChoice choice = truth.reference.choice;
     Settings certified = choice.settings;
     certified.modes = first_size(scene, choice.settings.options).modes;
-    const trust::Trust solved = trust::trust_of(scene, choice.scheme->name, certified, scene.duration);
+    const trust::Trust solved =
+        trust::trust_of(scene, choice.scheme->name, certified, scene.duration);
     const int tap = headline_of(scene).nut;
     const double from = free_from(scene), end = headline_window(scene);
     const std::size_t window = std::isinf(end) ? 2 : end >= 50e-3 ? 1 : 0;
@@ -163,39 +195,50 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     double unsettled = HUGE_VAL;  // by what is left out of the headline figure
     const auto all = find ? measured(scene) : std::nullopt;
     const auto next = [&] {
-        return find ? size.twice(all.value_or(2 * most_modes_found)) : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
+        return find ? size.twice(all.value_or(2 * most_modes_found))
+                    : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
     };
-    while (find ? unsettled >= settled && next() != size && within_budget(*choice.scheme, scene, next()) : size.modes < modes) {
+    while (find ? unsettled >= settled && next() != size &&
+                      within_budget(*choice.scheme, scene, next())
+                : size.modes < modes) {
         Reference more;
         try {
-            more = run_reference({sized(choice, next())}, scene, jobs, listener, find ? std::min(time_limit, patience) : time_limit);
-        } catch (const store::PastItsLimit&) {  // the best so far is the answer, with the bound that it has
+            more = run_reference({sized(choice, next())}, scene, jobs, listener,
+                                 find ? std::min(time_limit, patience) : time_limit);
+            // the best so far is the answer, with the bound that it has
+        } catch (const store::PastItsLimit&) {
             if (!find || time_limit <= patience) throw;
             break;
-        } catch (const BadScene&) {  // no string has as many, or there are no more that were measured
+            // no string has as many, or there are no more that were measured
+        } catch (const BadScene&) {
             break;
-        } catch (const Refusal&) {  // these are all that were measured: nothing is left out that could be matched
-            break;
-        }
+            // these are all that were measured: nothing is left out that could be matched
+        } catch (const Refusal&) { break; }
         size = next();
         truth.coarser.push_back(std::move(truth.reference));
         truth.reference = std::move(more);
         truth.reference.trust = trust_of(solved, truth.reference, truth.coarser, size, from);
         unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
         const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
-        const auto free = [&](const Trace& t) { return rows_from(t.column(tap), from, t.tap_rate); };
+        const auto free = [&](const Trace& t) {
+            return rows_from(t.column(tap), from, t.tap_rate);
+        };
         truth.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
     }
     truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
     if (all) {
         double highest = HUGE_VAL;
-        for (const String& s : scene.strings) highest = std::min(highest, std::get<TableDamping>(s.damping).frequency_hz[*all - 1]);
-        truth.said += fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table", highest / 1000);
+        for (const String& s : scene.strings)
+            highest = std::min(highest, std::get<TableDamping>(s.damping).frequency_hz[*all - 1]);
+        truth.said +=
+            fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table",
+                        highest / 1000);
     }
     if (!truth.coarser.empty()) {
-        truth.said += fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
-                                  std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
-                                  change(truth.reference.run, truth.coarser.back().run, tap, from, end));
+        truth.said +=
+            fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
+                        std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
+                        change(truth.reference.run, truth.coarser.back().run, tap, from, end));
     }
     const bool profile = needed_by(scene).any(any_profile);
     if (all && !profile) {
@@ -204,8 +247,10 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         truth.said += "; twice as many would take too long";
         if (truth.coarser.empty()) truth.said += ", so what they leave out is unknown";
         else if (size.points > 0)
-            truth.said += fmt::format(". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} takes more",
-                                      size.points, 100 * unsettled, choice.scheme->name, 2 * size.points);
+            truth.said += fmt::format(
+                ". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} "
+                "takes more",
+                size.points, 100 * unsettled, choice.scheme->name, 2 * size.points);
         if (profile) truth.said += "; a shorter --duration lets more points be tried";
     }
     return truth;

@@ -1,5 +1,6 @@
-// Source: the true modes are those of van Walstijn et al. 2016, eqs 17-18 (scenes/modes.hpp): omega^2 = omega0^2 - sigma^2. Leaves out: the
-// second plane of vibration, strings after the first, modes of string and thread together.
+// Source: the true modes are those of van Walstijn et al. 2016, eqs 17-18 (scenes/modes.hpp):
+// omega^2 = omega0^2 - sigma^2. Leaves out: the second plane of vibration, strings after the first,
+// modes of string and thread together.
 #include "bench/suite/facet.hpp"
 
 #include <algorithm>
@@ -35,11 +36,13 @@ Heard heard(const MeasuredCell& c) {
     if (s.polarisation) return {{}, 0, "two planes: the trace has pairs of modes"};
     if (c.scene.strings.size() > 1) return {{}, 0, "several strings sound together"};
     int tap = c.tap;
-    for (int k = 0; k < c.trace.taps() && !hears_the_string(c.scene.taps[tap].quantity); ++k) tap = k;
+    for (int k = 0; k < c.trace.taps() && !hears_the_string(c.scene.taps[tap].quantity); ++k)
+        tap = k;
     if (!hears_the_string(c.scene.taps[tap].quantity)) return {{}, 0, "no tap hears the string"};
     Trace own;
     const Trace* trace = &c.trace;
-    if (c.scheme.clock == Clock::stepped && c.settings.sample_rate > c.trace.tap_rate) {  // else modes above half the tap rate fold back
+    // else modes above half the tap rate fold back
+    if (c.scheme.clock == Clock::stepped && c.settings.sample_rate > c.trace.tap_rate) {
         Settings every = c.settings;
         every.tap_rate = every.sample_rate;
         own = run(c.scheme, c.scene, every).trace;
@@ -48,15 +51,18 @@ Heard heard(const MeasuredCell& c) {
     std::span<const double> signal = trace->column(tap);
     if (s.pluck) {  // free from here on
         const double end = (s.pluck->start + s.pluck->duration) * trace->tap_rate;
-        signal = signal.subspan(std::min(signal.size(), static_cast<std::size_t>(std::ceil(end)) + 1));
+        signal =
+            signal.subspan(std::min(signal.size(), static_cast<std::size_t>(std::ceil(end)) + 1));
     }
     return {{signal.begin(), signal.end()}, trace->tap_rate, ""};
 }
 
-// The strongest at the start: by energy over the record a spurious pole that grows could pass for the mode.
+// The strongest at the start: by energy over the record a spurious pole that grows could pass for
+// the mode.
 Partial strongest_near(const Heard& h, double hertz, double half_width) {
     Partial strongest{nan, nan, 0, nan};
-    for (const Partial& p : partials_between(h.signal, h.rate, hertz - half_width, hertz + half_width))
+    for (const Partial& p :
+         partials_between(h.signal, h.rate, hertz - half_width, hertz + half_width))
         if (p.amplitude > strongest.amplitude) strongest = p;
     return strongest;
 }
@@ -64,17 +70,21 @@ Partial strongest_near(const Heard& h, double hertz, double half_width) {
 
 store::Table dispersion_rows(const MeasuredCell& c) {
     store::Table t;
-    t.columns = {"mode", "frequency_hz", "own_cents", "trace_cents", "decay_per_s", "own_decay_per_s", "trace_decay_per_s", "note"};
+    t.columns = {"mode",        "frequency_hz",    "own_cents",         "trace_cents",
+                 "decay_per_s", "own_decay_per_s", "trace_decay_per_s", "note"};
     const String& s = c.scene.strings.front();
     const bool stepped = c.scheme.clock == Clock::stepped;
     const double rate = stepped ? c.settings.sample_rate : c.trace.tap_rate;
-    const int carried = stepped ? modes_for(s, c.settings) : c.settings.modes > 0 ? c.settings.modes : dispersion_modes;
+    const int carried = stepped                ? modes_for(s, c.settings)
+                        : c.settings.modes > 0 ? c.settings.modes
+                                               : dispersion_modes;
     const int count = std::min({dispersion_modes, carried, modes_below(s, 0.5 * listened * rate)});
     if (count == 0) return t;
     const Modes modes = modes_of(s, count);
     const std::vector<FreeMode> own = make_scheme(c.scheme, c.scene, c.settings)->free_modes();
     const Heard h = heard(c);
-    const double gap = modes.omega0.front() / two_pi;  // the partials of a string lie no closer [Hz]
+    // the partials of a string lie no closer [Hz]
+    const double gap = modes.omega0.front() / two_pi;
     for (int i = 0; i < count; ++i) {
         const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
         if (!(square > 0)) continue;
@@ -84,7 +94,8 @@ store::Table dispersion_rows(const MeasuredCell& c) {
         Partial p{nan, nan, nan, nan};
         if (h.note.empty()) p = strongest_near(h, known ? own_hertz : hertz, 0.4 * gap);
         if (!known && std::isnan(p.frequency) && !h.note.empty()) continue;  // nothing to say
-        t.rows.push_back({std::to_string(i + 1), store::text_of(hertz), store::text_of(cents(own_hertz, hertz)),
+        t.rows.push_back({std::to_string(i + 1), store::text_of(hertz),
+                          store::text_of(cents(own_hertz, hertz)),
                           store::text_of(cents(p.frequency, hertz)), store::text_of(modes.sigma[i]),
                           store::text_of(known ? own[i].sigma : nan), store::text_of(p.decay),
                           !h.note.empty()           ? h.note

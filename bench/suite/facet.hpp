@@ -1,5 +1,6 @@
-// What a suite can measure of a cell. A facet beside compare's errors and cost and the spectrogram makes rows of the cell's accuracy run by
-// one function, and they are gathered over all cells into a file of its name. A new one is a file of its own and a line of facets().
+// What a suite can measure of a cell. A facet beside compare's errors and cost and the spectrogram
+// makes rows of the cell's accuracy run by one function, and they are gathered over all cells into
+// a file of its name. A new one is a file of its own and a line of facets().
 #pragma once
 
 #include <filesystem>
@@ -23,22 +24,26 @@ struct MeasuredCell {  // a cell whose accuracy run reached its end or its failu
 struct Facet {
     const char* name;
     const char* meaning;
-    store::Table (*rows)(const MeasuredCell&) = nullptr;  // may come without rows; repeats bit for bit
+    // may come without rows; repeats bit for bit
+    store::Table (*rows)(const MeasuredCell&) = nullptr;
 };
 std::span<const Facet> facets();
 
-// ---- The row facet `sound` of a suite: a cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
+// ---- The row facet `sound` of a suite: a cell's samples and its reference's lie in its record,
+// and become sounds/*.wav and sounds.csv.
 
 store::Table sound_rows(const MeasuredCell&);
 void write_sound_rows(const std::filesystem::path& folder, const store::Table& gathered);
 
-// ---- Dispersion of a cell: frequency and decay rate of the string's first modes against the true ones, twice: by the scheme's own
-// recursion (Scheme::free_modes) and from the trace by the matrix pencil of analysis/dispersion.hpp.
+// ---- Dispersion of a cell: frequency and decay rate of the string's first modes against the true
+// ones, twice: by the scheme's own recursion (Scheme::free_modes) and from the trace by the matrix
+// pencil of analysis/dispersion.hpp.
 
 constexpr int dispersion_modes = 30;  // at most
 
-// Columns mode, frequency_hz, own_cents, trace_cents, decay_per_s, own_decay_per_s, trace_decay_per_s, note; an empty field is not known,
-// and `note` says why the trace says nothing. A string that a thread or a barrier touches has no modes of its own in the trace.
+// Columns mode, frequency_hz, own_cents, trace_cents, decay_per_s, own_decay_per_s,
+// trace_decay_per_s, note; an empty field is not known, and `note` says why the trace says nothing.
+// A string that a thread or a barrier touches has no modes of its own in the trace.
 store::Table dispersion_rows(const MeasuredCell&);
 
 }  // namespace jvari::bench::suite

@@ -1,4 +1,5 @@
-// Reads by scenes/document.hpp, the one reader of TOML there is, and by declared keys (store/keys.hpp).
+// Reads by scenes/document.hpp, the one reader of TOML there is, and by declared keys
+// (store/keys.hpp).
 #include "bench/suite/suite_file.hpp"
 
 #include <fmt/core.h>
@@ -58,72 +59,95 @@ store::Kind<Tap> tap() {
     std::vector<std::pair<std::string, Quantity>> quantities;
     for (int q = 0; q <= static_cast<int>(Quantity::driving_force); ++q)
         quantities.emplace_back(name_of(static_cast<Quantity>(q)), static_cast<Quantity>(q));
-    return store::table(std::vector{needed("name", &Tap::name, store::text(), "what it is called"),
-                                    needed("quantity", &Tap::quantity, store::one_of("quantity", std::move(quantities)), "what is heard"),
-                                    key("string", &Tap::string, store::whole(0, 1000), "which one", "of forces, the sum over strings"),
-                                    key("position", &Tap::position, store::not_negative("m"), "of displacement and velocity")});
+    return store::table(std::vector{
+        needed("name", &Tap::name, store::text(), "what it is called"),
+        needed("quantity", &Tap::quantity, store::one_of("quantity", std::move(quantities)),
+               "what is heard"),
+        key("string", &Tap::string, store::whole(0, 1000), "which one",
+            "of forces, the sum over strings"),
+        key("position", &Tap::position, store::not_negative("m"), "of displacement and velocity")});
 }
 
 std::vector<store::Key<CellSet>> set_keys() {
     using Set = CellSet;
-    const auto asked = []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* { return member; };
-    return {needed("scenes", &Set::scenes, store::several(store::text()),
-                   "files, beside the suite or where the program runs, or names of the library"),
-            key("schemes", asked(&Set::schemes), store::several(store::text()), "what is compared", "all that represent the scene"),
-            key("rates", asked(&Set::rates), store::several(store::positive("Hz")), "at which each runs", "44100 x 1, 2, 4 ... 64"),
-            key("modes", asked(&Set::modes), store::several(store::count()), "of each string",
-                "those below 20 kHz, and more of them by `search`"),
-            key("search", asked(&Set::search), store::yes_or_no(),
-                "where errors are measured and these are not named, tries more modes, and both forms of compliance"),
-            key("duration", asked(&Set::duration), store::positive("s"), "of each run", "the scene's"),
-            key("tap_rate", asked(&Set::tap_rate), store::positive("Hz"), "of the rows that are compared", "as compare"),
-            key("repeats", asked(&Set::repeats), store::count(), "timed runs"),
-            key("reference", asked(&Set::reference), store::text(), "what errors are against", "the highest that represents the scene"),
-            key("reference_modes", asked(&Set::reference_modes), reference_modes(),
-                "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
-            key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap", "the scene's first"),
-            key("time_limit_s", &Set::time_limit, store::positive("s"),
-                "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
-            key("options", &Set::varied, store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
-                "one value, or several to vary"),
-            key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
-                "any key of the scene, with the values to vary"),
-            key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())), "what is measured", measured::errors),
-            key("taps", &Set::taps, store::several(tap()), "taps beside those of the scene")};
+    const auto asked = []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* {
+        return member;
+    };
+    return {
+        needed("scenes", &Set::scenes, store::several(store::text()),
+               "files, beside the suite or where the program runs, or names of the library"),
+        key("schemes", asked(&Set::schemes), store::several(store::text()), "what is compared",
+            "all that represent the scene"),
+        key("rates", asked(&Set::rates), store::several(store::positive("Hz")),
+            "at which each runs", "44100 x 1, 2, 4 ... 64"),
+        key("modes", asked(&Set::modes), store::several(store::count()), "of each string",
+            "those below 20 kHz, and more of them by `search`"),
+        key("search", asked(&Set::search), store::yes_or_no(),
+            "where errors are measured and these are not named, tries more modes, and both forms "
+            "of compliance"),
+        key("duration", asked(&Set::duration), store::positive("s"), "of each run", "the scene's"),
+        key("tap_rate", asked(&Set::tap_rate), store::positive("Hz"),
+            "of the rows that are compared", "as compare"),
+        key("repeats", asked(&Set::repeats), store::count(), "timed runs"),
+        key("reference", asked(&Set::reference), store::text(), "what errors are against",
+            "the highest that represents the scene"),
+        key("reference_modes", asked(&Set::reference_modes), reference_modes(),
+            "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
+        key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap",
+            "the scene's first"),
+        key("time_limit_s", &Set::time_limit, store::positive("s"),
+            "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
+        key("options", &Set::varied,
+            store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
+            "one value, or several to vary"),
+        key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
+            "any key of the scene, with the values to vary"),
+        key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())),
+            "what is measured", measured::errors),
+        key("taps", &Set::taps, store::several(tap()), "taps beside those of the scene")};
 }
 
 void must_be_few(const CellSet& s, const store::Entry& e) {
     double cells = 1;
-    const auto times = [&cells](std::size_t listed) { cells *= static_cast<double>(std::max<std::size_t>(1, listed)); };
-    for (const std::size_t listed : {s.scenes.size(), s.schemes.size(), s.rates.size(), s.modes.size()}) times(listed);
+    const auto times = [&cells](std::size_t listed) {
+        cells *= static_cast<double>(std::max<std::size_t>(1, listed));
+    };
+    for (const std::size_t listed :
+         {s.scenes.size(), s.schemes.size(), s.rates.size(), s.modes.size()})
+        times(listed);
     for (const SweptKey& k : s.sweep) times(k.values.size());
     for (const VariedOption& o : s.varied) times(o.values.size());
-    if (cells > most_cells) e.fail(fmt::format("found {} cells, expected at most {}: each is a run", cells, most_cells));
+    if (cells > most_cells)
+        e.fail(
+            fmt::format("found {} cells, expected at most {}: each is a run", cells, most_cells));
 }
 
 void hold_together(CellSet& s, const store::Entry& e) {
     must_be_few(s, e);
     s.search = s.search && s.measures(measured::errors);
     if (s.measures(measured::cost) && !s.measures(measured::errors))
-        e.need("measure").fail("found cost without errors, expected both: no speed without an error");
+        e.need("measure").fail(
+            "found cost without errors, expected both: no speed without an error");
 }
 
 // ---- A suite
 
 std::vector<store::Key<Suite>> keys_of_suite() {
-    return {key("name", &Suite::name, store::text(), "what it is called", "the file's"),
-            key("question", &Suite::question, store::text(), "what it answers", "none"),
-            key("source", &Suite::source, store::text(), "what it follows", "none"),
-            key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
-            key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
-                "sets of cells: each the product of what it lists")};
+    return {
+        key("name", &Suite::name, store::text(), "what it is called", "the file's"),
+        key("question", &Suite::question, store::text(), "what it answers", "none"),
+        key("source", &Suite::source, store::text(), "what it follows", "none"),
+        key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
+        key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
+            "sets of cells: each the product of what it lists")};
 }
 
 fs::path library() {
     if (const char* set = std::getenv("JVARI_SUITES"); set && *set) return set;
     std::error_code error;
     if (fs::path own = installed("suites"); !own.empty()) return own;
-    return fs::is_directory(JVARI_SOURCE_SUITES, error) ? JVARI_SOURCE_SUITES : JVARI_INSTALLED_SUITES;
+    return fs::is_directory(JVARI_SOURCE_SUITES, error) ? JVARI_SOURCE_SUITES
+                                                        : JVARI_INSTALLED_SUITES;
 }
 }  // namespace
 
@@ -148,21 +172,25 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     suite.name = fs::path(file_name).stem().string();
     store::read_keys(root, keys, suite);
     if (suite.sets.empty() && (suite.maps.empty() || root.at("cells")))
-        root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") + "expected at least one [[cells]]");
+        root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") +
+                                             "expected at least one [[cells]]");
     return suite;
 }
 
 Suite read_suite(const std::string& name) {
     std::error_code error;
     const fs::path shelved = library() / (name + ".toml");
-    // a bare name is the library's where it has it, whatever lies where the program runs: ./NAME is a file
+    // a bare name is the library's where it has it, whatever lies where the program runs: ./NAME is
+    // a file
     const bool known = name.find('/') == std::string::npos && fs::is_regular_file(shelved, error);
     const bool file = !known && fs::is_regular_file(name, error);
     if (!file && !known)
-        throw store::UsageError(store::unknown("suite", name, library_suites()) + " (neither a file nor a suite of the library)");
+        throw store::UsageError(store::unknown("suite", name, library_suites()) +
+                                " (neither a file nor a suite of the library)");
     const std::string path = file ? name : shelved.string();
     Suite suite = parse_suite(store::read_whole(path), path);
-    // a scene's file is looked for beside the suite's, then where the program runs; a name of the library is neither
+    // a scene's file is looked for beside the suite's, then where the program runs; a name of the
+    // library is neither
     const auto find = [&](std::string& scene) {
         if (const fs::path beside = fs::path(path).parent_path() / scene;
             fs::path(scene).is_relative() && fs::is_regular_file(beside, error))
@@ -174,16 +202,15 @@ Suite read_suite(const std::string& name) {
     return suite;
 }
 
-std::vector<std::string> library_suites() {
-    return toml_names(library());
-}
+std::vector<std::string> library_suites() { return toml_names(library()); }
 
 std::vector<SuitePoint> points_of(const Suite& suite) {
     std::vector<SuitePoint> points;
     for (const CellSet& set : suite.sets) {
         std::vector<compare::CompareRequest> requests{set};
         requests.front().controls = true;
-        const auto vary = [&requests](const auto& values, const auto& apply) {  // as they are where there is no value
+        // as they are where there is no value
+        const auto vary = [&requests](const auto& values, const auto& apply) {
             if (values.empty()) return;
             std::vector<compare::CompareRequest> more;
             for (const compare::CompareRequest& r : requests)
@@ -194,9 +221,13 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
         vary(set.scenes, [](Request& r, const std::string& scene) { r.scene = scene; });
         vary(set.modes, [](Request& r, int modes) { r.modes = {modes}; });
         for (const SweptKey& k : set.sweep)
-            vary(k.values, [&k](Request& r, const std::string& value) { r.set.push_back(k.key + "=" + value); });
+            vary(k.values, [&k](Request& r, const std::string& value) {
+                r.set.push_back(k.key + "=" + value);
+            });
         for (const VariedOption& o : set.varied)
-            vary(o.values, [&o](Request& r, const std::string& value) { r.options.emplace_back(o.option).value = value; });
+            vary(o.values, [&o](Request& r, const std::string& value) {
+                r.options.emplace_back(o.option).value = value;
+            });
         for (const Request& r : requests) points.push_back({&set, r});
     }
     return points;

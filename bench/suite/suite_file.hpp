@@ -1,5 +1,5 @@
-// Suite files: TOML that declares what to compare. suite_file.cpp declares their keys, facet.hpp what can be measured;
-// `jvari list keys` shows them.
+// Suite files: TOML that declares what to compare. suite_file.cpp declares their keys, facet.hpp
+// what can be measured; `jvari list keys` shows them.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,9 @@ struct VariedOption {
 };
 
 struct CellSet
-    : compare::CompareRequest {  // of each of its scenes, at each of its modes, options and swept values; `search`: of errors alone
+    // of each of its scenes, at each of its modes, options and swept values; `search`: of errors
+    // alone
+    : compare::CompareRequest {
     std::vector<std::string> scenes;
     std::string tap;  // in place of the request's, whose other taps are not even run
     std::vector<VariedOption> varied;
@@ -45,7 +47,8 @@ struct Suite {
     std::vector<map::Map> maps;
 };
 
-// A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12: cells.0.raets: unknown key; did you mean rates?".
+// A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12:
+// cells.0.raets: unknown key; did you mean rates?".
 Suite read_suite(const std::string& file_or_library_name);
 Suite parse_suite(std::string_view text, const std::string& file_name);
 
@@ -56,10 +59,12 @@ struct TableWords {
 };
 std::vector<TableWords> suite_keys();
 
-// Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the sources, else the installed one.
+// Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the
+// sources, else the installed one.
 std::vector<std::string> library_suites();
 
-// What compare would be asked for one scene of the set at one point of modes, options and sweep; in the order in which they stand.
+// What compare would be asked for one scene of the set at one point of modes, options and sweep; in
+// the order in which they stand.
 struct SuitePoint {
     const CellSet* set;
     compare::CompareRequest request;

@@ -13,7 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool makes_rows(const CellSet& set) {
-    return std::ranges::any_of(facets(), [&set](const Facet& f) { return f.rows && set.measures(f.name); });
+    return std::ranges::any_of(facets(),
+                               [&set](const Facet& f) { return f.rows && set.measures(f.name); });
 }
 
 // Spectrogram and rows of a job's accuracy run, and what they are made of as JSON.
@@ -21,18 +22,22 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
     Json measured = Json::array();
     for (const Facet& f : facets())
         if (set.measures(f.name)) measured.push_back(f.name);
-    if (set.measures(measured::spectrogram) || makes_rows(set)) measured.push_back({{"tap", job.point->scene.taps.at(tap).name}});
+    if (set.measures(measured::spectrogram) || makes_rows(set))
+        measured.push_back({{"tap", job.point->scene.taps.at(tap).name}});
     job.measured = measured.dump();
     job.measure = [&set, tap](const study::Ran& ran, study::Record& into) {
-        if (set.measures(measured::spectrogram)) into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);
+        if (set.measures(measured::spectrogram))
+            into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);
         for (const Facet& f : facets())
             if (set.measures(f.name) && f.rows)
-                into.rows[f.name] = f.rows({ran.point.scene, *ran.cell.scheme, ran.cell.settings, ran.trace, ran.reference, tap});
+                into.rows[f.name] = f.rows({ran.point.scene, *ran.cell.scheme, ran.cell.settings,
+                                            ran.trace, ran.reference, tap});
     };
 }
 }  // namespace
 
-study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue, const std::vector<std::string>& plugins) {
+study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
+                    const std::vector<std::string>& plugins) {
     study::Plan all;
     for (const SuitePoint& asked : points_of(suite)) {
         const CellSet& set = *asked.set;
@@ -56,9 +61,7 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue, con
             compare::add_jobs(all, r, catalogue, common, like);
         } catch (const store::UsageError& e) {
             throw store::UsageError(where + e.what());
-        } catch (const Refusal& e) {
-            throw Refusal(where + e.what());
-        }
+        } catch (const Refusal& e) { throw Refusal(where + e.what()); }
     }
     study::address(all, store::program_identity(plugins));
     return all;

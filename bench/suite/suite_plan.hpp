@@ -9,6 +9,7 @@ namespace jvari::bench::suite {
 
 // `plugins` are files whose contents count as part of the program. The suite must outlive the plan.
 // Throws UsageError, SceneFileError, BadScene, Refusal.
-study::Plan plan_of(const Suite&, const compare::Catalogue&, const std::vector<std::string>& plugins);
+study::Plan plan_of(const Suite&, const compare::Catalogue&,
+                    const std::vector<std::string>& plugins);
 
 }  // namespace jvari::bench::suite

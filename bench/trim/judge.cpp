@@ -34,22 +34,29 @@ int column_of(const Scene& scene, const std::string& tap) {
     throw BadScene("tap", tap, "to be there still");
 }
 
-// What is unknown of a reference by this measure: its certificate for waveforms; of the others no bound is known, and what the doublings
-// tell stands for it.
+// What is unknown of a reference by this measure: its certificate for waveforms; of the others no
+// bound is known, and what the doublings tell stands for it.
 double uncertainty(const study::Truth& t, int tap, std::size_t measure, double from) {
     const study::Reference& of = t.reference;
     const std::string& column = study::measures()[measure].column;
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w)
-        if (column == "error" + std::string(trust::Trust::columns[w]).substr(std::string("certificate").size()))
-            return of.trust.any() ? of.trust.of_scene(static_cast<std::size_t>(tap), w) : store::nan;
+        if (column ==
+            "error" +
+                std::string(trust::Trust::columns[w]).substr(std::string("certificate").size()))
+            return of.trust.any() ? of.trust.of_scene(static_cast<std::size_t>(tap), w)
+                                  : store::nan;
     const auto changed = [&](std::size_t last) {
         const study::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
         const double rate = of.run.trace.tap_rate;
-        const auto free = [&](const study::Reference& r) { return rows_from(r.run.trace.column(tap), from, rate); };
+        const auto free = [&](const study::Reference& r) {
+            return rows_from(r.run.trace.column(tap), from, rate);
+        };
         return study::error_of(measure, free(t.coarser[last - 1]), free(more), rate);
     };
     const std::size_t n = t.coarser.size();
-    return n == 0 ? store::nan : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan, is_matched(of.choice.settings.options));
+    return n == 0 ? store::nan
+                  : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan,
+                               is_matched(of.choice.settings.options));
 }
 }  // namespace
 
@@ -82,7 +89,8 @@ double processor_time(const Model& m, const Scene& left) {
     return least / left.duration;
 }
 
-Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const store::Listener& listener, CostOf cost_of)
+Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
+             const store::Listener& listener, CostOf cost_of)
     : request_(request),
       catalogue_(catalogue),
       listener_(listener),
@@ -97,7 +105,9 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
     tap_ = compare::tap_named(scene_, request.tap);
     if (request.tap.empty()) tap_ = study::headline_of(scene_).nut;
     const double window = target_.measure->window, judged = scene_.duration - free_from(scene_);
-    place_ = std::isfinite(window) && judged < window * (1 - 1e-9) ? study::measure("error_l2_whole") : target_.measure->place;
+    place_ = std::isfinite(window) && judged < window * (1 - 1e-9)
+                 ? study::measure("error_l2_whole")
+                 : target_.measure->place;
     if (!request_.out.empty()) {
         keep_.folder = fs::path(request_.out) / "cells";
         keep_.resume = true;
@@ -111,15 +121,21 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue, const 
 
 bool Judge::may_go(int k) const {
     const Reduction& r = reductions_[k];
-    if (r.part == Part::initial_shape || r.part == Part::pluck) return false;  // that is the question, not the model
-    const bool loss = r.part == Part::damping || r.part == Part::damping_term || r.part == Part::contact_loss;
-    if (loss && !judges_decay()) return false;  // 50 ms hardly hear it, and without it the sound never ends
+    // that is the question, not the model
+    if (r.part == Part::initial_shape || r.part == Part::pluck) return false;
+    const bool loss =
+        r.part == Part::damping || r.part == Part::damping_term || r.part == Part::contact_loss;
+    // 50 ms hardly hear it, and without it the sound never ends
+    if (loss && !judges_decay()) return false;
     Scene left = scene_;
     r.apply(left);
     remove_idle_taps(left, tap().name);
-    if (std::none_of(left.taps.begin(), left.taps.end(), [this](const Tap& t) { return t.name == tap().name; })) return false;
+    if (std::none_of(left.taps.begin(), left.taps.end(),
+                     [this](const Tap& t) { return t.name == tap().name; }))
+        return false;
     const Quantity q = tap().quantity;
-    const bool sums = q == Quantity::thread_force || q == Quantity::bridge_force || q == Quantity::driving_force;
+    const bool sums =
+        q == Quantity::thread_force || q == Quantity::bridge_force || q == Quantity::driving_force;
     return !sums || (r.part != Part::barrier && r.part != Part::thread);
 }
 
@@ -142,7 +158,8 @@ const study::Point& Judge::point(int start) {
     r.rates = {4 * request_.tap_rate};
     r.tap_rate = request_.tap_rate;
     p.references = compare::references_of(r, catalogue_, p.scene);
-    if (!request_.out.empty()) study::keep_references_in(points_[start], fs::path(request_.out) / "references");
+    if (!request_.out.empty())
+        study::keep_references_in(points_[start], fs::path(request_.out) / "references");
     p.truth_modes = request_.reference_modes;
     p.in_model = false;
     study::address(points_[start], program_);
@@ -167,7 +184,8 @@ const Truth& Judge::truth(int start) {
     if (!found.truth) throw Refusal(found.refused);
     const study::Reference& of = found.truth->reference;
     if (of.run.status.outcome != Outcome::ok)
-        throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(), name_of(of.run.status.outcome)));
+        throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(),
+                                  name_of(of.run.status.outcome)));
     Truth& t = truths_[start].emplace();
     t.reference = of.choice.name();
     t.said = found.truth->said;
@@ -175,7 +193,8 @@ const Truth& Judge::truth(int start) {
     t.certificate = uncertainty(*found.truth, tap_, place_, free_from(whole.scene));
     t.floor = found.floor->at(static_cast<std::size_t>(tap_))[place_];
     t.horizon = found.truth->horizon;
-    if (const double depth = fact_of(of.run.facts, facts::deepest_penetration); depth > 0) t.penetration = depth;
+    if (const double depth = fact_of(of.run.facts, facts::deepest_penetration); depth > 0)
+        t.penetration = depth;
     return t;
 }
 
@@ -193,14 +212,16 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
         }
     const study::Cell& cell = made->cell;
     if (cell.failure == "past_time_limit") return {"slow", store::nan, limit};
-    if (!cell.ran()) return verdicts_[job.id] = {"refused"};  // what is left is no model of this scheme
+    // what is left is no model of this scheme
+    if (!cell.ran()) return verdicts_[job.id] = {"refused"};
     const std::string flags = names_of(study::flags_of(cell.summary));
     const bool whole = cell.summary.status.outcome == Outcome::ok;
-    return verdicts_[job.id] = {!whole          ? name_of(cell.summary.status.outcome)
-                                : flags.empty() ? "ok"
-                                                : flags,
-                                whole ? cell.errors.at(static_cast<std::size_t>(tap_))[place_] : store::nan,
-                                cell.summary.processor_seconds};
+    return verdicts_[job.id] = {
+               !whole          ? name_of(cell.summary.status.outcome)
+               : flags.empty() ? "ok"
+                               : flags,
+               whole ? cell.errors.at(static_cast<std::size_t>(tap_))[place_] : store::nan,
+               cell.summary.processor_seconds};
 }
 
 double Judge::worst_error(const Model& m, const std::vector<int>& of_starts) {
@@ -211,9 +232,7 @@ double Judge::worst_error(const Model& m, const std::vector<int>& of_starts) {
             if (v.status != "ok") return std::nan("");
             worst = std::max(worst, v.error);
         }
-    } catch (const std::exception&) {
-        return std::nan("");
-    }
+    } catch (const std::exception&) { return std::nan(""); }
     return worst;
 }
 
@@ -222,7 +241,9 @@ bool Judge::certain(int start) {
 }
 
 bool Judge::within(const Verdict& v, int start) {
-    const double error = start > 0 && !certain(start) ? v.error : compare::Bound{v.error, truth(start).certificate}.most();
+    const double error = start > 0 && !certain(start)
+                             ? v.error
+                             : compare::Bound{v.error, truth(start).certificate}.most();
     return v.status == "ok" && error <= target_.most;
 }
 
@@ -231,11 +252,13 @@ double Judge::cost(const Model& m) {
     const study::Job& job = plan.jobs.front();
     if (const auto known = costs_.find(job.id); known != costs_.end()) return known->second;
     const fs::path file = keep_.folder / study::clock_file(job);
-    if (const auto kept = request_.out.empty() ? std::nullopt : study::read_clock(file, job.identity)) {
+    if (const auto kept =
+            request_.out.empty() ? std::nullopt : study::read_clock(file, job.identity)) {
         if (kept->stamp.name != stamp_.name)
             throw store::UsageError(
-                fmt::format("--out {}: its costs come from another machine, {}; choose another folder, or remove {}/*.clock", request_.out,
-                            kept->stamp.name, keep_.folder.string()));
+                fmt::format("--out {}: its costs come from another machine, {}; choose another "
+                            "folder, or remove {}/*.clock",
+                            request_.out, kept->stamp.name, keep_.folder.string()));
         return costs_[job.id] = kept->processor.median / scene_.duration;
     }
     const double cost = costs_[job.id] = cost_of_(m, job.point->scene);

@@ -1,8 +1,10 @@
-// Models of one scene, judged: each against the motion of the whole scene, by one measure of one tap, and timed.
+// Models of one scene, judged: each against the motion of the whole scene, by one measure of one
+// tap, and timed.
 //
-// A model is the scene less some of its parts, a scheme and its settings: a job of bench/study that is judged against the motion of the
-// whole scene. Models that took more than a few milliseconds, costs and runs of the reference are kept in DIR/cells and DIR/references:
-// they are read back by a study that was stopped and by the next one with another tolerance.
+// A model is the scene less some of its parts, a scheme and its settings: a job of bench/study that
+// is judged against the motion of the whole scene. Models that took more than a few milliseconds,
+// costs and runs of the reference are kept in DIR/cells and DIR/references: they are read back by a
+// study that was stopped and by the next one with another tolerance.
 #pragma once
 
 #include <array>
@@ -27,11 +29,13 @@ inline constexpr double worth = 0.95;  // what is cheaper costs less than this o
 struct Request {
     std::string scene, measure = "l2_50ms", within, tap, scheme = "any", reference, out;
     std::vector<std::string> set, plugins;  // plugins: their files, which verdicts depend on
-    std::optional<double> duration{};       // [s] that are run; absent: as far as the measure needs (Judge)
-    double tap_rate = 44100;                // [Hz]
-    int reference_modes = 0;                // 0: doubled until nothing moves
+    // [s] that are run; absent: as far as the measure needs (Judge)
+    std::optional<double> duration{};
+    double tap_rate = 44100;  // [Hz]
+    int reference_modes = 0;  // 0: doubled until nothing moves
     int jobs = 0;
-    std::vector<compare::SchemeOption> options{};  // of schemes: each value is tried, in place of those that trim tries by itself
+    // of schemes: each value is tried, in place of those that trim tries by itself
+    std::vector<compare::SchemeOption> options{};
 };
 
 struct Model {
@@ -44,7 +48,8 @@ struct Model {
 Model toggled(Model, int part);  // without it, or with it once more
 
 struct Verdict {
-    std::string status;  // ok, or what speaks against it: refused, diverged, flags as compare has them
+    // ok, or what speaks against it: refused, diverged, flags as compare has them
+    std::string status;
     double error = std::numeric_limits<double>::quiet_NaN();
     double seconds = 0;  // of processor, of the judged run
 };
@@ -53,9 +58,11 @@ struct Truth {  // of one start
     std::string reference, said;
     int modes = 0;
     double certificate = std::numeric_limits<double>::quiet_NaN();  // of the measure; NaN: unknown
-    double floor = 0;                                               // what 1e-12 of the start changes
-    double horizon = 0;                                             // [s], of the truth against itself with half its modes; NaN: not known
-    double penetration = 1;                                         // deepest [m]
+    // what 1e-12 of the start changes
+    double floor = 0;
+    // [s], of the truth against itself with half its modes; NaN: not known
+    double horizon = 0;
+    double penetration = 1;  // deepest [m]
 };
 
 using CostOf = std::function<double(const Model&, const Scene& left)>;  // [s per s]
@@ -63,9 +70,11 @@ double processor_time(const Model&, const Scene&);                      // least
 
 class Judge {
 public:
-    // It is judged from the end of its last pluck on: for 50 ms unless another duration is asked for, by the decay to the end of the scene.
-    // Throws UsageError, SceneFileError, BadScene, Refusal.
-    Judge(const Request&, const compare::Catalogue&, const store::Listener&, CostOf = processor_time);
+    // It is judged from the end of its last pluck on: for 50 ms unless another duration is asked
+    // for, by the decay to the end of the scene. Throws UsageError, SceneFileError, BadScene,
+    // Refusal.
+    Judge(const Request&, const compare::Catalogue&, const store::Listener&,
+          CostOf = processor_time);
 
     const Scene& scene() const { return scene_; }  // whole, as long as it is judged
     double own_duration() const { return own_duration_; }
@@ -74,23 +83,29 @@ public:
     const Tap& tap() const { return scene_.taps[tap_]; }
     const std::vector<Reduction>& reductions() const { return reductions_; }
     const std::vector<compare::SchemeOption>& options() const { return request_.options; }
-    bool may_go(int reduction) const;  // not what is listened to, nor a loss where the decay is not judged
+    // not what is listened to, nor a loss where the decay is not judged
+    bool may_go(int reduction) const;
 
-    Scene scene_of(const Model&, int start = 0) const;  // throws BadScene where what is left makes no sense
+    // throws BadScene where what is left makes no sense
+    Scene scene_of(const Model&, int start = 0) const;
     const Truth& truth(int start);
 
     // A run of more than `limit` s of processor is ended and not kept: "slow".
     Verdict verdict(const Model&, int start, double limit = HUGE_VAL);
-    double worst_error(const Model&, const std::vector<int>& of_starts);  // NaN where one start fails, or what is left makes no scene
+    // NaN where one start fails, or what is left makes no scene
+    double worst_error(const Model&, const std::vector<int>& of_starts);
     // The reference tells what is within the tolerance:
     // its certificate is below that, below half of it for other starts than the scene's.
     bool certain(int start);
-    // Error and certificate together. Of another start whose reference is not certain: the error alone.
+    // Error and certificate together. Of another start whose reference is not certain: the error
+    // alone.
     bool within(const Verdict&, int start);
     double cost(const Model&);  // [s of processor per s], least of several; kept
-    // Cheaper than `now` by a twentieth and by more than the clock scatters, both timed anew in turn.
+    // Cheaper than `now` by a twentieth and by more than the clock scatters, both timed anew in
+    // turn.
     bool saves(const Model& less, const Model& now);
-    std::vector<Spread> costs(const std::vector<Model>&, int rounds);  // processor time, models in turn: what is quoted
+    // processor time, models in turn: what is quoted
+    std::vector<Spread> costs(const std::vector<Model>&, int rounds);
 
     int judged() const { return keep_.ran; }
     int read_back() const { return keep_.kept - keep_.ran; }
@@ -108,7 +123,8 @@ private:
     Scene scene_;
     double own_duration_;
     int tap_ = 0;
-    std::size_t place_;  // of the measure: of the whole run's error where the run is shorter than the measure's window
+    // of the measure: of the whole run's error where the run is shorter than the measure's window
+    std::size_t place_;
     std::string program_;
     std::vector<Reduction> reductions_;
     study::References references_;

@@ -14,7 +14,8 @@ namespace {
 constexpr double most_without_unit = 0.5;  // a larger tolerance is more likely meant in per cent
 
 std::string name_of(const std::string& column) {
-    for (const auto& [of, name] : {std::pair{"stft_db", "stft"}, {"centroid_relative", "centroid"}, {"decay_db", "decay"}})
+    for (const auto& [of, name] :
+         {std::pair{"stft_db", "stft"}, {"centroid_relative", "centroid"}, {"decay_db", "decay"}})
         if (column == of) return name;
     return column.starts_with("error_") ? column.substr(6) : column;
 }
@@ -26,7 +27,9 @@ const std::vector<Measure>& measures() {
         for (std::size_t k = 0; k < study::measures().size(); ++k) {
             const study::Measure& m = study::measures()[k];
             const std::string title = m.title.substr(0, m.title.find(" ["));  // without its unit
-            if (m.less_is_better) named.push_back({name_of(m.column), title, m.unit == "1" ? "%" : m.unit, k, m.window});
+            if (m.less_is_better)
+                named.push_back(
+                    {name_of(m.column), title, m.unit == "1" ? "%" : m.unit, k, m.window});
         }
         return named;
     }();
@@ -40,17 +43,20 @@ Target target_of(const std::string& name, const std::string& within) {
         for (const Measure& m : measures()) names.push_back(m.name);
         throw store::UsageError("--of " + store::unknown("measure", name, names));
     }
-    const auto end = within.find_last_of("0123456789.") + 1;  // of the number; npos + 1: there is none
+    // of the number; npos + 1: there is none
+    const auto end = within.find_last_of("0123456789.") + 1;
     const double x = store::number_of(within.substr(0, end));
     std::string unit = within.substr(end);
     unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
     const bool relative = found->unit == "%";
     if (!std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != found->unit))
-        throw store::UsageError(
-            fmt::format("--within {}: expected a tolerance of {}, as {}", within, found->name, relative ? "1%" : "1" + found->unit));
+        throw store::UsageError(fmt::format("--within {}: expected a tolerance of {}, as {}",
+                                            within, found->name,
+                                            relative ? "1%" : "1" + found->unit));
     if (relative && unit.empty() && x > most_without_unit)
-        throw store::UsageError(fmt::format("--within {}: without a unit this is {:.4g} %; say {}%, or {:.4g}% where that is meant", within,
-                                            100 * x, within, 100 * x));
+        throw store::UsageError(fmt::format(
+            "--within {}: without a unit this is {:.4g} %; say {}%, or {:.4g}% where that is meant",
+            within, 100 * x, within, 100 * x));
     return {&*found, unit == "%" ? x / 100 : x};
 }
 
@@ -66,7 +72,8 @@ std::string certainty_text(const Measure& m, double certificate) {
 namespace {
 constexpr double sizes[starts] = {1, 0.8, 0.7, 0.9, 0.6};
 constexpr double places[starts] = {0, 0.88, 0.31, 0.42, 0.67};  // of the string's length
-constexpr double plectrum = 0.01;  // of the string's length: what rounds the sharpest corner, which has modes without end otherwise
+// of the string's length: what rounds the sharpest corner, which has modes without end otherwise
+constexpr double plectrum = 0.01;
 constexpr double shortest[starts] = {1, 0.5, 0.7, 0.9, 0.6};  // of the time that a pluck takes
 
 // At the start's place, or as far from the other end where that is where it was.
@@ -81,8 +88,10 @@ Initial initial(const Initial& own, double length, int start) {
     const double amplitude = sizes[start] * (mode ? mode->amplitude : triangle->amplitude);
     if (start == 2) return ModeInitial{mode ? mode->number + 4 : 5, amplitude};
     const double position = elsewhere(triangle ? triangle->position : 0, length, start);
-    const double sharp = plectrum * length, smoothing = triangle ? triangle->smoothing : 0.05 * length;
-    return TriangleInitial{position, amplitude, start == 1 ? std::min(sharp, smoothing) : smoothing};
+    const double sharp = plectrum * length,
+                 smoothing = triangle ? triangle->smoothing : 0.05 * length;
+    return TriangleInitial{position, amplitude,
+                           start == 1 ? std::min(sharp, smoothing) : smoothing};
 }
 }  // namespace
 
@@ -93,7 +102,8 @@ Scene started(Scene scene, int start) {
         if (!s.pluck) continue;
         s.pluck->amplitude *= sizes[start];
         s.pluck->duration *= shortest[start];
-        if (s.pluck->width < 0.2 * s.length) s.pluck->position = elsewhere(s.pluck->position, s.length, start);
+        if (s.pluck->width < 0.2 * s.length)
+            s.pluck->position = elsewhere(s.pluck->position, s.length, start);
     }
     return scene;
 }
@@ -101,11 +111,14 @@ Scene started(Scene scene, int start) {
 std::string name_of_start(const Scene& scene) {
     for (const String& s : scene.strings) {
         if (s.pluck)
-            return fmt::format("a pluck of {:.3g} N in {:.3g} s at {:.3g} m", s.pluck->amplitude, s.pluck->duration, s.pluck->position);
+            return fmt::format("a pluck of {:.3g} N in {:.3g} s at {:.3g} m", s.pluck->amplitude,
+                               s.pluck->duration, s.pluck->position);
         if (!s.initial) continue;
-        if (const auto* m = std::get_if<ModeInitial>(&*s.initial)) return fmt::format("mode {}, {:.3g} m", m->number, m->amplitude);
+        if (const auto* m = std::get_if<ModeInitial>(&*s.initial))
+            return fmt::format("mode {}, {:.3g} m", m->number, m->amplitude);
         const auto& t = std::get<TriangleInitial>(*s.initial);
-        return fmt::format("a {}triangle at {:.3g} m, {:.3g} m", t.smoothing > plectrum * s.length ? "smoothed " : "", t.position,
+        return fmt::format("a {}triangle at {:.3g} m, {:.3g} m",
+                           t.smoothing > plectrum * s.length ? "smoothed " : "", t.position,
                            t.amplitude);
     }
     return "at rest";

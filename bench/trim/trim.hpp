@@ -10,11 +10,15 @@ namespace jvari::bench::trim {
 // What each part of a scene is needed for: the error if it alone is left out, and what it costs.
 struct Need {
     std::string part, becomes;
-    double error;             // of the whole scene at the trimmed model's settings without it, worst of the starts; NaN: no such model runs
-    double saved;             // of that model's cost, a share; negative where the rest costs more. NaN: not timed
-    double error_in_trimmed;  // of the trimmed model, the part's state turned round: put back, or left out as well
-    bool left_out;            // of the trimmed model
-    bool needed;              // left out alone, the error is beyond the tolerance
+    // of the whole scene at the trimmed model's settings without it, worst of the starts; NaN: no
+    // such model runs
+    double error;
+    // of that model's cost, a share; negative where the rest costs more. NaN: not timed
+    double saved;
+    // of the trimmed model, the part's state turned round: put back, or left out as well
+    double error_in_trimmed;
+    bool left_out;  // of the trimmed model
+    bool needed;    // left out alone, the error is beyond the tolerance
 };
 
 struct Verified {
@@ -37,14 +41,16 @@ struct Trimmed {
     std::vector<std::string> not_tried;
     int judged, read_back;
     int independent() const {  // how many starts verified it that the search did not know
-        return static_cast<int>(std::ranges::count_if(verified, [](const Verified& v) { return v.decided && !v.judged_by; }));
+        return static_cast<int>(std::ranges::count_if(
+            verified, [](const Verified& v) { return v.decided && !v.judged_by; }));
     }
     const Step& full() const { return path.steps.front(); }
     const Step& last() const { return path.steps.back(); }
 };
 
-// The model is verified by all starts. Where it fails, the start where it fails worst joins those that the search is judged by. Throws
-// Refusal where the reference is not certain enough to tell what is within.
+// The model is verified by all starts. Where it fails, the start where it fails worst joins those
+// that the search is judged by. Throws Refusal where the reference is not certain enough to tell
+// what is within.
 Trimmed trimmed(Judge&, const Request&, const compare::Catalogue&, const store::Listener&);
 
 }  // namespace jvari::bench::trim

@@ -8,7 +8,8 @@ namespace jvari::bench::trim {
 
 store::Table needs_table(const Trimmed&, const Judge&);
 store::Table path_table(const Trimmed&, const Judge&);
-std::string command_of(const Trimmed&, const std::string& file);  // that runs the trimmed model: "jvari run trimmed.toml --scheme ..."
+// that runs the trimmed model: "jvari run trimmed.toml --scheme ..."
+std::string command_of(const Trimmed&, const std::string& file);
 std::string trimmed_toml(const Trimmed&, const Judge&);
 nlohmann::ordered_json manifest_of(const Trimmed&, const Judge&, const Request&);
 

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 constexpr int format = 3;  // of the file
 
 std::string window_name(std::size_t w) {
-    return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w]) : "whole";
+    return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w])
+                                            : "whole";
 }
 std::string level_name(std::size_t l) {  // "1e-3"
     return fmt::format("1e{}", std::lround(std::log10(agreement_levels[l])));
@@ -29,7 +30,8 @@ std::string level_name(std::size_t l) {  // "1e-3"
 Json windows_json(const Certificate::ByWindow& values, double duration) {
     Json j = Json::object();
     for (std::size_t w = 0; w < values.size(); ++w)
-        if (w + 1 == values.size() || agreement_windows[w] <= duration * (1 + 1e-9)) j[window_name(w)] = values[w];
+        if (w + 1 == values.size() || agreement_windows[w] <= duration * (1 + 1e-9))
+            j[window_name(w)] = values[w];
     return j;
 }
 Certificate::ByWindow windows_of(const Json& j) {
@@ -46,8 +48,11 @@ Json taps_json(const Certificate& c, const std::vector<Agreement>& taps) {
     Json all = Json::object();
     for (std::size_t k = 0; k < taps.size(); ++k) {
         Json until = Json::object();
-        for (std::size_t l = 0; l < agreement_levels.size(); ++l) until[level_name(l)] = taps[k].until[l];
-        all[c.taps.at(k)] = {{"relative_l2", windows_json(taps[k].relative_l2, c.duration - c.from)}, {"until_s", until}};
+        for (std::size_t l = 0; l < agreement_levels.size(); ++l)
+            until[level_name(l)] = taps[k].until[l];
+        all[c.taps.at(k)] = {
+            {"relative_l2", windows_json(taps[k].relative_l2, c.duration - c.from)},
+            {"until_s", until}};
     }
     return all;
 }
@@ -56,7 +61,8 @@ std::vector<Agreement> taps_of(const Certificate& c, const Json& j) {
     for (const std::string& name : c.taps) {
         Agreement& a = taps.emplace_back();
         a.relative_l2 = windows_of(j.at(name).at("relative_l2"));
-        for (std::size_t l = 0; l < agreement_levels.size(); ++l) a.until[l] = j.at(name).at("until_s").at(level_name(l));
+        for (std::size_t l = 0; l < agreement_levels.size(); ++l)
+            a.until[l] = j.at(name).at("until_s").at(level_name(l));
     }
     return taps;
 }
@@ -81,7 +87,8 @@ Json entry_json(const Certificate& c, const Certificate::Entry& e) {
     j["reached_s"] = e.reached;
     if (!e.estimate.empty()) {
         j["estimate"] = Json::object();
-        for (std::size_t k = 0; k < e.estimate.size(); ++k) j["estimate"][c.taps.at(k)] = windows_json(e.estimate[k], c.duration - c.from);
+        for (std::size_t k = 0; k < e.estimate.size(); ++k)
+            j["estimate"][c.taps.at(k)] = windows_json(e.estimate[k], c.duration - c.from);
     }
     return j;
 }
@@ -98,7 +105,8 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
         return e;
     }
     e.status.outcome = store::outcome_named(status);
-    if (const auto step = j.find("failed_step"); step != j.end()) e.status.step = store::whole<long>(*step);
+    if (const auto step = j.find("failed_step"); step != j.end())
+        e.status.step = store::whole<long>(*step);
     e.reached = j.at("reached_s");
     if (const auto estimate = j.find("estimate"); estimate != j.end())
         for (const std::string& name : c.taps) e.estimate.push_back(windows_of(estimate->at(name)));
@@ -107,8 +115,10 @@ Certificate::Entry entry_of(const Certificate& c, const Json& j) {
 
 std::string key_of(const std::string& hash, const std::string& program, const Certificate& plan) {
     Json runs = Json::array();
-    for (const auto& e : plan.entries) runs.push_back({e.reference, options_json(e.options), e.sample_rate, e.doubled});
-    return store::hash_of(Json{format, hash, program, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
+    for (const auto& e : plan.entries)
+        runs.push_back({e.reference, options_json(e.options), e.sample_rate, e.doubled});
+    return store::hash_of(
+        Json{format, hash, program, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
 }
 }  // namespace
 
@@ -118,7 +128,8 @@ std::string timeless_hash(const Scene& scene) {
     return scene_hash(timeless);
 }
 
-KeptCertificate planned_certificate(const Scene& scene, const CertifySettings& settings, const std::string& program) {
+KeptCertificate planned_certificate(const Scene& scene, const CertifySettings& settings,
+                                    const std::string& program) {
     KeptCertificate k;
     k.certificate = certificate_plan(scene, settings);
     k.scene_hash = timeless_hash(scene);
@@ -127,15 +138,14 @@ KeptCertificate planned_certificate(const Scene& scene, const CertifySettings& s
     return k;
 }
 
-bool of_this_program(const KeptCertificate& kept) {
-    return kept.program == store::run_identity();
-}
+bool of_this_program(const KeptCertificate& kept) { return kept.program == store::run_identity(); }
 
 std::string json_of(const KeptCertificate& kept) {
     const Certificate& c = kept.certificate;
     Json entries = Json::array(), pairs = Json::array();
     for (const auto& e : c.entries) entries.push_back(entry_json(c, e));
-    for (const auto& p : c.pairs) pairs.push_back({{"first", p.first}, {"second", p.second}, {"taps", taps_json(c, p.taps)}});
+    for (const auto& p : c.pairs)
+        pairs.push_back({{"first", p.first}, {"second", p.second}, {"taps", taps_json(c, p.taps)}});
     const Json j{{"scene", c.scene},
                  {"scene_hash", kept.scene_hash},
                  {"key", kept.key},
@@ -158,10 +168,16 @@ std::string cost_json_of(const KeptCertificate& kept) {
         entries.push_back({{"reference", e.reference},
                            {"options", options_json(e.options)},
                            {"wall_seconds", e.reason.empty() ? e.wall_seconds : store::nan}});
-    return Json{{"scene", kept.certificate.scene}, {"key", kept.key}, {"entries", entries}, {"made", store::made_by()}}.dump(1) + "\n";
+    return Json{{"scene", kept.certificate.scene},
+                {"key", kept.key},
+                {"entries", entries},
+                {"made", store::made_by()}}
+               .dump(1) +
+           "\n";
 }
 
-std::optional<KeptCertificate> read_certificate(const std::filesystem::path& path, std::string& why) {
+std::optional<KeptCertificate> read_certificate(const std::filesystem::path& path,
+                                                std::string& why) {
     std::error_code error;
     why.clear();
     if (!std::filesystem::is_regular_file(path, error)) {
@@ -170,7 +186,8 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
     }
     try {
         const Json j = store::parsed(store::unsealed(store::read_whole(path)));
-        if (j.at("format") != format) throw std::runtime_error("it is of another format, " + j.at("format").dump());
+        if (j.at("format") != format)
+            throw std::runtime_error("it is of another format, " + j.at("format").dump());
         KeptCertificate kept;
         kept.program = j.at("program").dump();
         kept.key = j.at("key");
@@ -184,7 +201,8 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
         c.taps = j.at("taps").get<std::vector<std::string>>();
         for (const Json& e : j.at("entries")) c.entries.push_back(entry_of(c, e));
         for (const Json& p : j.at("pairs")) {
-            c.pairs.push_back({store::whole<int>(p.at("first")), store::whole<int>(p.at("second")), taps_of(c, p.at("taps"))});
+            c.pairs.push_back({store::whole<int>(p.at("first")), store::whole<int>(p.at("second")),
+                               taps_of(c, p.at("taps"))});
             for (const int entry : {c.pairs.back().first, c.pairs.back().second})
                 if (entry < 0 || entry >= static_cast<int>(c.entries.size()))
                     throw std::runtime_error("a pair of entries that are not there");
@@ -205,7 +223,8 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate) {
 void read_costs(const std::filesystem::path& certificate, KeptCertificate& kept) {
     try {
         const Json j = store::parsed(store::read_whole(cost_path(certificate)));
-        if (j.at("key") != kept.key || j.at("entries").size() != kept.certificate.entries.size()) return;
+        if (j.at("key") != kept.key || j.at("entries").size() != kept.certificate.entries.size())
+            return;
         for (std::size_t i = 0; i < kept.certificate.entries.size(); ++i)
             if (const Json& seconds = j.at("entries").at(i).at("wall_seconds"); seconds.is_number())
                 kept.certificate.entries[i].wall_seconds = seconds;

@@ -23,15 +23,18 @@ constexpr double slack = 1e-6;  // of an instant [s]: less than a row
 
 // The instant at which a window of the comparison ends, NaN where the run is shorter.
 std::array<double, 3> window_ends(double until) {
-    return {10e-3 <= until + slack ? 10e-3 : store::nan, 50e-3 <= until + slack ? 50e-3 : store::nan, until};
+    return {10e-3 <= until + slack ? 10e-3 : store::nan,
+            50e-3 <= until + slack ? 50e-3 : store::nan, until};
 }
 
-// The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where there is none.
+// The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where
+// there is none.
 double covering(const Certificate::ByWindow& values, double end, double reached) {
     if (std::isnan(end) || end > reached + slack) return store::nan;
     if (end > reached - slack) return values.back();
     for (std::size_t w = 0; w + 1 < values.size(); ++w)
-        if (end <= agreement_windows[w] + slack && agreement_windows[w] <= reached + slack) return values[w];
+        if (end <= agreement_windows[w] + slack && agreement_windows[w] <= reached + slack)
+            return values[w];
     return values.back();
 }
 
@@ -50,26 +53,31 @@ double Trust::of_scene(std::size_t tap, std::size_t window) const {
 }
 
 bool Trust::any() const {
-    return std::any_of(figure.begin(), figure.end(),
-                       [](const auto& tap) { return std::any_of(tap.begin(), tap.end(), [](double x) { return !std::isnan(x); }); });
+    return std::any_of(figure.begin(), figure.end(), [](const auto& tap) {
+        return std::any_of(tap.begin(), tap.end(), [](double x) { return !std::isnan(x); });
+    });
 }
 
 std::string file_stem(const std::string& scene_name) {
     std::string stem;
-    for (const char c : scene_name) stem += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    for (const char c : scene_name)
+        stem += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
     return stem.empty() ? "scene" : stem;
 }
 
-Trust trust_of(const KeptCertificate& kept, const std::string& reference, const Certificate::Options& options, double until) {
+Trust trust_of(const KeptCertificate& kept, const std::string& reference,
+               const Certificate::Options& options, double until) {
     const Certificate& c = kept.certificate;
     Trust t;
     t.key = kept.key;
     t.of_this_program = of_this_program(kept);
     const auto mine = std::find_if(c.entries.begin(), c.entries.end(), [&](const auto& e) {
-        return e.reference == reference && e.options == options && e.doubled.empty() && e.reason.empty();
+        return e.reference == reference && e.options == options && e.doubled.empty() &&
+               e.reason.empty();
     });
     if (mine == c.entries.end()) {
-        t.missing = "the certificate of this scene has no " + store::variant_name(reference, store::options_text(options));
+        t.missing = "the certificate of this scene has no " +
+                    store::variant_name(reference, store::options_text(options));
         return t;
     }
     struct Largest {
@@ -83,18 +91,22 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
             if (p.first != index && p.second != index) continue;
             const Certificate::Entry& other = c.entries[p.first == index ? p.second : p.first];
             if (other.sample_rate > 0 || !other.doubled.empty()) continue;
-            const double x = covering(p.taps[tap].relative_l2, end, std::min(mine->reached, other.reached) - c.from);
+            const double x = covering(p.taps[tap].relative_l2, end,
+                                      std::min(mine->reached, other.reached) - c.from);
             if (!std::isnan(x) && !(x <= most.difference)) most = {x, &other};
         }
         return most;
     };
     t.figure.assign(c.taps.size(), {store::nan, store::nan, store::nan});
     std::vector<double> at_least(c.taps.size(), store::nan);
-    if (is_matched(options)) {  // how far others confirm the same program with own compliance, before a sensitive motion multiplies that
+    // how far others confirm the same program with own compliance, before a sensitive motion
+    // multiplies that
+    if (is_matched(options)) {
         Certificate::Options own = options;
         std::erase_if(own, [](const auto& o) { return is_matched({o}); });
         const Trust unmatched = trust_of(kept, reference, own, until);
-        for (std::size_t k = 0; k < unmatched.figure.size(); ++k) at_least[k] = unmatched.figure[k][0];
+        for (std::size_t k = 0; k < unmatched.figure.size(); ++k)
+            at_least[k] = unmatched.figure[k][0];
         t.against = unmatched.against;
     }
     const auto ends = window_ends(until - c.from);
@@ -104,32 +116,40 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference, const 
             const Largest most = largest(k, ends[w]);
             if (!most.other) continue;
             t.figure[k][w] = std::fmax(most.difference, at_least[k]);
-            if (const std::string name = name_of(*most.other); std::find(names.begin(), names.end(), name) == names.end())
+            if (const std::string name = name_of(*most.other);
+                std::find(names.begin(), names.end(), name) == names.end())
                 names.push_back(name);
         }
     for (std::size_t i = 0; i < c.entries.size(); ++i) {
         const Certificate::Entry& e = c.entries[i];
         if (e.doubled.empty()) continue;
-        const auto pair_with = [&](bool matched) {  // whichever reference was doubled: they share the model
+        // whichever reference was doubled: they share the model
+        const auto pair_with = [&](bool matched) {
             return std::ranges::find_if(c.pairs, [&](const Certificate::Pair& p) {
-                return p.first == static_cast<int>(i) && is_matched(c.entries[p.second].options) == matched;
+                return p.first == static_cast<int>(i) &&
+                       is_matched(c.entries[p.second].options) == matched;
             });
         };
-        const auto from = pair_with(is_matched(mine->options)), step = pair_with(is_matched(e.options));
+        const auto from = pair_with(is_matched(mine->options)),
+                   step = pair_with(is_matched(e.options));
         if (from == c.pairs.end() || step == c.pairs.end()) continue;
-        const double further = (is_matched(e.options) ? matched_and_further_ones : and_further_ones) - 1;
+        const double further =
+            (is_matched(e.options) ? matched_and_further_ones : and_further_ones) - 1;
         t.left_out.resize(c.taps.size(), {0, 0, 0});
         for (std::size_t k = 0; k < c.taps.size(); ++k)
             for (std::size_t w = 0; w < ends.size(); ++w) {
                 const auto changed = [&](const Certificate::Pair& p) {
-                    return covering(p.taps[k].relative_l2, ends[w], std::min(mine->reached, e.reached) - c.from);
+                    return covering(p.taps[k].relative_l2, ends[w],
+                                    std::min(mine->reached, e.reached) - c.from);
                 };
                 t.left_out[k][w] += changed(*from) + further * changed(*step);
             }
         t.doubled += (t.doubled.empty() ? "" : " and ") + e.doubled;
     }
     for (const std::string& name : names) t.against += (t.against.empty() ? "" : ", ") + name;
-    if (!t.any()) t.missing = fmt::format("the certificate of this scene has nothing for {} over {:.6g} s", reference, until);
+    if (!t.any())
+        t.missing = fmt::format("the certificate of this scene has nothing for {} over {:.6g} s",
+                                reference, until);
     return t;
 }
 
@@ -138,8 +158,10 @@ std::vector<fs::path> certificate_folders() {
     std::error_code error;
     const char* set = std::getenv("JVARI_CERTIFICATES");
     if (set && *set) return {set};
-    if (fs::is_directory("results/certificates", error)) folders.emplace_back("results/certificates");
-    for (const fs::path& folder : {installed("certificates"), fs::path(JVARI_SOURCE_CERTIFICATES), fs::path(JVARI_INSTALLED_CERTIFICATES)})
+    if (fs::is_directory("results/certificates", error))
+        folders.emplace_back("results/certificates");
+    for (const fs::path& folder : {installed("certificates"), fs::path(JVARI_SOURCE_CERTIFICATES),
+                                   fs::path(JVARI_INSTALLED_CERTIFICATES)})
         if (fs::is_directory(folder, error)) {
             folders.emplace_back(folder);
             break;
@@ -147,7 +169,8 @@ std::vector<fs::path> certificate_folders() {
     return folders;
 }
 
-Trust trust_of(const Scene& scene, const std::string& reference, const Settings& settings, double until) {
+Trust trust_of(const Scene& scene, const std::string& reference, const Settings& settings,
+               double until) {
     const std::string hash = timeless_hash(scene), stem = file_stem(scene.name);
     const int modes = modes_for(scene, settings);
     Trust best;
@@ -157,13 +180,15 @@ Trust trust_of(const Scene& scene, const std::string& reference, const Settings&
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder, error))
             if (const std::string name = entry.path().filename().string();
-                name.rfind(stem, 0) == 0 && entry.path().extension() == ".json" && entry.path().stem().extension() != ".cost")
+                name.rfind(stem, 0) == 0 && entry.path().extension() == ".json" &&
+                entry.path().stem().extension() != ".cost")
                 files.push_back(entry.path());
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files) {
             std::string why;
             const auto kept = read_certificate(file, why);
-            if (!kept || kept->scene_hash != hash || kept->certificate.modes != modes || kept->certificate.tap_rate != settings.tap_rate ||
+            if (!kept || kept->scene_hash != hash || kept->certificate.modes != modes ||
+                kept->certificate.tap_rate != settings.tap_rate ||
                 kept->certificate.from != free_from(scene))
                 continue;
             Trust t = trust_of(*kept, reference, settings.options, until);
@@ -174,7 +199,9 @@ Trust trust_of(const Scene& scene, const std::string& reference, const Settings&
                     for (const double v : tap) n += !std::isnan(v);
                 return n;
             };
-            if (best.file.empty() || std::pair(figures(t), t.of_this_program) > std::pair(figures(best), best.of_this_program)) best = t;
+            if (best.file.empty() || std::pair(figures(t), t.of_this_program) >
+                                         std::pair(figures(best), best.of_this_program))
+                best = t;
         }
     }
     return best;
@@ -193,7 +220,8 @@ Trust trust_of(const Oversampled& o, double until) {
         auto& figure = t.figure.emplace_back();
         for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(errors, ends[w], until);
     }
-    t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4, o.rate / 2, o.rate);
+    t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4,
+                            o.rate / 2, o.rate);
     return t;
 }
 

@@ -1,8 +1,10 @@
-// Runs of references, kept from one program to the next: a reference may take minutes where a scheme takes milliseconds.
+// Runs of references, kept from one program to the next: a reference may take minutes where a
+// scheme takes milliseconds.
 //
-// A file per run, named by a hash of everything that its numbers depend on: scene, reference and settings, sources, compiler, flags and
-// vector instructions. It appears by rename and is believed only where it is whole: its key, its checksum and its sizes are looked at.
-// Nothing is kept of a run of less than half a second, unless the caller keeps all of its study's.
+// A file per run, named by a hash of everything that its numbers depend on: scene, reference and
+// settings, sources, compiler, flags and vector instructions. It appears by rename and is believed
+// only where it is whole: its key, its checksum and its sizes are looked at. Nothing is kept of a
+// run of less than half a second, unless the caller keeps all of its study's.
 #pragma once
 
 #include <filesystem>
@@ -20,14 +22,18 @@ std::filesystem::path kept_runs_folder();
 
 std::string run_key(const Descriptor&, const Scene&, const Settings&);
 
-void write_run(const std::filesystem::path&, const std::string& key, const Run&);  // throws UsageError
+// throws UsageError
+void write_run(const std::filesystem::path&, const std::string& key, const Run&);
 std::optional<Run> read_run(const std::filesystem::path&,
-                            const std::string& key) noexcept;  // nothing where it is not whole or not of `key`
+                            // nothing where it is not whole or not of `key`
+                            const std::string& key) noexcept;
 
 constexpr double worth_keeping = 0.5;  // [s] of stepping
 
-// The run that is kept there, else what `make` gives, which is kept from then on. Throws store::Busy where another process or thread is
-// making it. A folder that cannot be written to keeps nothing, and nowhere is a run kept of less than `least` [s].
-Run kept_run(const std::filesystem::path& folder, const std::string& key, const std::function<Run()>& make, double least = worth_keeping);
+// The run that is kept there, else what `make` gives, which is kept from then on. Throws
+// store::Busy where another process or thread is making it. A folder that cannot be written to
+// keeps nothing, and nowhere is a run kept of less than `least` [s].
+Run kept_run(const std::filesystem::path& folder, const std::string& key,
+             const std::function<Run()>& make, double least = worth_keeping);
 
 }  // namespace jvari::bench::trust

@@ -11,27 +11,34 @@
 namespace jvari {
 
 namespace {
-constexpr double last_bits = 4 * std::numeric_limits<double>::epsilon();  // of a sum of a few terms, relative to the largest
-}
+// of a sum of a few terms, relative to the largest
+constexpr double last_bits = 4 * std::numeric_limits<double>::epsilon();
+}  // namespace
 
-CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const BarrierLaw> laws) : window_(&w), law_(laws.begin(), laws.end()) {
+CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const BarrierLaw> laws)
+    : window_(&w), law_(laws.begin(), laws.end()) {
     gauss_legendre(node_, weight_);
     using Real = long double;
     Eigen::Matrix<Real, nodes, nodes> V;
     for (int q = 0; q < nodes; ++q)
-        for (int n = 0; n < nodes; ++n) V(q, n) = std::pow(static_cast<Real>(node_[q]), static_cast<Real>(n));
+        for (int n = 0; n < nodes; ++n)
+            V(q, n) = std::pow(static_cast<Real>(node_[q]), static_cast<Real>(n));
     const Eigen::Matrix<Real, nodes, nodes> inverse = V.partialPivLu().inverse();  // [power][node]
     for (int n = 0; n < nodes; ++n)
         for (int j = 0; j < nodes; ++j) powers_[n * nodes + j] = static_cast<double>(inverse(n, j));
     // int_0^c (c - x)^l/l! x^n dx = n! c^(n+l+1)/(n+l+1)!
     std::array<Real, orders + nodes + 1> factorial{1};
     for (std::size_t n = 1; n < factorial.size(); ++n) factorial[n] = factorial[n - 1] * n;
-    std::array<std::array<Real, orders + nodes + 1>, nodes + 1> powers_of;  // of each node, and of 1
+    // of each node, and of 1
+    std::array<std::array<Real, orders + nodes + 1>, nodes + 1> powers_of;
     for (int i = 0; i <= nodes; ++i) {
         powers_of[i][0] = 1;
-        for (std::size_t n = 1; n < factorial.size(); ++n) powers_of[i][n] = powers_of[i][n - 1] * (i < nodes ? node_[i] : 1);
+        for (std::size_t n = 1; n < factorial.size(); ++n)
+            powers_of[i][n] = powers_of[i][n - 1] * (i < nodes ? node_[i] : 1);
     }
-    const auto integral = [&](int i, int l, int n) { return powers_of[i][n + l + 1] * factorial[n] / factorial[n + l + 1]; };
+    const auto integral = [&](int i, int l, int n) {
+        return powers_of[i][n + l + 1] * factorial[n] / factorial[n + l + 1];
+    };
     within_.resize(orders * nodes * nodes);
     for (int l = 0; l < orders; ++l)
         for (int j = 0; j < nodes; ++j) {
@@ -57,16 +64,20 @@ CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const Barri
     const std::size_t most = static_cast<std::size_t>(w.contacts) * nodes;
     touching_.resize(w.contacts);
     lossy_ = std::any_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.beta != 0; });
-    for (auto* v : {&force_, &guess_, &position_, &speed_, &base_, &base_speed_, &right_, &stiffness_, &drag_, &scratch_})
+    for (auto* v : {&force_, &guess_, &position_, &speed_, &base_, &base_speed_, &right_,
+                    &stiffness_, &drag_, &scratch_})
         v->resize(most + 1);
     for (auto* v : {&couple_, &couple_speed_, &matrix_}) v->resize(most * most + 1);
 }
 
-// Into guess_: the last step's forces, where the same point touched, as polynomials beyond or inside it.
+// Into guess_: the last step's forces, where the same point touched, as polynomials beyond or
+// inside it.
 void CollocatedContact::guess(std::span<const int> touching, double d, From from) noexcept {
     for (std::size_t a = 0; a < touching.size(); ++a) {
         const auto before = std::find(touching_.begin(), touching_.begin() + count_, touching[a]);
-        const bool known = from != From::elsewhere && d <= 4 * d_ && before != touching_.begin() + count_;  // no polynomial goes further
+        // no polynomial goes further
+        const bool known =
+            from != From::elsewhere && d <= 4 * d_ && before != touching_.begin() + count_;
         const BarrierLaw& law = law_[touching[a]];
         double c[nodes] = {};
         if (known) {
@@ -78,7 +89,10 @@ void CollocatedContact::guess(std::span<const int> touching, double d, From from
             const double x = (from == From::last_end ? 1 : 0) + node_[i] * d / d_;
             double f = 0;
             for (int n = nodes - 1; known && n >= 0; --n) f = f * x + c[n];
-            guess_[a * nodes + i] = known ? f : law.force(-base_[a * nodes + i], base_speed_[a * nodes + i] / window_->seconds());
+            guess_[a * nodes + i] =
+                known ? f
+                      : law.force(-base_[a * nodes + i],
+                                  base_speed_[a * nodes + i] / window_->seconds());
         }
     }
 }
@@ -88,28 +102,34 @@ void CollocatedContact::couple(double d) noexcept {
     const MacroWindow& w = *window_;
     const int size = count_ * nodes;
     int last = 2;  // h^(l) d^(l+1)/(l+1)! no longer counts beyond
-    for (double x = d * w.reach; last < std::min(w.terms, orders) && x > 1e-18; x *= d * w.reach / last) ++last;
+    for (double x = d * w.reach; last < std::min(w.terms, orders) && x > 1e-18;
+         x *= d * w.reach / last)
+        ++last;
     for (int a = 0; a < count_; ++a)
         for (int b = 0; b < count_; ++b) {
             const double* h = w.kernel(touching_[a], touching_[b]);
             double f[orders], power = d;
             for (int l = 0; l < last; ++l, power *= d) f[l] = h[l] * power;
-            double columns[nodes * nodes];  // all at once: a call for each would cost more than its sums
+            // all at once: a call for each would cost more than its sums
+            double columns[nodes * nodes];
             const auto write = [&](std::vector<double>& to) {
                 for (int j = 0; j < nodes; ++j)
                     for (int i = 0; i < nodes; ++i)
-                        to[static_cast<std::size_t>(b * nodes + j) * size + a * nodes + i] = columns[j * nodes + i];
+                        to[static_cast<std::size_t>(b * nodes + j) * size + a * nodes + i] =
+                            columns[j * nodes + i];
             };
             w.sweep().combined(columns, nodes * nodes, f, last, within_.data(), nodes * nodes);
             write(couple_);
             if (!lossy_) continue;  // which has nothing in series: h^(0) = 0
-            w.sweep().combined(columns, nodes * nodes, f + 1, last - 1, within_.data(), nodes * nodes);
+            w.sweep().combined(columns, nodes * nodes, f + 1, last - 1, within_.data(),
+                               nodes * nodes);
             for (double& x : columns) x /= d;
             write(couple_speed_);
         }
 }
 
-double CollocatedContact::step(const double* r, std::span<const int> touching, double d, From from) noexcept {
+double CollocatedContact::step(const double* r, std::span<const int> touching, double d,
+                               From from) noexcept {
     const MacroWindow& w = *window_;
     const int P = static_cast<int>(touching.size()), size = P * nodes, stride = w.stride;
     const double second = w.seconds();
@@ -132,34 +152,43 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
     bool factored = false;
     double before = HUGE_VAL;  // the residual
     for (int iteration = 0;; ++iteration) {
-        double residual = 0, scale = 0, stiffest = 0, rounding = 0;  // [N]; rounding: what the last bits of place and speed are worth
+        // [N]; rounding: what the last bits of place and speed are worth
+        double residual = 0, scale = 0, stiffest = 0, rounding = 0;
         std::copy_n(base_.begin(), size, position_.begin());
         std::copy_n(base_speed_.begin(), size, speed_.begin());
         sweep.combine(position_.data(), size, force_.data(), size, couple_.data(), size);
-        if (lossy_) sweep.combine(speed_.data(), size, force_.data(), size, couple_speed_.data(), size);
+        if (lossy_)
+            sweep.combine(speed_.data(), size, force_.data(), size, couple_speed_.data(), size);
         for (int i = 0; i < size; ++i) {
             const BarrierLaw& law = law_[touching[i / nodes]];
-            const double p = position_[i], v = speed_[i] / second, elastic = law.elastic(-p), f = elastic * (1 - law.beta * v);
+            const double p = position_[i], v = speed_[i] / second, elastic = law.elastic(-p),
+                         f = elastic * (1 - law.beta * v);
             stiffness_[i] = law.stiffness(p, elastic) * (1 - law.beta * v);
-            drag_[i] = elastic * law.beta / second;  // f = f(p, v): df/dp = -stiffness, df/dv = -drag
+            // f = f(p, v): df/dp = -stiffness, df/dv = -drag
+            drag_[i] = elastic * law.beta / second;
             right_[i] = f - force_[i];
             residual = std::max(residual, std::abs(right_[i]));
             stiffest = std::max(stiffest, stiffness_[i]);
             scale = std::max(scale, std::abs(f));
-            // A contact that creeps under a strong loss is a small force between large ones: 1 - beta v is near 0 and drag v is not.
-            rounding = std::max(rounding, last_bits * (std::abs(stiffness_[i]) * (std::abs(base_[i]) + std::abs(p)) +
-                                                       std::abs(drag_[i]) * (std::abs(base_speed_[i]) + std::abs(speed_[i]))));
+            // A contact that creeps under a strong loss is a small force between large ones: 1 -
+            // beta v is near 0 and drag v is not.
+            rounding = std::max(
+                rounding,
+                last_bits *
+                    (std::abs(stiffness_[i]) * (std::abs(base_[i]) + std::abs(p)) +
+                     std::abs(drag_[i]) * (std::abs(base_speed_[i]) + std::abs(speed_[i]))));
         }
         if (residual <= std::max({1e-14 * scale, 0.1 * stiffest * w.rounding(), rounding})) break;
         if (!(scale < HUGE_VAL) || iteration == 40) {
             d_ = 0;
             return HUGE_VAL;
         }
-        if (residual > 0.1 * before && residual <= 1e-12 * scale) break;  // as far as rounding lets it
+        // as far as rounding lets it
+        if (residual > 0.1 * before && residual <= 1e-12 * scale) break;
         if (!factored || residual > 0.1 * before) {
             // The matrix is near the identity for a step that resolves the contact: no pivots.
-            sweep.scale_rows(matrix_.data(), stiffness_.data(), couple_.data(), drag_.data(), lossy_ ? couple_speed_.data() : nullptr,
-                             size);
+            sweep.scale_rows(matrix_.data(), stiffness_.data(), couple_.data(), drag_.data(),
+                             lossy_ ? couple_speed_.data() : nullptr, size);
             sweep.factor(matrix_.data(), scratch_.data(), size);
             factored = true;
         }
@@ -178,8 +207,10 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
         }
         if (most == 0) continue;
         const double* h = w.kernel(touching[a], touching[a]);
-        const double rest = std::max(std::abs(f7), std::abs(f6)) / most, push = (h[0] + h[1] * d) * most;
-        error = std::max(error, push / (push + std::abs(r[touching[a] * stride + 1])) * std::pow(rest, 1.5));
+        const double rest = std::max(std::abs(f7), std::abs(f6)) / most,
+                     push = (h[0] + h[1] * d) * most;
+        error = std::max(
+            error, push / (push + std::abs(r[touching[a] * stride + 1])) * std::pow(rest, 1.5));
     }
     return error;
 }
@@ -239,7 +270,8 @@ double CollocatedContact::dissipated() const noexcept {
         if (law.beta == 0) continue;
         for (int j = 0; j < nodes; ++j) {
             const double v = speed_[a * nodes + j];
-            sum += weight_[j] * d_ * law.elastic(-position_[a * nodes + j]) * law.beta * v * v / window_->seconds();
+            sum += weight_[j] * d_ * law.elastic(-position_[a * nodes + j]) * law.beta * v * v /
+                   window_->seconds();
         }
     }
     return sum;

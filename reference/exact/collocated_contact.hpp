@@ -1,10 +1,13 @@
-// Contact of any law over one step of a window, by collocation at Gauss-Legendre nodes (Hairer, Norsett & Wanner, section II.7): the forces
-// are polynomials, and the points' motion under them is exact,
+// Contact of any law over one step of a window, by collocation at Gauss-Legendre nodes (Hairer,
+// Norsett & Wanner, section II.7): the forces are polynomials, and the points' motion under them is
+// exact,
 //
-//     p_a(c_i d) = r_a(c_i d) + sum_b sum_l h_ab^(l) d^(l+1) sum_j w^l_ij F_bj,    w^l_ij = int_0^c_i (c_i - x)^l/l! L_j(x) dx,
+//     p_a(c_i d) = r_a(c_i d) + sum_b sum_l h_ab^(l) d^(l+1) sum_j w^l_ij F_bj,    w^l_ij =
+//     int_0^c_i (c_i - x)^l/l! L_j(x) dx,
 //
-// so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface as in string_equations.hpp. Newton's
-// iteration solves for the node forces; the last Legendre coefficients say whether the step was short enough.
+// so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface as
+// in string_equations.hpp. Newton's iteration solves for the node forces; the last Legendre
+// coefficients say whether the step was short enough.
 #pragma once
 
 #include <array>
@@ -22,11 +25,14 @@ struct BarrierLaw {  // odd beyond the surface
     ContactLaw law;
     double beta = 0;  // of a contact loss [s/m]
     bool spring() const noexcept { return law.alpha == 1 && beta == 0; }
-    double stiffness(double eta, double elastic) const noexcept {  // -dF/dy where the elastic force is known
+    // -dF/dy where the elastic force is known
+    double stiffness(double eta, double elastic) const noexcept {
         if (eta == 0) return law.alpha == 1 ? law.k : 0;
         return law.alpha * std::abs(elastic / eta);
     }
-    double elastic(double eta) const noexcept { return std::copysign(law.force(std::abs(eta)), eta); }
+    double elastic(double eta) const noexcept {
+        return std::copysign(law.force(std::abs(eta)), eta);
+    }
     double force(double eta, double v) const noexcept { return elastic(eta) * (1 - beta * v); }
 };
 
@@ -34,14 +40,19 @@ class CollocatedContact {
 public:
     CollocatedContact(const MacroWindow&, std::span<const BarrierLaw> per_contact);
 
-    // Over d from r[contact][stride]; the touching points are given. Its error relative to the speeds there, or infinity.
-    enum class From { elsewhere, last_end, same_start };  // where it starts, seen from the last step: its forces are a first guess
+    // Over d from r[contact][stride]; the touching points are given. Its error relative to the
+    // speeds there, or infinity.
+    // where it starts, seen from the last step: its forces are a first guess
+    enum class From { elsewhere, last_end, same_start };
     double step(const double* r, std::span<const int> touching, double d, From) noexcept;
 
-    // Of the last step: every contact's derivatives, forces and their moments, and the energy that contact losses took [J].
+    // Of the last step: every contact's derivatives, forces and their moments, and the energy that
+    // contact losses took [J].
     void path(const double* r, double* path) const noexcept;
-    double force(int which, double at) const noexcept;                           // `at` from the step's start [N]
-    void moments(int which, double until, int count, double* m) const noexcept;  // until no later than the step's end
+    // `at` from the step's start [N]
+    double force(int which, double at) const noexcept;
+    // until no later than the step's end
+    void moments(int which, double until, int count, double* m) const noexcept;
     double dissipated() const noexcept;
 
 private:
@@ -49,10 +60,13 @@ private:
     static constexpr int nodes = 8, orders = 34;
     const MacroWindow* window_;
     std::vector<BarrierLaw> law_;
-    std::array<double, nodes> node_, weight_, last_, before_last_;  // and the rows that give the last two Legendre coefficients
-    std::vector<double> within_;                                    // w^l_ij [order][j][i]
-    std::array<double, orders * nodes> whole_;                      // int_0^1 (1 - x)^i/i! L_j(x) dx
-    std::array<double, nodes * nodes> powers_;                      // node values -> coefficients of x^n
+    // and the rows that give the last two Legendre coefficients
+    std::array<double, nodes> node_, weight_, last_, before_last_;
+    std::vector<double> within_;  // w^l_ij [order][j][i]
+    // int_0^1 (1 - x)^i/i! L_j(x) dx
+    std::array<double, orders * nodes> whole_;
+    // node values -> coefficients of x^n
+    std::array<double, nodes * nodes> powers_;
 
     void guess(std::span<const int> touching, double d, From) noexcept;
     void couple(double d) noexcept;
@@ -60,8 +74,8 @@ private:
     std::vector<int> touching_;
     int count_ = 0;
     double d_ = 0;  // 0: no step worth a guess
-    std::vector<double> force_, guess_, position_, speed_, base_, base_speed_, couple_, couple_speed_, matrix_, right_, stiffness_, drag_,
-        scratch_;
+    std::vector<double> force_, guess_, position_, speed_, base_, base_speed_, couple_,
+        couple_speed_, matrix_, right_, stiffness_, drag_, scratch_;
     bool lossy_ = false;
 };
 

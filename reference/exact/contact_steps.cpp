@@ -5,8 +5,9 @@
 namespace jvari {
 
 namespace {
-constexpr double near_order = 4, near = 0.5;  // a step no longer than near D does not feel what is D away
-}
+// a step no longer than near D does not feel what is D away
+constexpr double near_order = 4, near = 0.5;
+}  // namespace
 
 ContactSteps::ContactSteps(double allowed, double exponent)
     : allowed_(allowed),
@@ -20,7 +21,8 @@ double ContactSteps::beside(double distance) const noexcept {
 }
 double ContactSteps::towards(double leaves) const noexcept {
     double step = 0.5 * leaves;
-    for (int i = 0; i < 3; ++i) {  // step = beside(leaves - step), by Newton's iteration kept inside
+    // step = beside(leaves - step), by Newton's iteration kept inside
+    for (int i = 0; i < 3; ++i) {
         const double most = beside(leaves - step), slope = by_distance_ * most / (leaves - step);
         step = std::clamp(step + (most - step) / (1 + slope), 0.1 * step, 0.5 * (step + leaves));
     }
@@ -60,25 +62,38 @@ void ContactSteps::rejected(double error, double leaves) noexcept {
     const bool ends = leaves <= last_;
     again_ = true;
     if (singular_ && (since_ == 0 || (ends && limit_ == Limit::edge)))
-        return learn(last_ * std::clamp(0.8 * std::pow(over, 1 / push_), 0.02, 0.9), grade_, smooth_);
+        return learn(last_ * std::clamp(0.8 * std::pow(over, 1 / push_), 0.02, 0.9), grade_,
+                     smooth_);
     if (singular_ && ends) return;
     const double distance = std::min(since_, leaves - last_);
     if (singular_ && last_ > near * distance) {
         const double learnt = last_ / (scale_ * std::pow(distance, by_distance_));  // of grade_
-        return learn(edge_, grade_ * std::min(1.0, learnt) * std::clamp(0.9 * std::pow(over, 1 / (push_ + near_order)), 0.3, 0.9), smooth_);
+        return learn(edge_,
+                     grade_ * std::min(1.0, learnt) *
+                         std::clamp(0.9 * std::pow(over, 1 / (push_ + near_order)), 0.3, 0.9),
+                     smooth_);
     }
-    learn(edge_, grade_, last_ * std::clamp(0.8 * std::pow(over, 0.1), 0.1, 0.7));  // a smooth force errs by d^12
+    // a smooth force errs by d^12
+    learn(edge_, grade_, last_ * std::clamp(0.8 * std::pow(over, 0.1), 0.1, 0.7));
 }
 
 void ContactSteps::accepted(double error, double d) noexcept {
     const double over = allowed_ / std::max(error, 1e-30);
     again_ = false;
     since_ += d;
-    if (d < last_ || limit_ == Limit::other || (limit_ == Limit::smooth && smooth_ == 1 && over > 20)) return;
-    if (limit_ == Limit::edge) learn(std::min(1.0, d * std::clamp(0.8 * std::pow(over, 1 / push_), 0.5, 2.0)), grade_, smooth_);
+    if (d < last_ || limit_ == Limit::other ||
+        (limit_ == Limit::smooth && smooth_ == 1 && over > 20))
+        return;
+    if (limit_ == Limit::edge)
+        learn(std::min(1.0, d * std::clamp(0.8 * std::pow(over, 1 / push_), 0.5, 2.0)), grade_,
+              smooth_);
     if (limit_ == Limit::grade && d > std::min(since_ - d, ended_))
-        learn(edge_, std::min(10.0, grade_ * std::clamp(0.9 * std::pow(over, 1 / (push_ + near_order)), 0.7, 1.5)), smooth_);
-    if (limit_ == Limit::smooth) learn(edge_, grade_, std::min(1.0, d * std::clamp(0.8 * std::pow(over, 0.1), 0.5, 4.0)));
+        learn(edge_,
+              std::min(10.0, grade_ * std::clamp(0.9 * std::pow(over, 1 / (push_ + near_order)),
+                                                 0.7, 1.5)),
+              smooth_);
+    if (limit_ == Limit::smooth)
+        learn(edge_, grade_, std::min(1.0, d * std::clamp(0.8 * std::pow(over, 0.1), 0.5, 4.0)));
 }
 
 }  // namespace jvari

@@ -13,9 +13,11 @@ Gap::Values Gap::at(double u, int terms) const noexcept {
     Values v = {s[0], s[1], s[2], 0, s[0], s[1], s[2], 0};
     for (int k = 0; k < pairs; ++k) {
         const double decay = std::exp(lambda[k].real() * u), phase = lambda[k].imag() * u;
-        const double c = decay * std::cos(phase), o = decay * std::sin(phase), lr = lambda[k].real(), li = lambda[k].imag();
+        const double c = decay * std::cos(phase), o = decay * std::sin(phase),
+                     lr = lambda[k].real(), li = lambda[k].imag();
         const double br = sign * b[k].real(), bi = sign * b[k].imag();
-        const double re = br * c - bi * o, im = br * o + bi * c, re1 = lr * re - li * im, im1 = lr * im + li * re;
+        const double re = br * c - bi * o, im = br * o + bi * c, re1 = lr * re - li * im,
+                     im1 = lr * im + li * re;
         v.g += re;
         v.slope += re1;
         const double re2 = lr * re1 - li * im1, im2 = lr * im1 + li * re1;
@@ -41,18 +43,21 @@ Gap::Values Gap::at_start() const noexcept {
 
 int Gap::terms_until(double u) const noexcept {
     const double z = growth * u;
-    return z < 0.04 ? std::min(size, 8) : z < 0.6 ? std::min(size, 16) : size;  // z^8/8! and z^16/16! are below 1e-15 and 1e-16
+    // z^8/8! and z^16/16! are below 1e-15 and 1e-16
+    return z < 0.04 ? std::min(size, 8) : z < 0.6 ? std::min(size, 16) : size;
 }
 
 double Gap::depth_bound(double end) const noexcept {
     double sum = sign * p[0], power = end;
-    for (int n = 1; n < size; ++n, power *= end) sum += std::abs(p[n]) * power;  // end <= 1, and 1/n! left out
+    // end <= 1, and 1/n! left out
+    for (int n = 1; n < size; ++n, power *= end) sum += std::abs(p[n]) * power;
     for (int k = 0; k < pairs; ++k) sum += std::abs(b[k]);
     return sum;
 }
 
 namespace {
-// For sizes of 16, 24 and 32: C(i, n)/(C(size - 1, n) n!) [n][i], what derivatives are in Bernstein's polynomials of degree size - 1.
+// For sizes of 16, 24 and 32: C(i, n)/(C(size - 1, n) n!) [n][i], what derivatives are in
+// Bernstein's polynomials of degree size - 1.
 const std::vector<std::vector<double>> to_bernstein = [] {
     std::vector<std::vector<double>> tables;
     for (int size = 16; size <= 32; size += 8) {
@@ -60,17 +65,21 @@ const std::vector<std::vector<double>> to_bernstein = [] {
         for (int n = 0; n < size; ++n)
             for (int i = n; i < size; ++i) {
                 double x = 1;
-                for (int k = 0; k < n; ++k) x *= static_cast<double>(i - k) / ((size - 1 - k) * (k + 1.0));
+                for (int k = 0; k < n; ++k)
+                    x *= static_cast<double>(i - k) / ((size - 1 - k) * (k + 1.0));
                 B[n * size + i] = x;
             }
         tables.push_back(std::move(B));
     }
     return tables;
 }();
-// That a gap without pairs is nowhere negative in [0, end], by a bound that is as good as its polynomial is nearly linear.
+// That a gap without pairs is nowhere negative in [0, end], by a bound that is as good as its
+// polynomial is nearly linear.
 bool stays_open(const Gap& gap, double end) noexcept {
     const double z = gap.growth * end;  // a short search is cheaper than this
-    if (!(z > 2.5 && z < 100) || gap.pairs > 0 || gap.size < 16 || gap.size > 32 || gap.size % 8 != 0) return false;
+    if (!(z > 2.5 && z < 100) || gap.pairs > 0 || gap.size < 16 || gap.size > 32 ||
+        gap.size % 8 != 0)
+        return false;
     double range[2];
     sweep_functions().range(gap.p, to_bernstein[gap.size / 8 - 2].data(), gap.size, end, range);
     return (gap.sign > 0 ? range[0] : -range[1]) >= 0;
@@ -80,7 +89,8 @@ bool stays_open(const Gap& gap, double end) noexcept {
 double safe_step(double g, double slope, double curvature, double third, double cap) {
     const auto by = [&](double q) {  // g + slope d - q d^2/2 = 0
         const double root = std::sqrt(slope * slope + 2 * q * g);
-        if (slope <= 0) return root - slope == 0 ? (q == 0 ? HUGE_VAL : 0.0) : 2 * g / (root - slope);
+        if (slope <= 0)
+            return root - slope == 0 ? (q == 0 ? HUGE_VAL : 0.0) : 2 * g / (root - slope);
         return q == 0 ? HUGE_VAL : (slope + root) / q;
     };
     if (!(g >= 0)) return 0;
@@ -91,15 +101,18 @@ double safe_step(double g, double slope, double curvature, double third, double 
     return std::max(first, std::min(reach, by(bend + third * reach / 3)));
 }
 
-// That g + slope t + curvature t^2/2 - third t^3/6 >= 0 is certain for all t up to d: it stays above a concave parabola.
+// That g + slope t + curvature t^2/2 - third t^3/6 >= 0 is certain for all t up to d: it stays
+// above a concave parabola.
 bool safe_over(double g, double slope, double curvature, double third, double d) {
     return g >= 0 && g + d * (slope - 0.5 * d * (std::max(0.0, -curvature) + third * d / 3)) >= 0;
 }
 // That g falls all the way to d, and is negative there: its slope stays below a convex parabola.
 bool falls_through(const Gap::Values& v, double third, double d) {
-    return v.slope + d * (v.curvature + 0.5 * third * d) < 0 && v.g + d * (v.slope + d * (0.5 * v.curvature + third * d / 6)) < 0;
+    return v.slope + d * (v.curvature + 0.5 * third * d) < 0 &&
+           v.g + d * (v.slope + d * (0.5 * v.curvature + third * d / 6)) < 0;
 }
-double householder_step(const Gap::Values& v) {  // of order 3, of order 4 where the slow part has no third derivative
+// of order 3, of order 4 where the slow part has no third derivative
+double householder_step(const Gap::Values& v) {
     const double newton = v.g / v.slope, bend = 0.5 * newton * v.curvature / v.slope;
     return newton * (1 - bend) / (1 - 2 * bend + newton * newton * v.third / (6 * v.slope));
 }
@@ -108,7 +121,9 @@ struct PairBounds {  // of derivatives, from an instant on: the pairs decay
     double second = 0, third = 0;
     PairBounds(const Gap& gap, double from) {
         for (int k = 0; k < gap.pairs; ++k) {
-            const double square = std::norm(gap.lambda[k]), size = std::sqrt(std::norm(gap.b[k])) * std::exp(gap.lambda[k].real() * from);
+            const double square = std::norm(gap.lambda[k]),
+                         size =
+                             std::sqrt(std::norm(gap.b[k])) * std::exp(gap.lambda[k].real() * from);
             second += size * square;
             third += size * square * std::sqrt(square);
         }
@@ -127,15 +142,19 @@ Bounds bounds_between(const Gap& gap, double from, double until) noexcept {
     return {until, terms, slow[0] + pairs.second, slow[1] + pairs.third, slow[1]};
 }
 
-// g(low) >= 0 > g(high), and at x, one of them or between, g is `at`: Householder's iteration kept inside.
-double crossing_between(const Gap& gap, double low, double high, double x, Gap::Values at, const Bounds& b, double bound) noexcept {
+// g(low) >= 0 > g(high), and at x, one of them or between, g is `at`: Householder's iteration kept
+// inside.
+double crossing_between(const Gap& gap, double low, double high, double x, Gap::Values at,
+                        const Bounds& b, double bound) noexcept {
     for (int i = 0; i < 100; ++i) {
         const double step = householder_step(at), bend = 0.5 * at.curvature / at.slope;
         double next = x - step;
-        const double allowed = std::max(1e-17 * b.until, 1e-3 * bound / std::abs(at.slope));  // the second: rounding of g
+        // the second: rounding of g
+        const double allowed = std::max(1e-17 * b.until, 1e-3 * bound / std::abs(at.slope));
         if (std::abs(step) <= allowed) return std::clamp(next, low, high);
         if (next > low && next < high) {
-            const double rest = std::abs(step * step * step) * (bend * bend + b.third / std::abs(6 * at.slope));
+            const double rest =
+                std::abs(step * step * step) * (bend * bend + b.third / std::abs(6 * at.slope));
             if (rest <= allowed) return next;
         } else {
             next = 0.5 * (low + high);
@@ -148,10 +167,13 @@ double crossing_between(const Gap& gap, double low, double high, double x, Gap::
     return x;
 }
 
-// first_crossing from `from` on, where the gap is `v`; where there is none, v becomes the gap at the end of the bounds.
-double crossing_within(const Gap& gap, double from, const Bounds& b, double bound, Gap::Values& v) noexcept {
+// first_crossing from `from` on, where the gap is `v`; where there is none, v becomes the gap at
+// the end of the bounds.
+double crossing_within(const Gap& gap, double from, const Bounds& b, double bound,
+                       Gap::Values& v) noexcept {
     const double end = b.until, third = b.third;
-    const double least = std::max(1e-16 * end, b.second > 0 ? std::sqrt(bound / b.second) : end);  // over it no dip is deeper than bound/8
+    // over it no dip is deeper than bound/8
+    const double least = std::max(1e-16 * end, b.second > 0 ? std::sqrt(bound / b.second) : end);
     double u = from, before = from;
     for (;;) {
         if (v.g < -bound && u > from) return crossing_between(gap, before, u, u, v, b, bound);
@@ -159,8 +181,10 @@ double crossing_within(const Gap& gap, double from, const Bounds& b, double boun
         const double left = end - u;
         if (v.slope < 0 && v.g > 0) {
             const double span = std::min(-1.5 * householder_step(v), left);
-            if (span > 0 && falls_through(v, third, span)) return crossing_between(gap, u, u + span, u, v, b, bound);
-            if (v.slope + left * (v.curvature + 0.5 * third * left) < 0) {  // it falls, perhaps not through
+            if (span > 0 && falls_through(v, third, span))
+                return crossing_between(gap, u, u + span, u, v, b, bound);
+            // it falls, perhaps not through
+            if (v.slope + left * (v.curvature + 0.5 * third * left) < 0) {
                 const auto last = gap.at(end, b.terms);
                 if (last.g < 0) return crossing_between(gap, u, end, u, v, b, bound);
                 v = last;
@@ -168,7 +192,9 @@ double crossing_within(const Gap& gap, double from, const Bounds& b, double boun
             }
         }
         double step = safe_step(std::max(0.0, v.g), v.slope, v.curvature, third, left);
-        if (gap.pairs > 0) step = std::max(step, safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, b.slow_third, left));
+        if (gap.pairs > 0)
+            step = std::max(step, safe_step(v.slow - v.amplitude, v.slow_slope, v.slow_curvature,
+                                            b.slow_third, left));
         before = u;
         u = std::min(end, u + std::max(step, least));
         v = gap.at(u, b.terms);
@@ -178,16 +204,21 @@ double crossing_within(const Gap& gap, double from, const Bounds& b, double boun
 
 double first_crossing(const Gap& gap, double end, double bound) noexcept {
     double fastest = 0;
-    for (int k = 0; k < gap.pairs; ++k) fastest = std::max({fastest, gap.lambda[k].imag(), -gap.lambda[k].real()});
+    for (int k = 0; k < gap.pairs; ++k)
+        fastest = std::max({fastest, gap.lambda[k].imag(), -gap.lambda[k].real()});
     Gap::Values v = gap.at_start();
     const Bounds whole = bounds_between(gap, 0, end);
-    if (!std::isfinite(whole.third)) return 2;  // beyond all numbers: so is the motion, which ends the run
-    if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end)) return 2;
+    // beyond all numbers: so is the motion, which ends the run
+    if (!std::isfinite(whole.third)) return 2;
+    if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end))
+        return 2;
     if (stays_open(gap, end)) return 2;
     double from = 0;
-    for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {  // a stage has its own terms and bounds: early ones are cheap
+    // a stage has its own terms and bounds: early ones are cheap
+    for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {
         if (to > 0.5 * end) to = end;
-        const double crossing = crossing_within(gap, from, from == 0 && to == end ? whole : bounds_between(gap, from, to), bound, v);
+        const double crossing = crossing_within(
+            gap, from, from == 0 && to == end ? whole : bounds_between(gap, from, to), bound, v);
         if (crossing <= end || to == end) return crossing;
         from = to;
     }

@@ -1,10 +1,12 @@
-// The first instant at which a gap turns negative: a slow motion, given by its derivatives, plus fast exponential pairs,
+// The first instant at which a gap turns negative: a slow motion, given by its derivatives, plus
+// fast exponential pairs,
 //
 //     g(u) = sign (sum p_n u^n/n! + Re sum b_k e^(lambda_k u)).
 //
-// Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A d^3/6 with A a bound of |g'''|, or the
-// slow part alone stays above the sum of the amplitudes of the pairs. So nothing is sampled and nothing is missed, except dips that stay
-// above -bound. Near a crossing the derivative has one sign and Householder's iteration finishes.
+// Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A
+// d^3/6 with A a bound of |g'''|, or the slow part alone stays above the sum of the amplitudes of
+// the pairs. So nothing is sampled and nothing is missed, except dips that stay above -bound. Near
+// a crossing the derivative has one sign and Householder's iteration finishes.
 // Amplitudes may not grow: Re lambda_k <= 0.
 #pragma once
 
@@ -18,7 +20,8 @@ struct Gap {
     double sign;
     const double* p;  // [size], zeros behind
     int size;
-    double growth;                          // p_n is of the order of growth^n at most: late terms may be left out early
+    // p_n is of the order of growth^n at most: late terms may be left out early
+    double growth;
     const std::complex<double>*b, *lambda;  // [pairs]
     int pairs;
 

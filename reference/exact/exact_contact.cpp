@@ -1,13 +1,17 @@
 // The exact reference: a string against one-sided contacts, event-driven, no step size in it.
 //
-// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck); contact loss of Issanchou et al. 2016, eq 24. The string is
-// linear, only the contact points are not. So the modes are touched twice a window (macro_window.hpp), and between its events a few short
-// vectors move. From one event to the next the points follow
+// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck); contact loss of
+// Issanchou et al. 2016, eq 24. The string is linear, only the contact points are not. So the modes
+// are touched twice a window (macro_window.hpp), and between its events a few short vectors move.
+// From one event to the next the points follow
 //   - their free motion, where nothing touches;
-//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast part per point, or a polynomial where they are soft;
-//   - collocated_contact.hpp, step by step (contact_steps.hpp), where the law is no spring or there are many contacts.
-// crossing.hpp finds the next event and misses none. A profile acts as the points of profile_points.hpp. With compliance=matched what the
-// modes left out would yield and radiate stands in series with barriers and thread (in_series.hpp).
+//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast part per point,
+//   or a polynomial where they are soft;
+//   - collocated_contact.hpp, step by step (contact_steps.hpp), where the law is no spring or there
+//   are many contacts.
+// crossing.hpp finds the next event and misses none. A profile acts as the points of
+// profile_points.hpp. With compliance=matched what the modes left out would yield and radiate
+// stands in series with barriers and thread (in_series.hpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -30,17 +34,20 @@ namespace jvari {
 namespace {
 constexpr int most_sets_of = 4;  // contacts, for every set of them to be split beforehand
 constexpr double negligible = 1e-18;
-// What one window, and one step of a collocated contact, may cut off of the tolerance, so that every tap keeps it: 1317 taps of 400 random
-// lossless strings of 20 to 60 modes over 20 ms do, but for those that change by more where the start moves by 1e-11.
+// What one window, and one step of a collocated contact, may cut off of the tolerance, so that
+// every tap keeps it: 1317 taps of 400 random lossless strings of 20 to 60 modes over 20 ms do, but
+// for those that change by more where the start moves by 1e-11.
 constexpr double window_share = 5e-4, step_share = 0.02;
 constexpr double share_of(double tolerance, double share) {
     constexpr double least = 1e-14;
     return std::max(share * tolerance, std::min(tolerance, least));
 }
-constexpr long phases_between_questions = 64;  // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
+// (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
+constexpr long phases_between_questions = 64;
 
 struct Extremes {  // of the run so far
-    double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0, deepest = 0, tolerance = 0;
+    double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0,
+           deepest = 0, tolerance = 0;
 };
 
 std::vector<BarrierLaw> laws_of(const String& s) {
@@ -59,8 +66,9 @@ double exponent_of(const std::vector<BarrierLaw>& laws) {  // the one farthest f
     return exponent;
 }
 
-// A spring that gives way by 1e-8 of what the string lacks at the barrier stands for one that does not give way at all: the motion errs by
-// about as much. Where the modes alone meet it nothing but the barrier would give way.
+// A spring that gives way by 1e-8 of what the string lacks at the barrier stands for one that does
+// not give way at all: the motion errs by about as much. Where the modes alone meet it nothing but
+// the barrier would give way.
 String with_springs(String s, const Descriptor& descriptor, const std::optional<InSeries>& series) {
     constexpr double share = 1e-8;
     for (std::size_t a = 0; a < s.barriers.size(); ++a) {
@@ -68,7 +76,8 @@ String with_springs(String s, const Descriptor& descriptor, const std::optional<
         if (k != rigid) continue;
         if (!series)
             throw Refusal(std::string(descriptor.name) +
-                          ": a rigid barrier needs compliance=matched, for where the modes alone meet it nothing gives way");
+                          ": a rigid barrier needs compliance=matched, for where the modes alone "
+                          "meet it nothing gives way");
         k = 1 / (share * series->C.C[a * series->points + a]);
     }
     return s;
@@ -76,20 +85,25 @@ String with_springs(String s, const Descriptor& descriptor, const std::optional<
 
 class ExactContact final : public Scheme {
 public:
-    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance, const std::optional<InSeries>&);
+    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance,
+                 const std::optional<InSeries>&);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     std::vector<Fact> facts() const override;
 
 private:
-    bool interval(const Block& out) noexcept;                                       // to the next row
-    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
+    // to the next row
+    bool interval(const Block& out) noexcept;
+    // within one interval
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;
     bool window(double end, bool plucked, double since_pluck, const Block& out) noexcept;
-    double phase(double at, double end, bool probe) noexcept;  // to the next event, or as far as this way of going on reaches
+    // to the next event, or as far as this way of going on reaches
+    double phase(double at, double end, bool probe) noexcept;
     double collocated(double left, int& crossed) noexcept;
     double leaving(double d, int but) const noexcept;
-    Gap gap(int contact, int terms) const noexcept;  // the side the point is on now: positive until the next event
+    // the side the point is on now: positive until the next event
+    Gap gap(int contact, int terms) const noexcept;
     int next_crossing(double& end, int terms) noexcept;
     void settle() noexcept;  // which points touch, by where they are and where they go
     void move_on(double by, double left) noexcept;
@@ -97,7 +111,9 @@ private:
     void measure_force(int which, double end) noexcept;
     double stored(double F_e) const noexcept;
     void write(const Block& out, int row) const noexcept;
-    double* at(std::vector<double>& rows, int a) const noexcept { return rows.data() + static_cast<long>(a) * window_.stride; }
+    double* at(std::vector<double>& rows, int a) const noexcept {
+        return rows.data() + static_cast<long>(a) * window_.stride;
+    }
 
     Modes modes_;
     MacroWindow window_;
@@ -105,7 +121,9 @@ private:
     CollocatedContact collocation_;
     WindowEnergies spending_;
     std::vector<std::optional<WindowEnergies::Touch>>
-        sets_;  // by the bits of their points; empty where there are too many contacts or a law is no spring
+        // by the bits of their points; empty where there are too many contacts or a law is no
+        // spring
+        sets_;
     Readout readout_;
     std::vector<Pluck> pluck_;                // none or one
     double tap_rate_, tolerance_, interval_;  // of an interval: windows
@@ -127,14 +145,16 @@ private:
     std::vector<double> r_, path_, moments_, moment_;
     std::vector<std::complex<double>> amplitude_;
     std::vector<int> touched_;
-    WindowEnergies::Touch* touch_ = nullptr;    // of the springs that touch; nullptr: none do, or what does goes by collocation
+    // of the springs that touch; nullptr: none do, or what does goes by collocation
+    WindowEnergies::Touch* touch_ = nullptr;
     bool collocated_ = false, onward_ = false;  // this phase, and the one before
-    int count_ = 0;                             // moments of this phase that are not negligible: (reach x step)^i/i!
-    double counted_until_ = -1;                 // by a step of that length
+    // moments of this phase that are not negligible: (reach x step)^i/i!
+    int count_ = 0;
+    double counted_until_ = -1;  // by a step of that length
 };
 
-ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate, double tolerance,
-                           const std::optional<InSeries>& series)
+ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate,
+                           double tolerance, const std::optional<InSeries>& series)
     : modes_(std::move(modes)),
       window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
       law_(laws_of(s)),
@@ -148,7 +168,8 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     if (s.pluck) pluck_.push_back(*s.pluck);
     start_ = window_.osc.pad(initial_displacement(modes_, s));
     std::vector<double> stiffness;
-    for (int i = 0; i < modes_.count(); ++i) stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
+    for (int i = 0; i < modes_.count(); ++i)
+        stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
     stiffness_ = window_.osc.pad(stiffness);
     y_ = u_ = start_;
     if (series) z_.assign(series->states, 0.0);
@@ -156,11 +177,13 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
     touching_.resize(contacts + 1);
     known_zero_.resize(contacts + 1);
     touched_.reserve(contacts);
-    for (auto* v : {&r_, &path_, &moments_, &moment_}) v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
+    for (auto* v : {&r_, &path_, &moments_, &moment_})
+        v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
     amplitude_.assign(2 * contacts * contacts + 1, 0.0);
     if (needed_by(scene).has(Feature::rigid_barrier))
         for (const BarrierLaw& l : law_) rigid_stiffness_ = std::max(rigid_stiffness_, l.law.k);
-    const bool springs = std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
+    const bool springs =
+        std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
     if (springs && contacts <= most_sets_of) {
         sets_.resize(1u << contacts);
         for (unsigned bits = 1; bits < sets_.size(); ++bits) {
@@ -200,7 +223,8 @@ Status ExactContact::advance(const Block& out) noexcept {
 }
 
 void ExactContact::write(const Block& out, int row) const noexcept {
-    readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(), bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
+    readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(),
+                   bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
     const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
     if (window_.series()) add_series(out, row, *window_.series(), z_.data(), F_e);
     if (out.energy) write_energy(out, row, stored(F_e), energies_.supplied, energies_.dissipated);
@@ -215,7 +239,8 @@ bool ExactContact::interval(const Block& out) noexcept {
         from = std::clamp(start / window_.seconds(), 0.0, interval_);
         to = std::clamp((start + pluck_[0].duration) / window_.seconds(), 0.0, interval_);
     }
-    return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
+    return stretch(0, from, false, out) && stretch(from, to, true, out) &&
+           stretch(to, interval_, false, out);
 }
 
 bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
@@ -224,7 +249,9 @@ bool ExactContact::stretch(double from, double to, bool plucked, const Block& ou
     const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
     for (long i = 0; i < count; ++i) {
         const double at = from + (to - from) * i / count;
-        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds()) : 0;
+        const double since_pluck =
+            plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds())
+                    : 0;
         if (!window((to - from) / count, plucked, since_pluck, out) || out.stopped()) return false;
     }
     return true;
@@ -239,7 +266,8 @@ bool ExactContact::window(double end, bool plucked, double since_pluck, const Bl
         if (known_zero_[a]) at(r_, a)[0] = 0;
     }
     extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
-    for (int a = 0; a < w.contacts; ++a) std::fill_n(at(moments_, a), w.size, 0.0);  // nothing is ever written behind them
+    // nothing is ever written behind them
+    for (int a = 0; a < w.contacts; ++a) std::fill_n(at(moments_, a), w.size, 0.0);
     long phases = 0;
     for (double now = 0; now < end;) {
         const double left = end - now, step = phase(now, left, out.energy != nullptr);
@@ -264,7 +292,9 @@ void ExactContact::settle() noexcept {
         if (sign == 0) {  // it lies on the surface, at rest: what pulls there
             sign = r[2];
             for (int b = 0; b < w.contacts; ++b)
-                if (at(r_, b)[0] < 0) sign += w.kernel(a, b)[1] * law_[b].force(-at(r_, b)[0], at(r_, b)[1] / w.seconds());
+                if (at(r_, b)[0] < 0)
+                    sign += w.kernel(a, b)[1] *
+                            law_[b].force(-at(r_, b)[0], at(r_, b)[1] / w.seconds());
         }
         if (sign == 0) continue;
         if (touching_[a] == (sign < 0)) continue;
@@ -326,28 +356,37 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
 
     if (end != counted_until_) {
         count_ = 2, counted_until_ = end;
-        for (double x = w.reach * end; count_ < w.terms && x > negligible; x *= w.reach * end / count_) ++count_;
+        for (double x = w.reach * end; count_ < w.terms && x > negligible;
+             x *= w.reach * end / count_)
+            ++count_;
     }
     const auto moments_until = [&](double until, int count) {
         for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
-            if (touch_) touch_->set.moments(i, path_.data(), amplitude_.data(), until, count, at(moment_, i));
+            if (touch_)
+                touch_->set.moments(i, path_.data(), amplitude_.data(), until, count,
+                                    at(moment_, i));
             else collocation_.moments(i, until, count, at(moment_, i));
     };
     if (probe && end > 0) {
         const auto all_moments = [&](double when, double* M,
-                                     double* F) {  // of the phases before, seen from an earlier instant, and of this
+                                     // of the phases before, seen from an earlier instant, and of
+                                     // this
+                                     double* F) {
             double earlier[3 * most_terms];
             std::fill_n(earlier, w.size, 0.0);
             powers(when - now - left, w.size, earlier + w.size);
             std::fill_n(M, static_cast<long>(w.contacts) * w.stride, 0.0);
             for (int a = 0; a < w.contacts; ++a)
-                w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms, earlier + w.size, -1);
+                w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms,
+                                  earlier + w.size, -1);
             moments_until(when - now, w.terms);
             std::fill_n(F, w.contacts, 0.0);
             for (int i = 0; i < static_cast<int>(touched_.size()); ++i) {
                 F[touched_[i]] =
-                    touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), when - now) : collocation_.force(i, when - now);
-                for (int n = 0; n < w.terms; ++n) M[touched_[i] * w.stride + n] += at(moment_, i)[n];
+                    touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), when - now)
+                           : collocation_.force(i, when - now);
+                for (int n = 0; n < w.terms; ++n)
+                    M[touched_[i] * w.stride + n] += at(moment_, i)[n];
             }
         };
         spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
@@ -371,7 +410,10 @@ double ExactContact::collocated(double left, int& crossed) noexcept {
     double d = steps_.next(left, leaves_), error;
     for (int tries = 0;; ++tries) {
         if (tries > 60) return -1;
-        error = collocation_.step(r_.data(), touched_, d, tries > 0 ? From::same_start : onward_ ? From::last_end : From::elsewhere);
+        error = collocation_.step(r_.data(), touched_, d,
+                                  tries > 0 ? From::same_start
+                                  : onward_ ? From::last_end
+                                            : From::elsewhere);
         ++extremes_.steps;
         if (steps_.fits(error)) break;
         leaves_ = HUGE_VAL;
@@ -405,20 +447,25 @@ double ExactContact::collocated(double left, int& crossed) noexcept {
     return d;
 }
 
-// When the first of the points that touch lets go, from the end of a step d on, by its acceleration there.
+// When the first of the points that touch lets go, from the end of a step d on, by its acceleration
+// there.
 double ExactContact::leaving(double d, int but) const noexcept {
     double first = HUGE_VAL;
     for (int a : touched_) {
         if (a == but) continue;
         double now[3];
-        window_.sweep().evaluate(path_.data() + static_cast<long>(a) * window_.stride, window_.size, d, now);
-        const double depth = -now[0], root = now[1] * now[1] + 2 * now[2] * depth;  // depth - now1 t - now2 t^2/2 = 0
-        if (depth > 0 && root >= 0 && now[1] + std::sqrt(root) > 0) first = std::min(first, 2 * depth / (now[1] + std::sqrt(root)));
+        window_.sweep().evaluate(path_.data() + static_cast<long>(a) * window_.stride, window_.size,
+                                 d, now);
+        // depth - now1 t - now2 t^2/2 = 0
+        const double depth = -now[0], root = now[1] * now[1] + 2 * now[2] * depth;
+        if (depth > 0 && root >= 0 && now[1] + std::sqrt(root) > 0)
+            first = std::min(first, 2 * depth / (now[1] + std::sqrt(root)));
     }
     return first;
 }
 
-// The points' free motion and the moments, from the instant of this phase's start to `by` later, `left` before the window's end.
+// The points' free motion and the moments, from the instant of this phase's start to `by` later,
+// `left` before the window's end.
 void ExactContact::move_on(double by, double left) noexcept {
     const MacroWindow& w = window_;
     const auto combine = w.sweep().combine;
@@ -436,25 +483,30 @@ void ExactContact::move_on(double by, double left) noexcept {
     for (std::size_t i = 0; i < touched_.size(); ++i) {
         const double* m = at(moment_, static_cast<int>(i));
         extremes_.tolerance = std::max(extremes_.tolerance, w.kernel_truncation() * std::abs(m[0]));
-        for (int a = 0; !last && a < w.contacts; ++a) combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
+        for (int a = 0; !last && a < w.contacts; ++a)
+            combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
         combine(at(moments_, touched_[i]), w.size, m, count_, later + w.size, -1);
     }
 }
 
 void ExactContact::measure(int a, double end, bool leaves) noexcept {
-    const Gap g = gap(a, window_.size);  // touching: the gap's sign is turned, so this is the penetration
+    // touching: the gap's sign is turned, so this is the penetration
+    const Gap g = gap(a, window_.size);
     const double bound = g.depth_bound(end);
     const bool elastic = law_[a].beta == 0;
     const bool nothing_new =
-        bound <= extremes_.deepest && (window_.contacts == 1 || !elastic || law_[a].elastic(bound) <= extremes_.largest_force);
+        bound <= extremes_.deepest &&
+        (window_.contacts == 1 || !elastic || law_[a].elastic(bound) <= extremes_.largest_force);
     if (leaves && nothing_new) return;  // contact forces are not negative in between
     const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
     double deepest = std::max(start.g, last.g);
     if (elastic)
         extremes_.smallest_force =
-            std::min(extremes_.smallest_force, law_[a].elastic(std::max(0.0, leaves ? start.g : std::min(start.g, last.g))));
+            std::min(extremes_.smallest_force,
+                     law_[a].elastic(std::max(0.0, leaves ? start.g : std::min(start.g, last.g))));
     if (start.slope > 0 && last.slope < 0 && !nothing_new) {
-        double low = 0, high = end, x = 0.5 * end;  // Newton's iteration for the turning point, kept inside
+        // Newton's iteration for the turning point, kept inside
+        double low = 0, high = end, x = 0.5 * end;
         for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
             const auto now = g.at(x);
             (now.slope > 0 ? low : high) = x;
@@ -465,11 +517,13 @@ void ExactContact::measure(int a, double end, bool leaves) noexcept {
         }
     }
     extremes_.deepest = std::max(extremes_.deepest, deepest);
-    if (elastic) extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
+    if (elastic)
+        extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
 }
 
-// A lossy contact pushes hardest on the way in and may pull on the way out: the extremes of its force are those of a polynomial in time,
-// sought by samples and, where a sample is the largest of three or the smallest, by golden sections around it.
+// A lossy contact pushes hardest on the way in and may pull on the way out: the extremes of its
+// force are those of a polynomial in time, sought by samples and, where a sample is the largest of
+// three or the smallest, by golden sections around it.
 void ExactContact::measure_force(int which, double end) noexcept {
     constexpr int samples = 16;
     constexpr double golden = 0.6180339887498949;
@@ -479,11 +533,14 @@ void ExactContact::measure_force(int which, double end) noexcept {
         double most = -HUGE_VAL;
         for (int k = 0; k <= samples; ++k) {
             most = std::max(most, sign * force[k]);
-            if (k == 0 || k == samples || sign * force[k] < std::max(sign * force[k - 1], sign * force[k + 1])) continue;
+            if (k == 0 || k == samples ||
+                sign * force[k] < std::max(sign * force[k - 1], sign * force[k + 1]))
+                continue;
             double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
             for (int n = 0; n < 40; ++n) {
                 const double a = high - golden * (high - low), b = low + golden * (high - low);
-                if (sign * collocation_.force(which, a) > sign * collocation_.force(which, b)) high = b;
+                if (sign * collocation_.force(which, a) > sign * collocation_.force(which, b))
+                    high = b;
                 else low = a;
             }
             most = std::max(most, sign * collocation_.force(which, 0.5 * (low + high)));
@@ -500,7 +557,8 @@ double ExactContact::stored(double F_e) const noexcept {
         kinetic += u_[i] * u_[i];
         potential += stiffness_[i] * y_[i] * y_[i];
     }
-    double energy = 0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
+    double energy =
+        0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
     const auto& series = window_.series();
     if (series) energy += series->stored(z_.data());
     for (int a = 0; a < s.points; ++a) {
@@ -513,9 +571,12 @@ double ExactContact::stored(double F_e) const noexcept {
 }
 
 std::vector<Fact> ExactContact::facts() const {
-    const double told = tolerance_ / window_share * extremes_.largest_force;  // a smaller force may be none
+    // a smaller force may be none
+    const double told = tolerance_ / window_share * extremes_.largest_force;
     const double smallest =
-        extremes_.smallest_force == HUGE_VAL || std::abs(extremes_.smallest_force) < told ? 0 : extremes_.smallest_force;
+        extremes_.smallest_force == HUGE_VAL || std::abs(extremes_.smallest_force) < told
+            ? 0
+            : extremes_.smallest_force;
     std::vector<Fact> f = {{facts::events, extremes_.events},
                            {facts::contact_points, double(window_.contacts)},
                            {facts::coupled_contact_points, double(window_.contacts)},
@@ -530,35 +591,47 @@ std::vector<Fact> ExactContact::facts() const {
     return f;
 }
 
-constexpr Option tolerance_option{
-    "tolerance", "1e-10", "relative error of the taps that cutting off series and steps may cause, forces included, between 0 and 1"};
+constexpr Option tolerance_option{"tolerance", "1e-10",
+                                  "relative error of the taps that cutting off series and steps "
+                                  "may cause, forces included, between 0 and 1"};
 constexpr Option options[] = {tolerance_option, nodes_option, compliance_option};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     const double tolerance = number_option(settings, tolerance_option);
-    if (!(tolerance > 0 && tolerance < 1)) throw Refusal("option tolerance: expected a number between 0 and 1");
+    if (!(tolerance > 0 && tolerance < 1))
+        throw Refusal("option tolerance: expected a number between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     Settings asked = settings;  // over a rigid barrier matched unasked, as nothing else will do
     const auto says = [](const auto& o) { return o.first == compliance_option.name; };
-    if (needed_by(scene).has(Feature::rigid_barrier) && std::none_of(asked.options.begin(), asked.options.end(), says))
+    if (needed_by(scene).has(Feature::rigid_barrier) &&
+        std::none_of(asked.options.begin(), asked.options.end(), says))
         asked.options.emplace_back(compliance_option.name, "matched");
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, asked);
-    const String s = with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)), descriptor, series);
-    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance, series);
+    const String s =
+        with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)),
+                     descriptor, series);
+    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance,
+                                          series);
 }
-constexpr Approximation approximates[] = {points_for_a_profile[0], {Feature::rigid_barrier, facts::rigid_stiffness}};
+constexpr Approximation approximates[] = {points_for_a_profile[0],
+                                          {Feature::rigid_barrier, facts::rigid_stiffness}};
 }  // namespace
 
 const Descriptor exact_contact = {
     .name = "exact_contact",
-    .source = "van Walstijn et al. 2016, eqs 1-22, and Issanchou et al. 2016, eq 24, exact between events",
-    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
-                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) |
-                  Features(Feature::rigid_barrier),
+    .source =
+        "van Walstijn et al. 2016, eqs 1-22, and Issanchou et al. 2016, eq 24, exact between "
+        "events",
+    .represents = Feature::bending_stiffness | Feature::damping |
+                  Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                  Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                  Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) |
+                  Features(Feature::pluck) | Features(Feature::rigid_barrier),
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = made,

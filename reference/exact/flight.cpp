@@ -12,7 +12,8 @@ namespace {
 constexpr double of_window = 1e-15;  // relative: what a window cuts is below rounding
 }
 
-Flight::Flight(const Modes& modes, const String& s, double interval, const std::optional<InSeries>& series)
+Flight::Flight(const Modes& modes, const String& s, double interval,
+               const std::optional<InSeries>& series)
     : window(modes, s, interval, of_window, series), energies_(window, modes, of_window) {
     if (s.pluck) longest_plucked_ = std::min(1.0, pluck_window(*s.pluck) / window.seconds());
     if (series) z.assign(series->states, 0.0);
@@ -20,12 +21,13 @@ Flight::Flight(const Modes& modes, const String& s, double interval, const std::
     none_ = r_;
 }
 
-Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int leaving, double* y, double* u, Sums& sums,
-                            bool probe) noexcept {
+Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int leaving, double* y,
+                            double* u, Sums& sums, bool probe) noexcept {
     MacroWindow& w = window;
     const double longest = (plucked ? longest_plucked_ : 1) * w.length;
     const bool whole = left <= longest;
-    const double full = whole ? left : left / std::ceil(left / longest), end = std::min(1.0, full / w.length);
+    const double full = whole ? left : left / std::ceil(left / longest),
+                 end = std::min(1.0, full / w.length);
     for (int i = 0; i < w.osc.padded; ++i) u[i] *= w.length;
     w.open(y, u, plucked, since_pluck, z.data());
     Landing landing{end, -1};
@@ -38,7 +40,8 @@ Flight::Landing Flight::fly(double left, bool plucked, double since_pluck, int l
             for (int i = 0; i < w.osc.padded; ++i) u[i] /= w.length;
             return *leading < 0 ? Landing{0, a} : Landing{-1, -1};
         }
-        const double contact = first_crossing({1, r, w.size, w.reach, nullptr, nullptr, 0}, landing.length, w.rounding());
+        const double contact = first_crossing({1, r, w.size, w.reach, nullptr, nullptr, 0},
+                                              landing.length, w.rounding());
         if (contact <= landing.length) landing = {contact, a};
     }
     tolerance_ = std::max(tolerance_, 2 * (w.truncation() + w.rounding()));

@@ -1,5 +1,6 @@
-// Exact flight of a string that touches no barrier, thread and pluck acting, until it reaches one: a macro window without its contacts, and
-// the first crossing of its gaps. Times are in units of 1/rate (oscillators.hpp), and so are the velocities here.
+// Exact flight of a string that touches no barrier, thread and pluck acting, until it reaches one:
+// a macro window without its contacts, and the first crossing of its gaps. Times are in units of
+// 1/rate (oscillators.hpp), and so are the velocities here.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,8 @@ namespace jvari {
 
 class Flight {
 public:
-    Flight(const Modes&, const String&, double interval, const std::optional<InSeries>& = {});  // between rows [s]
+    // between rows [s]
+    Flight(const Modes&, const String&, double interval, const std::optional<InSeries>& = {});
 
     MacroWindow window;
 
@@ -26,8 +28,10 @@ public:
     };
     std::vector<double> z;  // of what is in series (in_series.hpp), of the present state
 
-    // One window, no longer than `left`. `leaving`: the barrier whose surface the string has just left, -1: none. Energies where `probe`.
-    Landing fly(double left, bool plucked, double since_pluck, int leaving, double* y, double* u, Sums&, bool probe) noexcept;
+    // One window, no longer than `left`. `leaving`: the barrier whose surface the string has just
+    // left, -1: none. Energies where `probe`.
+    Landing fly(double left, bool plucked, double since_pluck, int leaving, double* y, double* u,
+                Sums&, bool probe) noexcept;
 
     double tolerance() const { return tolerance_; }  // no contact deeper than this was missed [m]
     void reset() {

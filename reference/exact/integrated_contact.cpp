@@ -1,12 +1,16 @@
-// The reference for any contact law: an adaptive integrator with event location, and exact flight between contacts.
+// The reference for any contact law: an adaptive integrator with event location, and exact flight
+// between contacts.
 //
-// Sources: string_equations.hpp (van Walstijn et al. 2016, eqs 5-22, with any exponent; Issanchou et al. 2016, eq 24). While no barrier is
-// touched the motion is linear and flies exactly, its next contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a
-// stated tolerance and finds the crossings (integrator.hpp). With flight = integrate, and where the string stretches, everything is
-// integrated, by steps short enough for root finding to see contacts, which is a belief and not a bound: the option is there to be compared
-// with, because exact_contact flies by the same code.
-// On a body that moves there is no exact flight: all strings are integrated together (integrated_instrument.hpp).
-// A profile acts as the points of profile_points.hpp. Leaves out: polarisation.
+// Sources: string_equations.hpp (van Walstijn et al. 2016, eqs 5-22, with any exponent; Issanchou
+// et al. 2016, eq 24). While no barrier is touched the motion is linear and flies exactly, its next
+// contact isolated rigorously (flight.hpp); while one is, SUNDIALS integrates to a stated tolerance
+// and finds the crossings (integrator.hpp). With flight = integrate, and where the string
+// stretches, everything is integrated, by steps short enough for root finding to see contacts,
+// which is a belief and not a bound: the option is there to be compared with, because exact_contact
+// flies by the same code.
+// On a body that moves there is no exact flight: all strings are integrated together
+// (integrated_instrument.hpp). A profile acts as the points of profile_points.hpp. Leaves out:
+// polarisation.
 #include <algorithm>
 #include <cmath>
 
@@ -29,24 +33,31 @@ struct Choice {
 
 class IntegratedContact final : public Scheme {
 public:
-    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&, const std::optional<InSeries>&);
+    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&,
+                      const std::optional<InSeries>&);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     std::vector<Fact> facts() const override;
 
 private:
-    bool interval(const Block& out) noexcept;                                       // to the next row
-    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;  // within one interval
+    // to the next row
+    bool interval(const Block& out) noexcept;
+    // within one interval
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;
     double integrate(double left, bool plucked, double since_pluck,
-                     const Block& out) noexcept;            // no further than the next crossing; how far [1/rate]
+                     // no further than the next crossing; how far [1/rate]
+                     const Block& out) noexcept;
     void start(bool plucked, double since_pluck) noexcept;  // y, u -> the integrator's state
     void toggle(int contact) noexcept;
-    double pace(bool decays) noexcept;  // of the fastest motion [1/s]; decays: of a contact in series as well
+    // of the fastest motion [1/s]; decays: of a contact in series as well
+    double pace(bool decays) noexcept;
     double stored() const noexcept;
     const std::optional<InSeries>& series() const noexcept { return flight_.window.series(); }
     bool exact_flight() const noexcept {
-        return choice_.exact_flight && std::find(equations_.touched.begin(), equations_.touched.end(), 1) == equations_.touched.end();
+        return choice_.exact_flight &&
+               std::find(equations_.touched.begin(), equations_.touched.end(), 1) ==
+                   equations_.touched.end();
     }
 
     Modes modes_;
@@ -70,7 +81,8 @@ private:
     double events_ = 0;
 };
 
-IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes, double tap_rate, const Choice& choice,
+IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes,
+                                     double tap_rate, const Choice& choice,
                                      const std::optional<InSeries>& series)
     : modes_(std::move(modes)),
       equations_(modes_, s, series),
@@ -100,15 +112,18 @@ void IntegratedContact::reset() noexcept {
     events_ = 0;
     if (choice_.exact_flight) return;  // it finds what is touched from the start
     start(false, 0);
-    for (int a = 0; a < equations_.contacts; ++a) equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
+    for (int a = 0; a < equations_.contacts; ++a)
+        equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
     running_ = false;
 }
 
 Status IntegratedContact::advance(const Block& out) noexcept {
     for (int row = 0; row < out.rows; ++row) {
-        readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate, sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
+        readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate,
+                       sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
         if (series()) add_series(out, row, *series(), flight_.z.data(), 0);
-        if (out.energy) write_energy(out, row, stored(), sums_.energies.supplied, sums_.energies.dissipated);
+        if (out.energy)
+            write_energy(out, row, stored(), sums_.energies.supplied, sums_.energies.dissipated);
         if (!interval(out)) return {Outcome::not_converged, row_};
         ++row_;
     }
@@ -123,17 +138,22 @@ bool IntegratedContact::interval(const Block& out) noexcept {
         from = std::clamp(start * flight_.window.osc.rate, 0.0, interval_);
         to = std::clamp((start + pluck_[0].duration) * flight_.window.osc.rate, 0.0, interval_);
     }
-    return stretch(0, from, false, out) && stretch(from, to, true, out) && stretch(to, interval_, false, out);
+    return stretch(0, from, false, out) && stretch(from, to, true, out) &&
+           stretch(to, interval_, false, out);
 }
 
 bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
     const double nothing = 1e-15 * interval_;  // the library cannot step so little
     for (double at = from; to - at > nothing;) {
         const double left = to - at;
-        const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.window.osc.rate) : 0;
+        const double since_pluck =
+            plucked
+                ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.window.osc.rate)
+                : 0;
         double step;
         if (exact_flight()) {
-            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(), u_.data(), sums_, out.energy != nullptr);
+            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(),
+                                             u_.data(), sums_, out.energy != nullptr);
             step = landing.length;
             leaving_ = -1;
             if (landing.contact >= 0) toggle(landing.contact);
@@ -146,7 +166,8 @@ bool IntegratedContact::stretch(double from, double to, bool plucked, const Bloc
     return true;
 }
 
-double IntegratedContact::integrate(double left, bool plucked, double since_pluck, const Block& out) noexcept {
+double IntegratedContact::integrate(double left, bool plucked, double since_pluck,
+                                    const Block& out) noexcept {
     if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
     const double before = integrator_.time();
     const auto stop = integrator_.advance(before + left / flight_.window.osc.rate, out);
@@ -192,7 +213,8 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
     equations_.plucked = plucked;
     equations_.pluck_time = since_pluck;
     const double longest_step = choice_.exact_flight ? 3 : 1;
-    integrator_.restart(longest_step / pace(choice_.integrator.method == Method::adams));  // BDF takes stiff decays in long steps
+    // BDF takes stiff decays in long steps
+    integrator_.restart(longest_step / pace(choice_.integrator.method == Method::adams));
     running_ = true;
 }
 
@@ -211,7 +233,8 @@ double IntegratedContact::stored() const noexcept {
     energy = 0.5 * modes_.mass * kinetic + equations_.stretching(reach);
     if (series()) energy += series()->stored(flight_.z.data());
     for (int a = 0; a < equations_.points; ++a) {
-        const double* g = flight_.window.springs.weights.data() + static_cast<long>(a) * flight_.window.osc.padded;
+        const double* g = flight_.window.springs.weights.data() +
+                          static_cast<long>(a) * flight_.window.osc.padded;
         double y = series() ? flight_.z[a] : 0;
         for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
         energy += equations_.potential(a, y);
@@ -227,48 +250,65 @@ std::vector<Fact> IntegratedContact::facts() const {
                                {facts::slope_evaluations, effort.slopes},
                                {facts::linear_solves, effort.solves},
                                {facts::integrator_tolerance, choice_.integrator.tolerance},
-                               {facts::smallest_contact_force, effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
+                               {facts::smallest_contact_force,
+                                effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
                                {facts::largest_contact_force, effort.largest_force},
                                {facts::deepest_penetration, effort.deepest}};
     if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
     return facts;
 }
 
-constexpr Option method_option{"method", "adams", "multistep method of the integrator", {"bdf", "adams"}};
+constexpr Option method_option{
+    "method", "adams", "multistep method of the integrator", {"bdf", "adams"}};
 constexpr Option rtol_option{"rtol", "1e-13", "relative tolerance below 1"};
-constexpr Option flight_option{"flight", "exact", "motion between contacts: exact, or integrated like the rest", {"exact", "integrate"}};
-constexpr Option options[] = {method_option, rtol_option, flight_option, nodes_option, compliance_option};
+constexpr Option flight_option{"flight",
+                               "exact",
+                               "motion between contacts: exact, or integrated like the rest",
+                               {"exact", "integrate"}};
+constexpr Option options[] = {method_option, rtol_option, flight_option, nodes_option,
+                              compliance_option};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     const Features needed = needed_by(scene);
-    const bool moves = needed.has(Feature::moving_body), stretches = needed.has(Feature::tension_modulation);
-    if (moves && stretches) throw Refusal(std::string(descriptor.name) + ": a string that stretches ends at rest");
+    const bool moves = needed.has(Feature::moving_body),
+               stretches = needed.has(Feature::tension_modulation);
+    if (moves && stretches)
+        throw Refusal(std::string(descriptor.name) + ": a string that stretches ends at rest");
     Choice choice;
     choice.exact_flight = choice_option(settings, flight_option) == "exact" && !stretches;
     Integrator::Settings& i = choice.integrator;
     i.method = choice_option(settings, method_option) == "bdf" ? Method::bdf : Method::adams;
     i.tolerance = number_option(settings, rtol_option);
-    if (!(i.tolerance > 0 && i.tolerance < 1)) throw Refusal("option rtol: expected a tolerance between 0 and 1");
+    if (!(i.tolerance > 0 && i.tolerance < 1))
+        throw Refusal("option rtol: expected a tolerance between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     if (moves) return integrated_instrument(descriptor, scene, unsampled, i);
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, settings);
     if (series && scene.strings.front().pluck)
-        throw Refusal(std::string(descriptor.name) + ": compliance=matched takes strings that are released; exact_contact takes a pluck");
+        throw Refusal(
+            std::string(descriptor.name) +
+            ": compliance=matched takes strings that are released; exact_contact takes a pluck");
     const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
-    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate, choice, series);
+    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate,
+                                               choice, series);
 }
 
 }  // namespace
 
 const Descriptor sundials = {
     .name = "sundials",
-    .source = "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-    .represents = Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) |
-                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) | Features(Feature::profile_barrier) |
-                  Features(Feature::several_barriers) | Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) | Features(Feature::pluck) | Features(Feature::moving_body) |
+    .source =
+        "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
+    .represents = Feature::bending_stiffness | Feature::damping |
+                  Features(Feature::frequency_dependent_damping) |
+                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
+                  Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
+                  Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
+                  Features(Feature::thread) | Features(Feature::initial_shape) |
+                  Features(Feature::pluck) | Features(Feature::moving_body) |
                   Features(Feature::tension_modulation),
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
@@ -276,7 +316,9 @@ const Descriptor sundials = {
     .options = options,
     .approximates = points_for_a_profile,
     .confirmation = [](const Scene&) {
-        return Confirmation{{{}}, {{{rtol_option.name, "1e-14"}}, {{method_option.name, "bdf"}, {rtol_option.name, "1e-14"}}}};
+        return Confirmation{{{}},
+                            {{{rtol_option.name, "1e-14"}},
+                             {{method_option.name, "bdf"}, {rtol_option.name, "1e-14"}}}};
     }};
 
 }  // namespace jvari

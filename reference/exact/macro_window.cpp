@@ -34,7 +34,9 @@ WindowChoice choose_window(double tolerance, double reach, bool split) {
     const auto of_windows = [&](double longest, int most) {
         WindowChoice c;
         c.per_row = std::max(
-            1L, static_cast<long>(std::ceil(std::min(0.5 * static_cast<double>(std::numeric_limits<long>::max()), reach / longest))));
+            1L,
+            static_cast<long>(std::ceil(std::min(
+                0.5 * static_cast<double>(std::numeric_limits<long>::max()), reach / longest))));
         c.terms = 6;
         while (c.terms < most && tail(reach / c.per_row, c.terms) > 0.1 * tolerance) ++c.terms;
         return c;
@@ -45,9 +47,13 @@ WindowChoice choose_window(double tolerance, double reach, bool split) {
     return tail(reach / longer.per_row, longer.terms) > 0.1 * tolerance ? c : longer;
 }
 
-MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance, const std::optional<InSeries>& series,
-                         int windows, int kept)
-    : osc(modes), springs(modes, osc, s, series), contacts(springs.contacts), sweep_(&sweep_functions()), series_(series) {
+MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, double tolerance,
+                         const std::optional<InSeries>& series, int windows, int kept)
+    : osc(modes),
+      springs(modes, osc, s, series),
+      contacts(springs.contacts),
+      sweep_(&sweep_functions()),
+      series_(series) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     none_.assign(contacts + 1, 0);
     const double growth = largest_eigenvalue();
@@ -55,7 +61,8 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     const auto choice = choose_window(tolerance, growth * osc.rate * interval, split);
     per_row = windows > 0 ? windows : choice.per_row;
     terms = kept > 0 ? kept : choice.terms;
-    size = std::max(16, (terms + lanes - 1) / lanes * lanes);  // 16: a collocated path is of degree 9
+    // 16: a collocated path is of degree 9
+    size = std::max(16, (terms + lanes - 1) / lanes * lanes);
     stride = 2 * size + lanes;
     known_ = std::min(terms, size - 1);
     length = osc.rate * interval / per_row;
@@ -107,8 +114,10 @@ void MacroWindow::make_base(const Modes& modes) {
     over_base_ = base_;
     for (int i = 0; i < modes.count(); ++i) {
         double most = 0;
-        for (int a = 0; a < springs.points; ++a) most = std::max(most, std::abs(springs.weights[a * M + i]));
-        for (int f = 0; f < springs.forces; ++f) most = std::max(most, std::abs(springs.gains[f * M + i]) * length * length / gain);
+        for (int a = 0; a < springs.points; ++a)
+            most = std::max(most, std::abs(springs.weights[a * M + i]));
+        for (int f = 0; f < springs.forces; ++f)
+            most = std::max(most, std::abs(springs.gains[f * M + i]) * length * length / gain);
         const double own = last >= 0 ? springs.weights[last * M + i] : 1;
         base_[i] = std::abs(own) > 1e-100 * most ? own : most > 0 ? 1e-100 * most : 1;
         over_base_[i] = 1 / base_[i];
@@ -116,17 +125,21 @@ void MacroWindow::make_base(const Modes& modes) {
     base_gain_ = gain;
     weights_ = springs.weights, gains_ = springs.gains;
     for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] *= over_base_[i % M];
-    for (std::size_t i = 0; i < gains_.size(); ++i) gains_[i] *= length * length * over_base_[i % M];
+    for (std::size_t i = 0; i < gains_.size(); ++i)
+        gains_[i] *= length * length * over_base_[i % M];
 }
 
-// The thread's force answers what its point does without it: F_c = k (h - y_c) - r y_c', y_c = p_c + h_cc * F_c, so
+// The thread's force answers what its point does without it: F_c = k (h - y_c) - r y_c', y_c = p_c
+// + h_cc * F_c, so
 //     F_c (1 + (r s + k) h_cc) = -(k + r d/dt)(p_c - h)
-// in Laplace transforms. The reciprocal series of the bracket, sign turned. (With something in series h_cc(0) is not zero.)
+// in Laplace transforms. The reciprocal series of the bracket, sign turned. (With something in
+// series h_cc(0) is not zero.)
 std::vector<double> MacroWindow::reply_series(double window, int count) const {
     const double k = springs.k[contacts], r = springs.r[contacts] / window;
     std::vector<double> h(count), bracket(count, 0.0), g(count);
     double scale = window;
-    for (int n = 0; n < count; ++n, scale *= window) h[n] = springs.h(contacts, contacts)[n] * scale;
+    for (int n = 0; n < count; ++n, scale *= window)
+        h[n] = springs.h(contacts, contacts)[n] * scale;
     bracket[0] = 1 + r * h[0];
     for (int m = 1; m < count; ++m) bracket[m] = k * h[m - 1] + r * h[m];
     g[0] = -1 / bracket[0];
@@ -138,7 +151,8 @@ std::vector<double> MacroWindow::reply_series(double window, int count) const {
 }
 
 // F_c of a motion of the thread's point.
-void MacroWindow::answer(const double* reply, const double* motion, double window, int count, double* F) const {
+void MacroWindow::answer(const double* reply, const double* motion, double window, int count,
+                         double* F) const {
     const double k = springs.k[contacts], r = springs.r[contacts] / window;
     std::vector<double> x(count, 0.0);
     for (int n = 0; n + 1 < count; ++n) x[n] = k * motion[n] + r * motion[n + 1];
@@ -148,8 +162,10 @@ void MacroWindow::answer(const double* reply, const double* motion, double windo
     }
 }
 
-// What a unit impulse of a point's force makes of every point and of F_c, y[point][count] and F[count], per derivative.
-void MacroWindow::impulse_response(int force, double window, int count, const double* reply, double* y, double* F) const {
+// What a unit impulse of a point's force makes of every point and of F_c, y[point][count] and
+// F[count], per derivative.
+void MacroWindow::impulse_response(int force, double window, int count, const double* reply,
+                                   double* y, double* F) const {
     double power = window;
     for (int n = 0; n < count; ++n, power *= window)
         for (int a = 0; a < springs.points; ++a) y[a * count + n] = springs.h(a, force)[n] * power;
@@ -160,11 +176,13 @@ void MacroWindow::impulse_response(int force, double window, int count, const do
     for (int a = 0; a < springs.points; ++a)
         for (int n = 0; n < count; ++n) {
             double power_j = window;
-            for (int j = 0; j < n; ++j, power_j *= window) y[a * count + n] += springs.h(a, contacts)[j] * power_j * F[n - 1 - j];
+            for (int j = 0; j < n; ++j, power_j *= window)
+                y[a * count + n] += springs.h(a, contacts)[j] * power_j * F[n - 1 - j];
         }
 }
 
-// Of the string with its thread and what is in series [rate]: what the derivatives of impulse responses grow by in the end.
+// Of the string with its thread and what is in series [rate]: what the derivatives of impulse
+// responses grow by in the end.
 double MacroWindow::largest_eigenvalue() const {
     double largest = 1;
     if (!threaded() && !series_) return largest;
@@ -177,19 +195,24 @@ double MacroWindow::largest_eigenvalue() const {
         for (int a = 0; a < springs.points; ++a) {
             const auto largest_from = [&](int from) {
                 double most = 0;
-                for (int n = from; n < from + 6; ++n) most = std::max(most, std::abs(y[a * count + n]));
+                for (int n = from; n < from + 6; ++n)
+                    most = std::max(most, std::abs(y[a * count + n]));
                 return most;
             };
             constexpr int early = count / 2, late = count - 6;
             if (largest_from(early) > 0)
-                largest = std::max(largest, majorant * std::pow(largest_from(late) / largest_from(early), 1.0 / (late - early)));
+                largest =
+                    std::max(largest, majorant * std::pow(largest_from(late) / largest_from(early),
+                                                          1.0 / (late - early)));
         }
     }
-    const double alone = series_ ? series_rate(*series_) / osc.rate : 0;  // it is moved by its forces, as the modes are
+    // it is moved by its forces, as the modes are
+    const double alone = series_ ? series_rate(*series_) / osc.rate : 0;
     return std::max(alone, std::min(largest, majorant));
 }
 
-// What a unit impulse at b does: to the points through the modes and the thread, and to the thread's force.
+// What a unit impulse at b does: to the points through the modes and the thread, and to the
+// thread's force.
 void MacroWindow::make_kernel() {
     kernel_.assign(static_cast<std::size_t>(contacts) * contacts * (stride + size) + size, 0.0);
     answer_.assign(static_cast<std::size_t>(contacts) * stride + 1, 0.0);
@@ -207,7 +230,8 @@ void MacroWindow::make_kernel() {
         for (int n = 0; n < terms; ++n, scale *= reach) {
             for (int a = 0; a < contacts; ++a) {
                 const double h = y[a * count + n];
-                kernel_[(static_cast<std::size_t>(a) * contacts + b) * (stride + size) + size + n] = h;
+                kernel_[(static_cast<std::size_t>(a) * contacts + b) * (stride + size) + size + n] =
+                    h;
                 kernel_truncation_ = std::max(kernel_truncation_, std::abs(h) / scale * tail_);
             }
         }
@@ -216,7 +240,8 @@ void MacroWindow::make_kernel() {
     if (!threaded()) return;
     double power = length;
     for (int n = 0; n < terms; ++n, power *= length)
-        for (int a = 0; a < contacts; ++a) by_thread_[a * stride + size + n] = springs.h(a, contacts)[n] * power;
+        for (int a = 0; a < contacts; ++a)
+            by_thread_[a * stride + size + n] = springs.h(a, contacts)[n] * power;
 }
 
 // y = e11 y + e12 u, u = e21 y + e22 u: a mode's own motion over `at`, one after another in e.
@@ -229,7 +254,8 @@ void MacroWindow::free_flow(double at, std::vector<double>& e) const noexcept {
     for (int i = 0; i < M; ++i) e12[i] /= length, e21[i] *= length;
 }
 
-void MacroWindow::open(const double* y, const double* u, bool plucked, double since_pluck, const double* z) noexcept {
+void MacroWindow::open(const double* y, const double* u, bool plucked, double since_pluck,
+                       const double* z) noexcept {
     const Springs& s = springs;
     plucked_ = plucked;
     ModalSweep m;
@@ -238,7 +264,8 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     m.count = size;
     m.stride = stride;
     m.terms = sweep_terms_.data();
-    m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data(), m.base = base_.data(), m.weights = weights_.data();
+    m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data(), m.base = base_.data(),
+    m.weights = weights_.data();
     m.p = p_.data(), m.reach = reach_.data(), m.scratch = scratch_.data();
     sweep_->read(m);
     if (series_) std::copy_n(z, series_->states, z_.begin());
@@ -256,7 +283,8 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
             double power = length;
             double* out = (a < contacts ? free_.data() : p_.data()) + a * stride;
             for (int j = 0; j < known_; ++j, power *= length)
-                for (int n = j + 1; n <= known_; ++n) out[n] += s.h(a, s.points)[j] * power * f[n - 1 - j];
+                for (int n = j + 1; n <= known_; ++n)
+                    out[n] += s.h(a, s.points)[j] * power * f[n - 1 - j];
             for (int n = 0; series_ && n <= known_; ++n) out[n] += series_->plucked(a) * f[n];
         }
     }
@@ -281,10 +309,12 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         most = std::max(most, reach_[b] + std::abs(s.height[b]) + s.pluck_reach);
     }
     truncation_ = largest * tail_ + modal_tail_ * most;
-    rounding_ = unit_rounding * (most + (threaded() ? reach_[contacts] : 0));  // the thread passes on what is read at its point
+    // the thread passes on what is read at its point
+    rounding_ = unit_rounding * (most + (threaded() ? reach_[contacts] : 0));
 }
 
-// The forces that act on the modes until `at`, e its powers: how many, and what they do to the thread.
+// The forces that act on the modes until `at`, e its powers: how many, and what they do to the
+// thread.
 int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     const Springs& s = springs;
     int acting = 0;
@@ -305,14 +335,18 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
         sweep_->combined(m, size, force_.data() + contacts * stride, known_, e + 1, 1);
         for (int b = 0; b < contacts; ++b)
             if (M[b * stride] != 0)
-                sweep_->combine(m, size, answer_.data() + b * stride, known_, M + b * stride + 1, 1);  // kappa^(n) with M_(n+1)
+                // kappa^(n) with M_(n+1)
+                sweep_->combine(m, size, answer_.data() + b * stride, known_, M + b * stride + 1,
+                                1);
         thread_impulse_ = m[0] * seconds();
         if (series_) {  // nobody else asks
             double now[3];
             sweep_->evaluate(force_.data() + contacts * stride, size, at, now);
             thread_force_ = now[0];
             for (int b = 0; b < contacts; ++b)
-                if (M[b * stride] != 0) thread_force_ += weighted_sum(answer_.data() + b * stride, M + b * stride, terms);
+                if (M[b * stride] != 0)
+                    thread_force_ +=
+                        weighted_sum(answer_.data() + b * stride, M + b * stride, terms);
         }
         push(contacts, m);
     }
@@ -322,27 +356,31 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
         push(s.points, m);
     }
     if (series_) {
-        for (int b = 0; b < contacts; ++b) moments_of_[b] = M[b * stride] != 0 ? M + b * stride : nullptr;
+        for (int b = 0; b < contacts; ++b)
+            moments_of_[b] = M[b * stride] != 0 ? M + b * stride : nullptr;
         if (threaded()) moments_of_[contacts] = moments_.data() + contacts * stride;
         in_window_.front().move(at, z_.data(), moments_of_.data(), z_now_.data());
     }
     return acting;
 }
 
-void MacroWindow::move(int forces, const double* flow, const double* y, const double* u, double* y_out, double* u_out) noexcept {
+void MacroWindow::move(int forces, const double* flow, const double* y, const double* u,
+                       double* y_out, double* u_out) noexcept {
     ModalSweep m;
     m.modes = osc.padded;
     m.forces = forces;
     m.terms = sweep_terms_.data();
     m.y = y, m.u = u, m.a = a_.data(), m.b = b_.data();
-    m.e11 = flow, m.e12 = flow + osc.padded, m.e21 = flow + 2 * osc.padded, m.e22 = flow + 3 * osc.padded;
+    m.e11 = flow, m.e12 = flow + osc.padded, m.e21 = flow + 2 * osc.padded,
+    m.e22 = flow + 3 * osc.padded;
     m.base = base_.data(), m.base_moments = base_moments_.data();
     m.gains = acting_.data(), m.moments = acting_moments_.data();
     m.y_out = y_out, m.u_out = u_out;
     sweep_->move(m);
 }
 
-void MacroWindow::state_at(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
+void MacroWindow::state_at(double at, const double* M, const double* y, const double* u,
+                           double* y_out, double* u_out) noexcept {
     double until[3 * most_terms];
     const double *e = inverse_factorial.data(), *flow = flow_.data();  // at^n/n!
     if (at != 1) {
@@ -353,7 +391,8 @@ void MacroWindow::state_at(double at, const double* M, const double* y, const do
     move(act(at, e, M), flow, y, u, y_out, u_out);
 }
 
-void MacroWindow::state_near(double at, const double* M, const double* y, const double* u, double* y_out, double* u_out) noexcept {
+void MacroWindow::state_near(double at, const double* M, const double* y, const double* u,
+                             double* y_out, double* u_out) noexcept {
     double until[3 * most_terms] = {0};
     const double* e = until + 1;
     powers(at, 2 * size + 1, until + 1);

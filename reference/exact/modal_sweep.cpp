@@ -1,4 +1,5 @@
-// Four vectors of modes at a time hide the latency of the recurrences; the derivatives of a block are kept for all outputs.
+// Four vectors of modes at a time hide the latency of the recurrences; the derivatives of a block
+// are kept for all outputs.
 #include "reference/exact/modal_sweep.hpp"
 
 #include <type_traits>
@@ -50,14 +51,16 @@ constexpr double inverse_factorials[32] = {1.0 / 1,
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// K vectors of modes from i on, which are scaled by `base`: the last output is their sum. One or two outputs are summed on the way; for
-// more the derivatives are kept.
+// K vectors of modes from i on, which are scaled by `base`: the last output is their sum. One or
+// two outputs are summed on the way; for more the derivatives are kept.
 template <int fixed_outputs, int K>
-HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum, double* HWY_RESTRICT kept) {
+HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
+                           double* HWY_RESTRICT kept) {
     constexpr bool keep = fixed_outputs < 0;
     constexpr int fixed_others = keep ? 0 : fixed_outputs - 1;
     const D d;
-    const int N = static_cast<int>(hn::Lanes(d)), stride = m.count, others = keep ? m.outputs - 1 : fixed_others;
+    const int N = static_cast<int>(hn::Lanes(d)), stride = m.count,
+              others = keep ? m.outputs - 1 : fixed_others;
     const int terms = m.terms[i / sweep_lanes];
     V d0[K], d1[K], a[K], b[K], g[fixed_others + 1][K];
     for (int k = 0; k < K; ++k) {
@@ -69,7 +72,8 @@ HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
         d1[k] = hn::Mul(base, hn::LoadU(d, m.u + at));
     }
     const auto load_weights = [&](int o, V* w) {
-        for (int k = 0; k < K; ++k) w[k] = hn::LoadU(d, m.weights + static_cast<long>(o) * m.modes + i + k * N);
+        for (int k = 0; k < K; ++k)
+            w[k] = hn::LoadU(d, m.weights + static_cast<long>(o) * m.modes + i + k * N);
     };
     V size[K];
     for (int k = 0; k < K; ++k) size[k] = hn::Add(hn::Abs(d0[k]), hn::Abs(d1[k]));
@@ -106,7 +110,8 @@ HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
         for (int n = 0; n < terms; ++n) {
             double* out = sum + (o * (stride + 1) + n) * N;
             V total = hn::LoadU(d, out);
-            for (int k = 0; k < K; ++k) total = hn::MulAdd(g[0][k], hn::LoadU(d, kept + (n * K + k) * N), total);
+            for (int k = 0; k < K; ++k)
+                total = hn::MulAdd(g[0][k], hn::LoadU(d, kept + (n * K + k) * N), total);
             hn::StoreU(total, d, out);
         }
     }
@@ -128,7 +133,9 @@ HWY_INLINE V fold(const double* rows) {
     V r[8];
     for (int i = 0; i < N; ++i) r[i] = hn::LoadU(d, rows + i * N);
     for (int width = N / 2; width > 0; width /= 2)
-        for (int i = 0; i < width; ++i) r[i] = hn::Add(hn::ConcatEven(d, r[2 * i + 1], r[2 * i]), hn::ConcatOdd(d, r[2 * i + 1], r[2 * i]));
+        for (int i = 0; i < width; ++i)
+            r[i] = hn::Add(hn::ConcatEven(d, r[2 * i + 1], r[2 * i]),
+                           hn::ConcatOdd(d, r[2 * i + 1], r[2 * i]));
     return r[0];
 #endif
 }
@@ -136,7 +143,8 @@ void read(const ModalSweep& m) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d)), outputs = m.outputs, stride = m.count;
     if (outputs == 0) return;
-    double* HWY_RESTRICT sum = m.scratch;                                // [output][stride + 1][N], reach the last
+    // [output][stride + 1][N], reach the last
+    double* HWY_RESTRICT sum = m.scratch;
     double* HWY_RESTRICT kept = m.scratch + outputs * (stride + 1) * N;  // [term][K][N]
     for (int i = 0; i < outputs * (stride + 1) * N; i += N) hn::StoreU(hn::Zero(d), d, sum + i);
     if (outputs == 1) read_blocks<1>(m, sum, kept);
@@ -144,7 +152,8 @@ void read(const ModalSweep& m) {
     else read_blocks<-1>(m, sum, kept);
     for (int o = 0; o < outputs; ++o) {
         const double* of_output = sum + o * (stride + 1) * N;
-        for (int n = 0; n < stride; n += N) hn::StoreU(fold(of_output + n * N), d, m.p + o * m.stride + n);
+        for (int n = 0; n < stride; n += N)
+            hn::StoreU(fold(of_output + n * N), d, m.p + o * m.stride + n);
         m.reach[o] = hn::GetLane(hn::SumOfLanes(d, hn::LoadU(d, of_output + stride * N)));
     }
 }
@@ -184,9 +193,12 @@ HWY_INLINE void move_block(const ModalSweep& m, int i) {
         }
     for (int k = 0; k < K; ++k) {
         const int at = i + k * N;
-        const V y = hn::LoadU(d, m.y + at), u = hn::LoadU(d, m.u + at), base = hn::LoadU(d, m.base + at);
+        const V y = hn::LoadU(d, m.y + at), u = hn::LoadU(d, m.u + at),
+                base = hn::LoadU(d, m.base + at);
         const auto end = [&](const double* of_y, const double* of_u, V by_forces) {
-            return hn::MulAdd(base, by_forces, hn::MulAdd(hn::LoadU(d, of_y + at), y, hn::Mul(hn::LoadU(d, of_u + at), u)));
+            return hn::MulAdd(
+                base, by_forces,
+                hn::MulAdd(hn::LoadU(d, of_y + at), y, hn::Mul(hn::LoadU(d, of_u + at), u)));
         };
         hn::StoreU(end(m.e11, m.e12, Y[k]), d, m.y_out + at);
         hn::StoreU(end(m.e21, m.e22, U[k]), d, m.u_out + at);
@@ -210,9 +222,11 @@ void move(const ModalSweep& m) {
     }
 }
 
-// Of a convolution, step -1, row j begins at out[j]: what lies before are zeros, and whole vectors of them are left out.
+// Of a convolution, step -1, row j begins at out[j]: what lies before are zeros, and whole vectors
+// of them are left out.
 template <int vectors, bool convolution, bool fresh>
-void combine_in(double* HWY_RESTRICT out, const double* HWY_RESTRICT x, int count, const double* A, long step) {
+void combine_in(double* HWY_RESTRICT out, const double* HWY_RESTRICT x, int count, const double* A,
+                long step) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     V even[vectors], odd[vectors];
@@ -230,7 +244,8 @@ void combine_in(double* HWY_RESTRICT out, const double* HWY_RESTRICT x, int coun
             }
         }
         if (j < until) {
-            for (int v = first; v < vectors; ++v) even[v] = hn::MulAdd(hn::Set(d, x[j]), hn::LoadU(d, A + j * step + v * N), even[v]);
+            for (int v = first; v < vectors; ++v)
+                even[v] = hn::MulAdd(hn::Set(d, x[j]), hn::LoadU(d, A + j * step + v * N), even[v]);
             ++j;
         }
     };
@@ -248,14 +263,16 @@ void combine_in(double* HWY_RESTRICT out, const double* HWY_RESTRICT x, int coun
     for (int v = 0; v < vectors; ++v) hn::StoreU(hn::Add(even[v], odd[v]), d, out + v * N);
 }
 template <bool fresh>
-HWY_INLINE void combine_into(double* out, int size, const double* x, int count, const double* A, long step) {
+HWY_INLINE void combine_into(double* out, int size, const double* x, int count, const double* A,
+                             long step) {
     const int N = static_cast<int>(hn::Lanes(D()));
     if (step == -1 && size <= 4 * N) {
         if (size == 4 * N) return combine_in<4, true, fresh>(out, x, count, A, -1);
         if (size == 3 * N) return combine_in<3, true, fresh>(out, x, count, A, -1);
         if (size == 2 * N) return combine_in<2, true, fresh>(out, x, count, A, -1);
     }
-    for (; size >= 4 * N; size -= 4 * N, out += 4 * N, A += 4 * N) combine_in<4, false, fresh>(out, x, count, A, step);
+    for (; size >= 4 * N; size -= 4 * N, out += 4 * N, A += 4 * N)
+        combine_in<4, false, fresh>(out, x, count, A, step);
     if (size == 3 * N) combine_in<3, false, fresh>(out, x, count, A, step);
     else if (size == 2 * N) combine_in<2, false, fresh>(out, x, count, A, step);
     else if (size == N) combine_in<1, false, fresh>(out, x, count, A, step);
@@ -272,14 +289,17 @@ void combined(double* out, int size, const double* x, int count, const double* A
 HWY_INLINE V first_powers(double u, V& later) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
-    const V lane = hn::Iota(d, 0.0), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), four = hn::Set(d, 4.0), six = hn::Set(d, 6.0);
+    const V lane = hn::Iota(d, 0.0), one = hn::Set(d, 1.0), two = hn::Set(d, 2.0),
+            four = hn::Set(d, 4.0), six = hn::Set(d, 6.0);
     const double u2 = u * u, u4 = u2 * u2;
     const auto low = hn::Or(hn::Eq(lane, one), hn::Eq(lane, hn::Set(d, 3.0)));
-    const auto odd = hn::Or(low, hn::Or(hn::Eq(lane, hn::Set(d, 5.0)), hn::Eq(lane, hn::Set(d, 7.0))));
+    const auto odd =
+        hn::Or(low, hn::Or(hn::Eq(lane, hn::Set(d, 5.0)), hn::Eq(lane, hn::Set(d, 7.0))));
     const auto second = hn::Or(hn::And(hn::Ge(lane, two), hn::Lt(lane, four)), hn::Ge(lane, six));
     later = hn::Set(d, N == 8 ? u4 * u4 : N == 4 ? u4 : N == 2 ? u2 : u);
     return hn::Mul(hn::IfThenElse(odd, hn::Set(d, u), one),
-                   hn::Mul(hn::IfThenElse(second, hn::Set(d, u2), one), hn::IfThenElse(hn::Ge(lane, four), hn::Set(d, u4), one)));
+                   hn::Mul(hn::IfThenElse(second, hn::Set(d, u2), one),
+                           hn::IfThenElse(hn::Ge(lane, four), hn::Set(d, u4), one)));
 }
 void powers(double u, int count, const double* inverse_factorial, double* e) {
     const D d;
@@ -317,7 +337,8 @@ void range(const double* p, const double* bernstein, int size, double u, double*
     const int N = static_cast<int>(hn::Lanes(d));
     HWY_ALIGN double x[32], b[32] = {};
     V later, power = first_powers(u, later);
-    for (int n = 0; n < size; n += N, power = hn::Mul(power, later)) hn::Store(hn::Mul(power, hn::LoadU(d, p + n)), d, x + n);
+    for (int n = 0; n < size; n += N, power = hn::Mul(power, later))
+        hn::Store(hn::Mul(power, hn::LoadU(d, p + n)), d, x + n);
     combine_into<true>(b, size, x, size, bernstein, size);
     V least = hn::Load(d, b), most = least;
     for (int n = N; n < size; n += N) {
@@ -332,9 +353,12 @@ void subtract(double* to, double f, const double* column, int from, int size) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     const V factor = hn::Set(d, f);
-    for (int i = from; i < size; i += N) hn::StoreU(hn::NegMulAdd(factor, hn::LoadU(d, column + i), hn::LoadU(d, to + i)), d, to + i);
+    for (int i = from; i < size; i += N)
+        hn::StoreU(hn::NegMulAdd(factor, hn::LoadU(d, column + i), hn::LoadU(d, to + i)), d,
+                   to + i);
 }
-// Eight columns at a time: first among themselves, then from each column that follows, which is read and written once for all eight.
+// Eight columns at a time: first among themselves, then from each column that follows, which is
+// read and written once for all eight.
 void factor(double* matrix, double* column, int size) {
     constexpr int block = 8;
     const D d;
@@ -346,7 +370,8 @@ void factor(double* matrix, double* column, int size) {
         for (int i = 0; i < block; ++i) index[i] = k;
         every[k] = hn::SetTableIndices(d, index);
     }
-    HWY_ALIGN double low[block * block];  // their factors in their own rows, zero up to the diagonal [column][row]
+    // their factors in their own rows, zero up to the diagonal [column][row]
+    HWY_ALIGN double low[block * block];
     for (int first = 0; first < size; first += block) {
         double* HWY_RESTRICT panel = matrix + static_cast<long>(first) * size;
         for (int c = first; c < first + block; ++c) {
@@ -356,8 +381,10 @@ void factor(double* matrix, double* column, int size) {
             for (int i = from; i <= c; ++i) column[i] = 0;  // rows up to c stay
             for (int i = c + 1; i < size; ++i) column[i] = pivot[i] *= inverse;
             for (int j = c + 1; j < first + block; ++j)
-                subtract(matrix + static_cast<long>(j) * size, matrix[static_cast<long>(j) * size + c], column, from, size);
-            for (int i = 0; i < block; ++i) low[(c - first) * block + i] = first + i > c ? pivot[first + i] : 0;
+                subtract(matrix + static_cast<long>(j) * size,
+                         matrix[static_cast<long>(j) * size + c], column, from, size);
+            for (int i = 0; i < block; ++i)
+                low[(c - first) * block + i] = first + i > c ? pivot[first + i] : 0;
         }
         for (int j = first + block; j < size; ++j) {
             double* HWY_RESTRICT to = matrix + static_cast<long>(j) * size;
@@ -365,12 +392,15 @@ void factor(double* matrix, double* column, int size) {
             for (int v = 0; v < block / N; ++v) own[v] = hn::LoadU(d, to + first + v * N);
             for (int k = 0; k < block; ++k) {
                 f[k] = hn::TableLookupLanes(own[k / N], every[k % N]);
-                for (int v = k / N; v < block / N; ++v) own[v] = hn::NegMulAdd(f[k], hn::Load(d, low + k * block + v * N), own[v]);
+                for (int v = k / N; v < block / N; ++v)
+                    own[v] = hn::NegMulAdd(f[k], hn::Load(d, low + k * block + v * N), own[v]);
             }
             for (int v = 0; v < block / N; ++v) hn::StoreU(own[v], d, to + first + v * N);
             for (int i = first + block; i < size; i += N) {
                 V x = hn::LoadU(d, to + i);
-                for (int k = 0; k < block; ++k) x = hn::NegMulAdd(f[k], hn::LoadU(d, panel + static_cast<long>(k) * size + i), x);
+                for (int k = 0; k < block; ++k)
+                    x = hn::NegMulAdd(f[k], hn::LoadU(d, panel + static_cast<long>(k) * size + i),
+                                      x);
                 hn::StoreU(x, d, to + i);
             }
         }
@@ -386,13 +416,15 @@ void substitute(const double* matrix, double* right, double* x, int size) {
     }
     for (int c = size - 1; c >= 0; --c) {
         const double* pivot = matrix + static_cast<long>(c) * size;
-        x[c] = right[c] / pivot[c];  // right[c] and what follows it in its vector are of no more use
+        // right[c] and what follows it in its vector are of no more use
+        x[c] = right[c] / pivot[c];
         subtract(right, x[c], pivot, 0, c);
     }
     for (int i = 0; i < size; ++i) right[i] = x[i];
 }
 
-void scale_rows(double* out, const double* row, const double* A, const double* row2, const double* A2, int size) {
+void scale_rows(double* out, const double* row, const double* A, const double* row2,
+                const double* A2, int size) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     for (int j = 0; j < size; ++j) {
@@ -407,7 +439,8 @@ void scale_rows(double* out, const double* row, const double* A, const double* r
 }
 
 const SweepFunctions* functions() {
-    static constexpr SweepFunctions table = {read, move, combine, combined, powers, evaluate, bound, range, factor, substitute, scale_rows};
+    static constexpr SweepFunctions table = {read,  move,  combine, combined,   powers,    evaluate,
+                                             bound, range, factor,  substitute, scale_rows};
     return &table;
 }
 

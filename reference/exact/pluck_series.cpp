@@ -8,25 +8,33 @@
 
 namespace jvari {
 
-double pluck_window(const Pluck& e) {
-    return e.duration / (8 * std::max(1.0, std::abs(e.skew)));
-}
+double pluck_window(const Pluck& e) { return e.duration / (8 * std::max(1.0, std::abs(e.skew))); }
 
 void pluck_series(const Pluck& e, double u, double h, int count, double* c) {
-    const double k = std::abs(e.skew), x = u / e.duration, step = h / e.duration;  // h_e is even in the skew
-    // warped(x) = sinh(kx)/sinh(k) and its slope k cosh(kx)/sinh(k), as scenes/excitation.cpp writes them: no overflow, limits x and 1.
-    const double warped = k == 0 ? x : std::exp(k * (x - 1)) * std::expm1(-2 * k * x) / std::expm1(-2 * k);
-    const double warped_slope = k == 0 ? 1 : k * (std::exp(k * (x - 1)) + std::exp(-k * (x + 1))) / -std::expm1(-2 * k);
+    // h_e is even in the skew
+    const double k = std::abs(e.skew), x = u / e.duration, step = h / e.duration;
+    // warped(x) = sinh(kx)/sinh(k) and its slope k cosh(kx)/sinh(k), as scenes/excitation.cpp
+    // writes them: no overflow, limits x and 1.
+    const double warped =
+        k == 0 ? x : std::exp(k * (x - 1)) * std::expm1(-2 * k * x) / std::expm1(-2 * k);
+    const double warped_slope =
+        k == 0 ? 1 : k * (std::exp(k * (x - 1)) + std::exp(-k * (x + 1))) / -std::expm1(-2 * k);
     double phase[longest_series] = {}, sine[longest_series] = {}, cosine[longest_series] = {};
     double power = 1;  // (k step)^n/n! for even n, k^(n-1) step^n/n! for odd n
     for (int n = 0; n < count; ++n) {
         const bool odd = n % 2 == 1;
         if (n > 0) power *= (odd ? step : k * k * step) / n;
-        phase[n] = std::numbers::pi / 2 * ((n == 0 ? x : n == 1 ? step : 0) + (odd ? warped_slope : warped) * power);  // pi h_e/tau_e  (15)
+        // pi h_e/tau_e  (15)
+        phase[n] = std::numbers::pi / 2 *
+                   ((n == 0   ? x
+                     : n == 1 ? step
+                              : 0) +
+                    (odd ? warped_slope : warped) * power);
     }
     sine[0] = std::sin(phase[0]);
     cosine[0] = std::cos(phase[0]);
-    for (int n = 1; n < count; ++n) {  // n s_n = sum_j j phase_j c_(n-j), n c_n = -sum_j j phase_j s_(n-j)
+    // n s_n = sum_j j phase_j c_(n-j), n c_n = -sum_j j phase_j s_(n-j)
+    for (int n = 1; n < count; ++n) {
         double s = 0, o = 0;
         for (int j = 1; j <= n; ++j) {
             s += j * phase[j] * cosine[n - j];

@@ -18,7 +18,12 @@ constexpr int most_states = 16, most_terms_of_exponential = 200;
 }  // namespace
 
 SeriesWindow::SeriesWindow(const InSeries& s, double seconds, int derivatives, int moments)
-    : states_(s.states), points_(s.points), derivatives_(derivatives), moments_(moments), A_(s.A), B_(s.B) {
+    : states_(s.states),
+      points_(s.points),
+      derivatives_(derivatives),
+      moments_(moments),
+      A_(s.A),
+      B_(s.B) {
     for (auto* m : {&A_, &B_})
         for (double& x : *m) x *= seconds;
     free_.assign(static_cast<std::size_t>(points_) * derivatives * states_, 0.0);
@@ -28,14 +33,16 @@ SeriesWindow::SeriesWindow(const InSeries& s, double seconds, int derivatives, i
         std::fill(column.begin(), column.end(), 0.0);
         column[j] = 1;
         for (int n = 0; n < derivatives; ++n, column.swap(next)) {
-            for (int a = 0; a < points_; ++a) free_[(static_cast<std::size_t>(a) * derivatives + n) * states_ + j] = column[a];
+            for (int a = 0; a < points_; ++a)
+                free_[(static_cast<std::size_t>(a) * derivatives + n) * states_ + j] = column[a];
             times(A_, states_, column.data(), next.data());
         }
     }
     for (int a = 0; a < points_; ++a) {
         for (int j = 0; j < states_; ++j) column[j] = B_[j * points_ + a];
         for (int n = 0; n < moments; ++n, column.swap(next)) {
-            for (int j = 0; j < states_; ++j) push_[(static_cast<std::size_t>(j) * points_ + a) * moments + n] = column[j];
+            for (int j = 0; j < states_; ++j)
+                push_[(static_cast<std::size_t>(j) * points_ + a) * moments + n] = column[j];
             times(A_, states_, column.data(), next.data());
         }
     }
@@ -47,11 +54,13 @@ void SeriesWindow::add_free(int point, const double* z, double* derivatives) con
         for (int j = 0; j < states_; ++j) derivatives[n] += *row++ * z[j];
 }
 
-void SeriesWindow::move(double at, const double* from, const double* const* moments, double* to) const noexcept {
+void SeriesWindow::move(double at, const double* from, const double* const* moments,
+                        double* to) const noexcept {
     double sum[most_states], term[most_states], next[most_states];
     std::copy_n(from, states_, sum);
     std::copy_n(from, states_, term);
-    for (int n = 1; n < most_terms_of_exponential; ++n, std::copy_n(next, states_, term)) {  // e^(A at) by its series
+    // e^(A at) by its series
+    for (int n = 1; n < most_terms_of_exponential; ++n, std::copy_n(next, states_, term)) {
         times(A_, states_, term, next);
         double size = 0, all = 0;
         for (int j = 0; j < states_; ++j) {
@@ -65,7 +74,8 @@ void SeriesWindow::move(double at, const double* from, const double* const* mome
     for (int a = 0; a < points_; ++a) {
         if (!moments[a]) continue;
         for (int j = 0; j < states_; ++j) {
-            const double* row = push_.data() + (static_cast<std::size_t>(j) * points_ + a) * moments_;
+            const double* row =
+                push_.data() + (static_cast<std::size_t>(j) * points_ + a) * moments_;
             for (int n = 0; n < moments_; ++n) sum[j] += row[n] * moments[a][n];
         }
     }
@@ -92,7 +102,11 @@ std::vector<double> series_kernel(const InSeries& s, double rate, int point, int
 double series_rate(const InSeries& s) {
     if (s.states == 0) return 0;
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    return Eigen::EigenSolver<Matrix>(Eigen::Map<const Matrix>(s.A.data(), s.states, s.states), false).eigenvalues().cwiseAbs().maxCoeff();
+    return Eigen::EigenSolver<Matrix>(Eigen::Map<const Matrix>(s.A.data(), s.states, s.states),
+                                      false)
+        .eigenvalues()
+        .cwiseAbs()
+        .maxCoeff();
 }
 
 }  // namespace jvari

@@ -1,5 +1,6 @@
-// What is in series with a string's points (in_series.hpp) over one macro window, in its unit of time: z' = A z + B F is linear, so its
-// free motion has derivatives as the modes' has, and forces act by their moments:
+// What is in series with a string's points (in_series.hpp) over one macro window, in its unit of
+// time: z' = A z + B F is linear, so its free motion has derivatives as the modes' has, and forces
+// act by their moments:
 //
 //     D_a^(n) = (A^n z)_a,      z(t) = e^(A t) z(0) + sum_i A^i B M_i
 #pragma once
@@ -12,11 +13,13 @@ namespace jvari {
 
 class SeriesWindow {
 public:
-    SeriesWindow(const InSeries&, double seconds, int derivatives, int moments);  // seconds: of a window
+    // seconds: of a window
+    SeriesWindow(const InSeries&, double seconds, int derivatives, int moments);
 
     void add_free(int point, const double* z, double* derivatives) const noexcept;  // of its D
     // moments[point]: of each point's force, or nullptr; from, to: of z, may be one
-    void move(double at, const double* from, const double* const* moments, double* to) const noexcept;
+    void move(double at, const double* from, const double* const* moments,
+              double* to) const noexcept;
     void speed(const double* z, const double* F, double* out) const noexcept;  // z' [per window]
 
 private:
@@ -26,7 +29,8 @@ private:
     std::vector<double> push_;   // A^i B [state][point][i]
 };
 
-// h^(n) of the points' D, [m/N] x rate^(n+1): what a unit impulse at `force` makes of `point`, in time units of 1/rate.
+// h^(n) of the points' D, [m/N] x rate^(n+1): what a unit impulse at `force` makes of `point`, in
+// time units of 1/rate.
 std::vector<double> series_kernel(const InSeries&, double rate, int point, int force, int count);
 double series_rate(const InSeries&);  // its fastest own motion under given forces [1/s]
 

@@ -7,7 +7,8 @@
 
 namespace jvari {
 
-Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, const std::optional<InSeries>& in_series) {
+Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s,
+                 const std::optional<InSeries>& in_series) {
     const double gain = 1 / (modes.mass * osc.rate * osc.rate);
     const auto add = [&](std::vector<double> g) {
         const auto w = osc.pad(g), d = osc.pad(g, gain);
@@ -39,12 +40,15 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, co
     // h_ab is the motion of point a after the unit impulse at b: y = 0, u = gain_b.
     kernel.assign(static_cast<long>(points) * forces * longest_series, 0.0);
     const std::vector<double> rest(osc.padded, 0.0);
-    std::vector<double> bound(points), scratch(static_cast<long>(points) * (longest_series + 1) * lanes);
+    std::vector<double> bound(points),
+        scratch(static_cast<long>(points) * (longest_series + 1) * lanes);
     for (int b = 0; b < forces; ++b) {
-        series(osc, rest.data(), gains.data() + static_cast<long>(b) * osc.padded, weights.data(), points, longest_series,
-               kernel.data() + static_cast<long>(b) * longest_series, forces * longest_series, bound.data(), scratch.data());
+        series(osc, rest.data(), gains.data() + static_cast<long>(b) * osc.padded, weights.data(),
+               points, longest_series, kernel.data() + static_cast<long>(b) * longest_series,
+               forces * longest_series, bound.data(), scratch.data());
         if (b == points)
-            for (double reach : bound) pluck_reach = std::max(pluck_reach, reach * std::abs(s.pluck->amplitude));
+            for (double reach : bound)
+                pluck_reach = std::max(pluck_reach, reach * std::abs(s.pluck->amplitude));
     }
     for (int a = 0; in_series && a < points; ++a)
         for (int b = 0; b < points; ++b) {
@@ -59,7 +63,8 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s, co
         for (int a = 0; a < points; ++a)
             for (int b = 0; b < forces; ++b) {
                 double power = 1, sum = 0;
-                for (int i = 1; i < longest_series; ++i, power /= floor_) sum += std::abs(h(a, b)[i]) * power;
+                for (int i = 1; i < longest_series; ++i, power /= floor_)
+                    sum += std::abs(h(a, b)[i]) * power;
                 sized_[a * forces + b] = sum;
             }
         const double rho = growth(std::vector<char>(contacts + 1, 0).data());
@@ -83,13 +88,15 @@ double Springs::growth(const char* touching) const {
     return rho;
 }
 
-void Springs::solve(const char* touching, double z, const double* p, int p_terms, int terms, double* y, double* F) const {
+void Springs::solve(const char* touching, double z, const double* p, int p_terms, int terms,
+                    double* y, double* F) const {
     double power[longest_series];  // z^(i+1)
     power[0] = z;
     for (int i = 1; i < p_terms; ++i) power[i] = power[i - 1] * z;
     const auto pass_on = [&](int b, int m) {  // what F_b^(m) adds to every later y
         const double f = F[b * longest_series + m];
-        const int last = std::min(p_terms, terms - 1 - m);  // h^(i) z^(i+1) no longer counts beyond p_terms, as for p
+        // h^(i) z^(i+1) no longer counts beyond p_terms, as for p
+        const int last = std::min(p_terms, terms - 1 - m);
         for (int a = 0; a < points; ++a) {
             double* const later = y + a * longest_series + m + 1;
             const double* const hab = h(a, b);
@@ -98,18 +105,22 @@ void Springs::solve(const char* touching, double z, const double* p, int p_terms
     };
     for (int a = 0; a < points; ++a) {
         std::copy_n(p + a * longest_series, std::min(p_terms, terms), y + a * longest_series);
-        std::fill(y + a * longest_series + std::min(p_terms, terms), y + a * longest_series + terms, 0.0);
+        std::fill(y + a * longest_series + std::min(p_terms, terms), y + a * longest_series + terms,
+                  0.0);
     }
     for (int n = 0; n < terms; ++n) {
         for (int b = 0; b < contacts; ++b) {
-            F[b * longest_series + n] = touching[b] ? k[b] * ((n == 0 ? height[b] : 0) - y[b * longest_series + n]) : 0;
+            F[b * longest_series + n] =
+                touching[b] ? k[b] * ((n == 0 ? height[b] : 0) - y[b * longest_series + n]) : 0;
             if (touching[b]) pass_on(b, n);
         }
-        if (points > contacts && n > 0) {  // the damper needs one derivative more: F is one term behind
+        // the damper needs one derivative more: F is one term behind
+        if (points > contacts && n > 0) {
             const int c = contacts;
             const double* yc = y + c * longest_series;
             F[c * longest_series + n] = 0;
-            F[c * longest_series + n - 1] = k[c] * ((n == 1 ? height[c] : 0) - yc[n - 1]) - r[c] / z * yc[n];
+            F[c * longest_series + n - 1] =
+                k[c] * ((n == 1 ? height[c] : 0) - yc[n - 1]) - r[c] / z * yc[n];
             pass_on(c, n - 1);
         }
         if (forces > points) pass_on(points, n);

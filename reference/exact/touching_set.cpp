@@ -16,19 +16,24 @@ using Complex = std::complex<Real>;
 using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr Real stiff = 12, least = 10;  // what a contact alone has in radians per window, and the slowest of what is split off
-constexpr Real most_spans = 100;        // of a window
-constexpr Real longest_span = 9;        // of a soft set's growth: e^9 last bits are as much as the tolerances here bear
-constexpr int resolvent_terms = 72;     // 9^72/72! is nothing
+// what a contact alone has in radians per window, and the slowest of what is split off
+constexpr Real stiff = 12, least = 10;
+constexpr Real most_spans = 100;  // of a window
+// of a soft set's growth: e^9 last bits are as much as the tolerances here bear
+constexpr Real longest_span = 9;
+constexpr int resolvent_terms = 72;  // 9^72/72! is nothing
 
-// x^n, n < `powers`, on [0, 1] as polynomials of degree N - 1 by their Chebyshev series: coefficients of x^i [i][n].
-// x^n = 2^(1 - 2n) (C(2n, n)/2 + sum_k C(2n, n - k) T_k(2x - 1)). Up to n = N - 1 nothing changes.
+// x^n, n < `powers`, on [0, 1] as polynomials of degree N - 1 by their Chebyshev series:
+// coefficients of x^i [i][n]. x^n = 2^(1 - 2n) (C(2n, n)/2 + sum_k C(2n, n - k) T_k(2x - 1)). Up to
+// n = N - 1 nothing changes.
 Matrix economised(int N, int powers) {
-    Matrix T = Matrix::Zero(N, N), out = Matrix::Identity(N, powers);  // T_k(2x - 1) = (4x - 2) T_(k-1) - T_(k-2) [i][k]
+    // T_k(2x - 1) = (4x - 2) T_(k-1) - T_(k-2) [i][k]
+    Matrix T = Matrix::Zero(N, N), out = Matrix::Identity(N, powers);
     T(0, 0) = 1;
     if (N > 1) T(0, 1) = -1, T(1, 1) = 2;
     for (int k = 2; k < N; ++k)
-        for (int i = 0; i <= k; ++i) T(i, k) = (i > 0 ? 4 * T(i - 1, k - 1) : 0) - 2 * T(i, k - 1) - T(i, k - 2);
+        for (int i = 0; i <= k; ++i)
+            T(i, k) = (i > 0 ? 4 * T(i - 1, k - 1) : 0) - 2 * T(i, k - 1) - T(i, k - 2);
     for (int n = N; n < powers; ++n) {
         Real c = 1;  // C(2n, n)/4^n
         for (int i = 1; i <= n; ++i) c *= static_cast<Real>(2 * i - 1) / (2 * i);
@@ -41,7 +46,8 @@ Matrix economised(int N, int powers) {
 }
 }  // namespace
 
-TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std::span<const double> stiffness)
+TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
+                         std::span<const double> stiffness)
     : window_(&w), points_(points.begin(), points.end()), k_(stiffness.begin(), stiffness.end()) {
     const int P = static_cast<int>(points_.size()), N = w.terms, size = w.size;
     const auto h = [&](int a, int b, int j) { return static_cast<Real>(w.kernel(a, b)[j]); };
@@ -52,11 +58,14 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
 
     // The fast invariant subspace: (p, p')' = L (p, p')' with I^i p = [1 0] L^-i (p, p')'.
     Matrix symmetric(P, P);
-    const Matrix squares = A[0].isZero(0) ? A[1] : Matrix(A[0] * stiff);  // of radians; a decay is to be as fast
+    // of radians; a decay is to be as fast
+    const Matrix squares = A[0].isZero(0) ? A[1] : Matrix(A[0] * stiff);
     for (int a = 0; a < P; ++a)
-        for (int b = 0; b < P; ++b) symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
+        for (int b = 0; b < P; ++b)
+            symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
     const Matrix even = (symmetric + symmetric.transpose()) / 2;
-    const bool all_stiff = Eigen::LLT<Matrix>(even - stiff * stiff * Matrix::Identity(P, P)).info() == Eigen::Success;
+    const bool all_stiff =
+        Eigen::LLT<Matrix>(even - stiff * stiff * Matrix::Identity(P, P)).info() == Eigen::Success;
     if (!all_stiff) {
         soften();
         return;
@@ -70,7 +79,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
         const Matrix inverse = L.inverse();
         Matrix next = first, power = inverse;
-        for (int j = 2; j < N; ++j, power = power * inverse) next.bottomRows(P) -= A[j] * power.topRows(P);
+        for (int j = 2; j < N; ++j, power = power * inverse)
+            next.bottomRows(P) -= A[j] * power.topRows(P);
         change = (next - L).norm() / L.norm();
         L = next;
     }
@@ -93,7 +103,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     Matrix operation = Matrix::Zero(P * N, P * N);
     for (int n = 0; n < N; ++n) {
         if (n + 2 < N) operation.block(n * P, (n + 2) * P, P, P).setIdentity();
-        for (int j = n + 1 < N ? 0 : 1; j <= n + 1 && j < N; ++j) operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
+        for (int j = n + 1 < N ? 0 : 1; j <= n + 1 && j < N; ++j)
+            operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
     }
     const Matrix G = operation.partialPivLu().inverse();
 
@@ -101,7 +112,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     for (int k = 0; k < E; ++k)
         for (int n = 0; n < N; ++n) {
             Complex power = Complex(1) / rates[k];
-            for (int j = n + 2; j < N; ++j, power /= rates[k]) q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
+            for (int j = n + 2; j < N; ++j, power /= rates[k])
+                q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
         }
     const ComplexMatrix Q = G * q;
 
@@ -127,13 +139,15 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
     start_.assign(static_cast<std::size_t>(2 * E) * 2 * P, 0.0);
     for (int k = 0, row = 0; k < E; ++k)
         for (int part = 0; part < (rates[k].imag() != 0 ? 2 : 1); ++part, ++row)
-            for (int j = 0; j < 2 * P; ++j) start_[(2 * k + part) * 2 * P + j] = static_cast<double>(inverse(row, j));
+            for (int j = 0; j < 2 * P; ++j)
+                start_[(2 * k + part) * 2 * P + j] = static_cast<double>(inverse(row, j));
     inverse_.assign(static_cast<std::size_t>(P) * N * P * size, 0.0);
     for (int m = 0; m + 2 < N; ++m)
         for (int b = 0; b < P; ++b)
             for (int a = 0; a < P; ++a)
                 for (int n = 0; n < N; ++n)
-                    inverse_[(static_cast<std::size_t>(m * P + b) * P + a) * size + n] = static_cast<double>(G(n * P + a, m * P + b));
+                    inverse_[(static_cast<std::size_t>(m * P + b) * P + a) * size + n] =
+                        static_cast<double>(G(n * P + a, m * P + b));
     shape_.assign(static_cast<std::size_t>(w.contacts) * E, 0.0);
     slow_.assign(static_cast<std::size_t>(E) * w.contacts * 2 * size, 0.0);
     for (int k = 0; k < E; ++k)
@@ -150,19 +164,23 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points, std:
                 for (int n = 0; n < N; ++n) add(n, Q(n * P + at, k));
                 continue;
             }
-            Complex sum = 0;  // -sum_b k_b v_b sum_j h_j lambda^(-j-1) of e^(lambda u), and what I^(j+1) leaves of it as powers
+            // -sum_b k_b v_b sum_j h_j lambda^(-j-1) of e^(lambda u), and what I^(j+1) leaves of it
+            // as powers
+            Complex sum = 0;
             for (int b = 0; b < P; ++b)
                 for (int j = 0; j < N; ++j) {
                     const Complex part = -static_cast<Real>(k_[b]) * v(b, k) * h(a, points_[b], j);
                     sum += part * std::pow(rates[k], static_cast<Real>(-j - 1));
-                    for (int n = 0; n <= j; ++n) add(n, -part * std::pow(rates[k], static_cast<Real>(n - j - 1)));
+                    for (int n = 0; n <= j; ++n)
+                        add(n, -part * std::pow(rates[k], static_cast<Real>(n - j - 1)));
                 }
             shape_[a * E + k] = static_cast<std::complex<double>>(sum);
         }
 }
 
-// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j), and below it what points that do not touch follow. p_n = sum R_(n-m) r_m
-// goes on where r ends. Cut there it would reach as far as its growth allows;
+// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j), and below it what points that do
+// not touch follow. p_n = sum R_(n-m) r_m goes on where r ends. Cut there it would reach as far as
+// its growth allows;
 // the best polynomial of as many terms reaches four times so far.
 void TouchingSet::soften() noexcept {
     const MacroWindow& w = *window_;
@@ -174,7 +192,8 @@ void TouchingSet::soften() noexcept {
         for (int j = 0; j < std::min(n, N); ++j)
             for (int a = 0; a < w.contacts; ++a)
                 for (int b = 0; b < P; ++b)
-                    R[n].row(a) -= static_cast<Real>(w.kernel(a, points_[b])[j]) * k_[b] * R[n - 1 - j].row(points_[b]);
+                    R[n].row(a) -= static_cast<Real>(w.kernel(a, points_[b])[j]) * k_[b] *
+                                   R[n - 1 - j].row(points_[b]);
         if (n >= N / 2 && n < N) growth = std::max(growth, std::pow(R[n].norm(), Real(1) / n));
     }
     growth_ = static_cast<double>(growth);
@@ -183,7 +202,9 @@ void TouchingSet::soften() noexcept {
     if (growth > most_spans * w.reach) return;
     Matrix shorter = economised(N, resolvent_terms);  // of derivatives over the span
     for (int n = N; n < resolvent_terms; ++n)
-        for (int i = 0; i < N; ++i) shorter(i, n) *= std::exp(std::lgamma(i + Real(1)) - std::lgamma(n + Real(1))) * std::pow(span, n - i);
+        for (int i = 0; i < N; ++i)
+            shorter(i, n) *= std::exp(std::lgamma(i + Real(1)) - std::lgamma(n + Real(1))) *
+                             std::pow(span, n - i);
     resolvent_.assign(static_cast<std::size_t>(w.contacts) * P * N * w.size, 0.0);
     for (int a = 0; a < w.contacts; ++a)
         for (int b = 0; b < P; ++b)
@@ -191,7 +212,8 @@ void TouchingSet::soften() noexcept {
                 for (int i = 0; i < N; ++i) {
                     Real sum = i >= m ? R[i - m](a, b) : Real(0);
                     for (int n = N; n < resolvent_terms; ++n) sum += shorter(i, n) * R[n - m](a, b);
-                    resolvent_[((static_cast<std::size_t>(a) * P + b) * N + m) * w.size + i] = static_cast<double>(sum);
+                    resolvent_[((static_cast<std::size_t>(a) * P + b) * N + m) * w.size + i] =
+                        static_cast<double>(sum);
                 }
 }
 
@@ -204,29 +226,34 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         const bool touches = std::find(points_.begin(), points_.end(), a) != points_.end();
         if (!touches) std::copy_n(r + a * stride, size, out);
         for (int b = 0; b < P; ++b)
-            (touches && b == 0 ? w.sweep().combined : combine)(out, size, r + points_[b] * stride, N,
-                                                               resolvent_.data() + (static_cast<std::size_t>(a) * P + b) * N * size, size);
+            (touches && b == 0 ? w.sweep().combined : combine)(
+                out, size, r + points_[b] * stride, N,
+                resolvent_.data() + (static_cast<std::size_t>(a) * P + b) * N * size, size);
     }
     if (pairs_ == 0) return;
     for (int a = 0; a < P; ++a) {
         double* out = path + points_[a] * stride;
         std::fill_n(out, size, 0.0);
         for (int b = 0; b < P; ++b)
-            combine(out, size, r + points_[b] * stride + 2, N - 2, inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
+            combine(out, size, r + points_[b] * stride + 2, N - 2,
+                    inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
                     static_cast<long>(P) * P * size);
     }
     for (int k = 0; k < 2 * pairs_; ++k) {
         double sum = 0;
         for (int b = 0; b < P; ++b) {
             const double *rb = r + points_[b] * stride, *pb = path + points_[b] * stride;
-            sum += start_[k * 2 * P + b] * (rb[0] - pb[0]) + start_[k * 2 * P + P + b] * (rb[1] - pushed_at_once_[b] * rb[0] - pb[1]);
+            sum += start_[k * 2 * P + b] * (rb[0] - pb[0]) +
+                   start_[k * 2 * P + P + b] * (rb[1] - pushed_at_once_[b] * rb[0] - pb[1]);
         }
         beta_[k] = k % 2 == 0 ? sum : -sum;
     }
     const auto add_pairs = [&](int a) {
-        combine(path + a * stride, size, beta_.data(), 2 * pairs_, slow_.data() + static_cast<std::size_t>(a) * pairs_ * 2 * size, size);
+        combine(path + a * stride, size, beta_.data(), 2 * pairs_,
+                slow_.data() + static_cast<std::size_t>(a) * pairs_ * 2 * size, size);
         for (int k = 0; k < pairs_; ++k)
-            amplitude[a * pairs_ + k] = std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * pairs_ + k];
+            amplitude[a * pairs_ + k] =
+                std::complex<double>(beta_[2 * k], -beta_[2 * k + 1]) * shape_[a * pairs_ + k];
     };
     for (int a : points_) add_pairs(a);
     if (P == w.contacts) return;
@@ -243,22 +270,26 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
     }
 }
 
-double TouchingSet::force(int which, const double* path, const std::complex<double>* amplitude, double u) const noexcept {
+double TouchingSet::force(int which, const double* path, const std::complex<double>* amplitude,
+                          double u) const noexcept {
     const int a = points_[which];
     double now[3];
     window_->sweep().evaluate(path + a * window_->stride, window_->size, u, now);
-    for (int k = 0; k < pairs_; ++k) now[0] += (amplitude[a * pairs_ + k] * std::exp(rate_[k] * u)).real();
+    for (int k = 0; k < pairs_; ++k)
+        now[0] += (amplitude[a * pairs_ + k] * std::exp(rate_[k] * u)).real();
     return -k_[which] * now[0];
 }
 
-void TouchingSet::moments(int which, const double* path, const std::complex<double>* amplitude, double u, int count,
-                          double* m) const noexcept {
+void TouchingSet::moments(int which, const double* path, const std::complex<double>* amplitude,
+                          double u, int count, double* m) const noexcept {
     const int a = points_[which], size = window_->size;
     double e[3 * most_terms];
     powers(u, 2 * size + 1, e);
-    window_->sweep().combined(m, size, path + a * window_->stride, pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms, e + 1,
-                              1);
-    for (int k = 0; k < pairs_; ++k) {  // X_i = int (u - w)^i/i! e^(lambda w) dw = (X_(i-1) - u^i/i!)/lambda
+    window_->sweep().combined(m, size, path + a * window_->stride,
+                              pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms,
+                              e + 1, 1);
+    // X_i = int (u - w)^i/i! e^(lambda w) dw = (X_(i-1) - u^i/i!)/lambda
+    for (int k = 0; k < pairs_; ++k) {
         const std::complex<double> inverse = 1.0 / rate_[k], c = amplitude[a * pairs_ + k];
         const double size_now = std::exp(rate_[k].real() * u), phase = rate_[k].imag() * u;
         double re = size_now * std::cos(phase), im = size_now * std::sin(phase);

@@ -1,14 +1,19 @@
-// Linear contacts in touch, their stiff oscillation split off. With p the displacements of the contact points from their barriers,
+// Linear contacts in touch, their stiff oscillation split off. With p the displacements of the
+// contact points from their barriers,
 //
-//     p'' + H_0 K p' + H_1 K p + sum_{j >= 2} H_j K I^(j-1) p = r''      (I: integral from 0; r: the points' motion if they let go at 0)
+//     p'' + H_0 K p' + H_1 K p + sum_{j >= 2} H_j K I^(j-1) p = r''      (I: integral from 0; r:
+//     the points' motion if they let go at 0)
 //
-// H_0 is zero where they push nothing but the string's modes: each touching point then has one fast pair. With something in series
-// (in_series.hpp) it has two decays, or a damped pair. The solution is p = p_s + Re sum_k beta_k v_k e^(lambda_k u): lambda and v from
-// (lambda^2 + sum_j H_j K lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k), with G the
-// inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2} H_j K v_k lambda_k^(n+1-j). beta follows from
-// p(0) = r(0) and p'(0) = r'(0) - H_0 K r(0). The series in G is asymptotic: see longest_reach. Where some direction is not stiff nothing
-// is split off: p follows from r by the resolvent, over a window or a part of it. All of it is made once per set of touching points. Leaves
-// out: sets with such a direction beside one so stiff that spans are short; solves() is false for them.
+// H_0 is zero where they push nothing but the string's modes: each touching point then has one fast
+// pair. With something in series (in_series.hpp) it has two decays, or a damped pair. The solution
+// is p = p_s + Re sum_k beta_k v_k e^(lambda_k u): lambda and v from (lambda^2 + sum_j H_j K
+// lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k),
+// with G the inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2}
+// H_j K v_k lambda_k^(n+1-j). beta follows from p(0) = r(0) and p'(0) = r'(0) - H_0 K r(0). The
+// series in G is asymptotic: see longest_reach. Where some direction is not stiff nothing is split
+// off: p follows from r by the resolvent, over a window or a part of it. All of it is made once per
+// set of touching points. Leaves out: sets with such a direction beside one so stiff that spans are
+// short; solves() is false for them.
 #pragma once
 
 #include <complex>
@@ -25,22 +30,31 @@ public:
 
     bool solves() const { return pairs_ > 0 || !resolvent_.empty(); }
     int pairs() const { return pairs_; }
-    double growth() const { return growth_; }  // of what is not split off: its derivatives are at most so much larger each
-    double span() const { return span_; }      // how far a solution reaches [window]
+    // of what is not split off: its derivatives are at most so much larger each
+    double growth() const { return growth_; }
+    double span() const { return span_; }  // how far a solution reaches [window]
     const std::vector<int>& points() const { return points_; }
     const std::complex<double>* rates() const { return rate_.data(); }
-    std::complex<double> pair_force(int which, int pair) const { return -k_[which] * shape_[points_[which] * pairs_ + pair]; }  // per beta
+    // per beta
+    std::complex<double> pair_force(int which, int pair) const {
+        return -k_[which] * shape_[points_[which] * pairs_ + pair];
+    }
 
-    // From r[contact][stride], derivatives: the derivatives of every contact's slow part, path[contact][stride],
-    // and the amplitudes of its pairs, amplitude[contact][pairs].
+    // From r[contact][stride], derivatives: the derivatives of every contact's slow part,
+    // path[contact][stride], and the amplitudes of its pairs, amplitude[contact][pairs].
     void solve(const double* r, double* path, std::complex<double>* amplitude) noexcept;
 
-    std::complex<double> beta(int pair) const { return {beta_[2 * pair], -beta_[2 * pair + 1]}; }  // of the last solve()
+    // of the last solve()
+    std::complex<double> beta(int pair) const { return {beta_[2 * pair], -beta_[2 * pair + 1]}; }
 
-    double force(int which, const double* path, const std::complex<double>* amplitude, double u) const noexcept;  // at u [N]
+    // at u [N]
+    double force(int which, const double* path, const std::complex<double>* amplitude,
+                 double u) const noexcept;
 
-    // int_0^u (u - w)^i/i! F_b(w) dw, i < size, of the contact points()[which], right for i < count.
-    void moments(int which, const double* path, const std::complex<double>* amplitude, double u, int count, double* m) const noexcept;
+    // int_0^u (u - w)^i/i! F_b(w) dw, i < size, of the contact points()[which], right for i <
+    // count.
+    void moments(int which, const double* path, const std::complex<double>* amplitude, double u,
+                 int count, double* m) const noexcept;
 
 private:
     void soften() noexcept;
@@ -50,12 +64,17 @@ private:
     int pairs_ = 0;
     double growth_ = 0, span_ = 1;
     std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
-    std::vector<double> resolvent_;                   // of a soft set: r -> path over its span [contact][point][column: derivative][row]
-    std::vector<double> inverse_;                     // G [column: derivative][column: point][row: point][row: derivative]
-    std::vector<double> start_;                       // p(0), p'(0) -> Re beta and -Im beta [pair][2][2 x points]
-    std::vector<double> slow_;                        // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]
-    std::vector<double> pushed_at_once_;              // p' = r' - this x p at a start [touching contact]
-    std::vector<double> beta_;                        // [pair][Re, -Im]
+    // of a soft set: r -> path over its span [contact][point][column: derivative][row]
+    std::vector<double> resolvent_;
+    // G [column: derivative][column: point][row: point][row: derivative]
+    std::vector<double> inverse_;
+    // p(0), p'(0) -> Re beta and -Im beta [pair][2][2 x points]
+    std::vector<double> start_;
+    // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]
+    std::vector<double> slow_;
+    // p' = r' - this x p at a start [touching contact]
+    std::vector<double> pushed_at_once_;
+    std::vector<double> beta_;  // [pair][Re, -Im]
 };
 
 }  // namespace jvari

@@ -1,11 +1,14 @@
-// Energy that a string gains and loses within a macro window (van Walstijn et al. 2016, eqs 1, 12 and 19):
+// Energy that a string gains and loses within a macro window (van Walstijn et al. 2016, eqs 1, 12
+// and 19):
 //
-//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 + z' Q z' dt,      supplied = int F_e v_e - F_e' sum_a C_ae F_a dt
+//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 + z' Q z' dt,      supplied = int F_e
+//     v_e - F_e' sum_a C_ae F_a dt
 //
-// with v the velocities of modes, thread and pluck, z and C_ae of what is in series (in_series.hpp). Where stiff contacts touch, v = S + Re
-// sum_k beta_k W_k e^(lambda_k t): S as slow as the string, and one fast pair per contact (touching_set.hpp). Slow products are integrated
-// by Gauss-Legendre, S against a pair as a Legendre series against its exponential, two pairs in closed form: so the nodes follow the
-// string, not the contact.
+// with v the velocities of modes, thread and pluck, z and C_ae of what is in series
+// (in_series.hpp). Where stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S as
+// slow as the string, and one fast pair per contact (touching_set.hpp). Slow products are
+// integrated by Gauss-Legendre, S against a pair as a Legendre series against its exponential, two
+// pairs in closed form: so the nodes follow the string, not the contact.
 #pragma once
 
 #include <complex>
@@ -24,16 +27,24 @@ public:
         double supplied = 0, dissipated = 0;  // [J]
     };
 
-    // What the pairs of one touching set do to all that loses or gains, per unit of beta; of a soft set: none.
+    // What the pairs of one touching set do to all that loses or gains, per unit of beta; of a soft
+    // set: none.
     struct Pairs {
-        std::vector<std::complex<double>> rates;                          // [1/window]
-        std::vector<double> moments;                                      // [2 pair][contact x stride]: real and imaginary part
-        std::vector<double> velocity;                                     // W [2 pair][mode]
-        std::vector<std::complex<double>> thread, series;                 // where the thread is [pair], of z [pair][state]
-        std::vector<std::complex<double>> force;                          // of contacts and thread [pair][point]
-        std::vector<std::complex<double>> product, product_of_conjugate;  // W' L W and W' L conj(W) [pair][pair], L the losses
-        std::vector<std::complex<double>> pluck;                          // W_k where the pluck acts
-        std::complex<double> against(const std::vector<double>& row, int pair, const Oscillators&) const;  // row' W_k
+        std::vector<std::complex<double>> rates;  // [1/window]
+        // [2 pair][contact x stride]: real and imaginary part
+        std::vector<double> moments;
+        std::vector<double> velocity;  // W [2 pair][mode]
+        // where the thread is [pair], of z [pair][state]
+        std::vector<std::complex<double>> thread, series;
+        // of contacts and thread [pair][point]
+        std::vector<std::complex<double>> force;
+        // W' L W and W' L conj(W) [pair][pair], L the losses
+        std::vector<std::complex<double>> product, product_of_conjugate;
+        // W_k where the pluck acts
+        std::vector<std::complex<double>> pluck;
+        // row' W_k
+        std::complex<double> against(const std::vector<double>& row, int pair,
+                                     const Oscillators&) const;
     };
     Pairs pairs_of(const TouchingSet&);  // spoils the window that is open
     struct Touch {
@@ -74,14 +85,16 @@ private:
     void add_pairs(const Stretch&, double start, Sums&) noexcept;
 
     MacroWindow* window_;
-    std::vector<Rule> rules_;             // the coarsest first
-    std::vector<double> loss_;            // [mode]: J per squared displacement in a window
-    double thread_loss_ = 0;              // and of the thread's point
-    std::vector<double> series_loss_;     // and of z [state][state]
-    std::vector<double> thread_, pluck_;  // per mode's displacement in a window, those of thread and pluck, this one per window
-    std::vector<double> legendre_;        // [degree][node]: values to a Legendre series
+    std::vector<Rule> rules_;          // the coarsest first
+    std::vector<double> loss_;         // [mode]: J per squared displacement in a window
+    double thread_loss_ = 0;           // and of the thread's point
+    std::vector<double> series_loss_;  // and of z [state][state]
+    // per mode's displacement in a window, those of thread and pluck, this one per window
+    std::vector<double> thread_, pluck_;
+    std::vector<double> legendre_;  // [degree][node]: values to a Legendre series
     std::vector<double> moments_, y_, u_, lost_, force_, speed_;  // of a node
-    std::vector<std::complex<double>> lost_to_, gained_by_;       // [pair][node]: S against W_k, and F_e
+    // [pair][node]: S against W_k, and F_e
+    std::vector<std::complex<double>> lost_to_, gained_by_;
     const Rule* rule_ = nullptr;
     double length_ = 0;  // of a piece [window]
     bool split_ = false;

@@ -1,5 +1,6 @@
-// The body's modes as oscillators, in the form of the scheme that steps the strings: exact frequency and decay by the coefficients of
-// modal_coefficients.hpp, so that a free body sounds as it should at any rate.
+// The body's modes as oscillators, in the form of the scheme that steps the strings: exact
+// frequency and decay by the coefficients of modal_coefficients.hpp, so that a free body sounds as
+// it should at any rate.
 #pragma once
 
 #include <cmath>
@@ -95,9 +96,11 @@ public:
     }
 };
 
-struct BodyMode3 {                                                    // Issanchou et al. 2016, eq 14, as displacement and increments
-    double mass, loss, kappa;                                         // [kg]; 1 - C~, 1 + C~ - C
-    double z = 0, d = 0, last = 0;                                    // z^n, z^{n+1} - z^n, z^n - z^{n-1}
+// Issanchou et al. 2016, eq 14, as displacement and increments
+struct BodyMode3 {
+    double mass, loss, kappa;  // [kg]; 1 - C~, 1 + C~ - C
+    // z^n, z^{n+1} - z^n, z^n - z^{n-1}
+    double z = 0, d = 0, last = 0;
     double free() const { return (1 - loss) * d - kappa * (z + d); }  // of the increment after d
     void rest() { z = d = last = 0; }
 };
@@ -115,7 +118,9 @@ public:
     }
     double kappa() const { return dt_ * dt_; }
     double least_mass() const {  // that its energy shows against a velocity of w [kg]
-        return 1 / sum([](const BodyMode3& m) { return 1 / (m.mass * (1 - 0.5 * m.loss - 0.25 * m.kappa)); });
+        return 1 / sum([](const BodyMode3& m) {
+                   return 1 / (m.mass * (1 - 0.5 * m.loss - 0.25 * m.kappa));
+               });
     }
     void start(double f) noexcept {  // level 1 from rest: z^{-1} = z^1
         for (auto& m : modes_) {
@@ -157,7 +162,10 @@ public:
         return sum([](const BodyMode3& m) { return m.d; }) / dt_;
     }
     double stored() const noexcept {
-        return sum([](const BodyMode3& m) { return 0.5 * m.mass * (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d)); }) /
+        return sum([](const BodyMode3& m) {
+                   return 0.5 * m.mass *
+                          (0.5 * (2 - m.loss) * m.d * m.d + m.kappa * m.z * (m.z + m.d));
+               }) /
                (dt_ * dt_);
     }
 };

@@ -3,7 +3,8 @@
 
 namespace jvari {
 
-BodyStep::BodyStep(const std::vector<StringPoints>& strings, const std::vector<std::vector<int>>& place, double beta, double kappa)
+BodyStep::BodyStep(const std::vector<StringPoints>& strings,
+                   const std::vector<std::vector<int>>& place, double beta, double kappa)
     : beta_(beta), kappa_(kappa) {
     std::size_t all = 0;
     for (const StringPoints& s : strings) all += s.count();
@@ -28,7 +29,8 @@ BodyStep::BodyStep(const std::vector<StringPoints>& strings, const std::vector<s
         for (std::size_t q = 0; q < all; ++q) theta_[p * all + q] += beta * c_[p] * c_[q] / D_;
 }
 
-void BodyStep::approach(double inertia, double pluck, const BodyMotion& body, double* older, double* now, double* free) noexcept {
+void BodyStep::approach(double inertia, double pluck, const BodyMotion& body, double* older,
+                        double* now, double* free) noexcept {
     f_ = (pluck - inertia - rest_mass_ * body.a - stiffness_ * (body.w + 0.5 * body.r)) / D_;
     a_ = body.a;
     for (std::size_t p = 0; p < e_.size(); ++p) {

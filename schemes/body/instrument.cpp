@@ -10,7 +10,8 @@ void must_be_below_half_the_rate(const BodyMode& m, double dt) {
     const double omega = std::sqrt(m.stiffness / m.mass);
     if (omega * dt >= std::numbers::pi)
         throw Refusal("a mode of the body, at " + std::to_string(0.5 * omega / std::numbers::pi) +
-                      " Hz, is not below half the sample rate of " + std::to_string(1 / dt) + " Hz, where it would alias");
+                      " Hz, is not below half the sample rate of " + std::to_string(1 / dt) +
+                      " Hz, where it would alias");
 }
 
 std::vector<BodyTap> body_taps(const Scene& scene, int string, std::vector<bool>& heard_already) {

@@ -1,8 +1,10 @@
-// All strings of a scene on a body that moves, as one string for the driver (driver/string_step.hpp): what body_step.hpp derives, stepped.
+// All strings of a scene on a body that moves, as one string for the driver
+// (driver/string_step.hpp): what body_step.hpp derives, stepped.
 //
-// Beside what a StringStep has, a string has here: inertia(), sum mu_i v_i'' of the motion without forces; pluck() [N]; momentum() = sum
-// mu_i v_i' at the instant of the energy. Of three points it also has share(), the inertia that its coordinates take of the body's: sum
-// mu_i^2/m_i, m_i the least mass that the energy of the scheme shows.
+// Beside what a StringStep has, a string has here: inertia(), sum mu_i v_i'' of the motion without
+// forces; pluck() [N]; momentum() = sum mu_i v_i' at the instant of the energy. Of three points it
+// also has share(), the inertia that its coordinates take of the body's: sum mu_i^2/m_i, m_i the
+// least mass that the energy of the scheme shows.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +33,8 @@ public:
     static constexpr int levels = Body::levels;
     static constexpr long steps_between_looks = String::steps_between_looks;
 
-    Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body) : body_(std::move(body)) {
+    Instrument(const Scene& scene, std::vector<std::unique_ptr<String>> strings, Body body)
+        : body_(std::move(body)) {
         std::vector<StringPoints> of_strings;
         std::vector<std::vector<int>> place;
         std::vector<bool> heard(scene.taps.size(), false);
@@ -40,7 +43,8 @@ public:
             of_strings.push_back(strings[k]->points());
             const auto& pluck = scene.strings[k].pluck;
             const std::vector<BodyTap> taps = body_taps(scene, k, heard);
-            for (int t = 0; t < static_cast<int>(taps.size()); ++t) heard_[taps[t].column].push_back({k, t, taps[t]});
+            for (int t = 0; t < static_cast<int>(taps.size()); ++t)
+                heard_[taps[t].column].push_back({k, t, taps[t]});
             parts_.push_back({std::move(strings[k]),
                               {},
                               std::vector<double>(of_strings.back().count()),
@@ -92,14 +96,16 @@ public:
         return all;
     }
     bool failed() const {
-        return std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.string->failed(); });
+        return std::any_of(parts_.begin(), parts_.end(),
+                           [](const Part& p) { return p.string->failed(); });
     }
 
     void reading(int level, double* out) noexcept {
         const double w = body_.displacement(level);
         for (Part& p : parts_) {
             p.string->reading(level, p.own.data());
-            for (std::size_t k = 0; k < p.own.size(); ++k) out[p.place[k]] = p.own[k] + step_.rides(p.place[k]) * w;
+            for (std::size_t k = 0; k < p.own.size(); ++k)
+                out[p.place[k]] = p.own[k] + step_.rides(p.place[k]) * w;
         }
     }
     double stored() noexcept {
@@ -108,14 +114,16 @@ public:
             sum += p.string->stored();
             momentum += p.string->momentum();
         }
-        for (int level = 0; level < levels; ++level) sum += step_.potential(body_.displacement(level)) / levels;
+        for (int level = 0; level < levels; ++level)
+            sum += step_.potential(body_.displacement(level)) / levels;
         return sum + step_.kinetic(body_.velocity_stored(), momentum);
     }
     double tap(int k, const double* mean) noexcept {
         double sum = 0;
         for (const Heard& h : heard_[k]) {
             Part& p = parts_[h.part];
-            sum += p.string->tap(h.tap, own(p, mean)) + (h.by.on_w * body_.displacement(0) + h.by.on_speed * body_.velocity());
+            sum += p.string->tap(h.tap, own(p, mean)) +
+                   (h.by.on_w * body_.displacement(0) + h.by.on_speed * body_.velocity());
         }
         return sum;
     }
@@ -169,15 +177,18 @@ private:
         for (const Part& p : parts_) taken += p.string->share();
         for (const StringPoints& s : of_strings) ends += s.mass / 3;
         if (!(body_.least_mass() + ends > taken))
-            throw Refusal("the body is too light at this rate: the strings take " + std::to_string(taken) + " kg of its " +
-                          std::to_string(body_.least_mass() + ends) + " kg, and the energy would have no least value");
+            throw Refusal("the body is too light at this rate: the strings take " +
+                          std::to_string(taken) + " kg of its " +
+                          std::to_string(body_.least_mass() + ends) +
+                          " kg, and the energy would have no least value");
     }
 
     const double* own(Part& p, const double* all) noexcept {
         for (std::size_t k = 0; k < p.own.size(); ++k) p.own[k] = all[p.place[k]];
         return p.own.data();
     }
-    void gather(BodyStep& by, const BodyMotion& motion) noexcept {  // after the free motion of every string
+    // after the free motion of every string
+    void gather(BodyStep& by, const BodyMotion& motion) noexcept {
         double inertia = 0;
         pluck_ = 0;
         for (Part& p : parts_) {
@@ -206,18 +217,24 @@ private:
 template <class String, class Make>  // make(scene of one string) -> std::unique_ptr<String>
 std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) {
     std::vector<std::unique_ptr<String>> all;
-    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k) all.push_back(made_of_string(scene, k, make));
+    for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k)
+        all.push_back(made_of_string(scene, k, make));
     return all;
 }
 
-// The scheme of one string by a rule, or of all strings on a moving body. make as above, body() -> the body in the form of that scheme.
+// The scheme of one string by a rule, or of all strings on a moving body. make as above, body() ->
+// the body in the form of that scheme.
 template <class String, class Rule, class Make, class MakeBody>
-std::unique_ptr<Scheme> on_its_support(const Descriptor& scheme, const Scene& scene, const Settings& settings, Make make,
+std::unique_ptr<Scheme> on_its_support(const Descriptor& scheme, const Scene& scene,
+                                       const Settings& settings, Make make,
                                        [[maybe_unused]] MakeBody body) {
-    if constexpr (std::is_same_v<Rule, GradientRule>) {  // no other pairing takes a body (pairings.cpp)
+    // no other pairing takes a body (pairings.cpp)
+    if constexpr (std::is_same_v<Rule, GradientRule>) {
         using All = Instrument<String, decltype(body())>;
         if (needed_by(scene).has(Feature::moving_body))
-            return driven<Rule>(std::make_unique<All>(scene, each_string<String>(scene, make), body()), scheme, settings);
+            return driven<Rule>(
+                std::make_unique<All>(scene, each_string<String>(scene, make), body()), scheme,
+                settings);
     }
     return driven<Rule>(make(scene), scheme, settings);
 }

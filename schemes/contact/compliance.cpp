@@ -1,6 +1,7 @@
-// Static deflection of the stiff string, averaged over footprints. Footprints apart from each other have a closed form: the average of
-// exp(l x) over a cosine of width w about c is exp(l c) pi^2 cosh(l w/2)/(pi^2 + l^2 w^2). Overlapping ones are integrated by Gauss's rule
-// on panels that grow geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
+// Static deflection of the stiff string, averaged over footprints. Footprints apart from each other
+// have a closed form: the average of exp(l x) over a cosine of width w about c is exp(l c) pi^2
+// cosh(l w/2)/(pi^2 + l^2 w^2). Overlapping ones are integrated by Gauss's rule on panels that grow
+// geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
 #include "schemes/contact/compliance.hpp"
 
 #include <Eigen/Core>
@@ -29,7 +30,8 @@ double decay_of(const String& s) {  // l [1/m]; 0 where the string has no bendin
 // The bending part of G times T: sinh(l x) sinh(l (L - z))/(l sinh(l L)), without overflow.
 double bent(double l, double L, double x, double z) {
     if (l == 0) return 0;
-    return std::exp(-l * (z - x)) * std::expm1(-2 * l * x) * std::expm1(-2 * l * (L - z)) / (-2 * l * std::expm1(-2 * l * L));
+    return std::exp(-l * (z - x)) * std::expm1(-2 * l * x) * std::expm1(-2 * l * (L - z)) /
+           (-2 * l * std::expm1(-2 * l * L));
 }
 
 double green(const String& s, double a, double b) {
@@ -37,12 +39,15 @@ double green(const String& s, double a, double b) {
     return (x * (L - z) / L - bent(decay_of(s), L, x, z)) / s.tension;
 }
 
-constexpr std::array<double, 8> node = {0.0950125098376374, 0.2816035507792589, 0.4580167776572274, 0.6178762444026438,
-                                        0.7554044083550030, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499};
-constexpr std::array<double, 8> share = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025, 0.1495959888165767,
-                                         0.1246289712555339, 0.0951585116824928, 0.0622535239386479, 0.0271524594117541};
+constexpr std::array<double, 8> node = {0.0950125098376374, 0.2816035507792589, 0.4580167776572274,
+                                        0.6178762444026438, 0.7554044083550030, 0.8656312023878318,
+                                        0.9445750230732326, 0.9894009349916499};
+constexpr std::array<double, 8> share = {0.1894506104550685, 0.1826034150449236, 0.1691565193950025,
+                                         0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
+                                         0.0622535239386479, 0.0271524594117541};
 
-// The average of f over a footprint; `breaks` are the places where f is not smooth, `layer` the width of what is steep beside them.
+// The average of f over a footprint; `breaks` are the places where f is not smooth, `layer` the
+// width of what is steep beside them.
 template <class F>
 double averaged(const Footprint& p, double layer, std::vector<double> breaks, const F& f) {
     if (p.width == 0) return f(p.position);
@@ -54,7 +59,8 @@ double averaged(const Footprint& p, double layer, std::vector<double> breaks, co
     const auto panel = [&](double a, double b) {
         for (int i = 0; i < 16; ++i) {
             const double x = 0.5 * (a + b) + 0.5 * (b - a) * (i < 8 ? node[i] : -node[i - 8]);
-            sum += 0.5 * (b - a) * share[i % 8] * 0.5 * pi / p.width * std::cos(pi * (x - p.position) / p.width) * f(x);
+            sum += 0.5 * (b - a) * share[i % 8] * 0.5 * pi / p.width *
+                   std::cos(pi * (x - p.position) / p.width) * f(x);
         }
     };
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {  // from both ends of a segment inwards
@@ -76,54 +82,67 @@ double averaged(const Footprint& p, double layer, std::vector<double> breaks, co
 
 double over_modes(const String& s, int count, const Reading& r, const Footprint& force) {
     const Modes modes = modes_of(s, count);
-    const auto w = r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at.position, r.at.width);
+    const auto w = r.nut_force ? nut_force_weights(modes, s)
+                               : footprint_weights(modes, r.at.position, r.at.width);
     const auto g = footprint_weights(modes, force.position, force.width);
     double sum = 0;
-    for (int i = count - 1; i >= 0; --i) sum += w[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
+    for (int i = count - 1; i >= 0; --i)
+        sum += w[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
     return sum;
 }
 
-const TableDamping* measured(const String& s) {
-    return std::get_if<TableDamping>(&s.damping);
-}
+const TableDamping* measured(const String& s) { return std::get_if<TableDamping>(&s.damping); }
 }  // namespace
 
 double static_deflection(const String& s, const Footprint& p, const Footprint& q) {
-    if (const auto* table = measured(s)) return over_modes(s, static_cast<int>(table->frequency_hz.size()), {p}, q);
+    if (const auto* table = measured(s))
+        return over_modes(s, static_cast<int>(table->frequency_hz.size()), {p}, q);
     const double l = decay_of(s), L = s.length, layer = l > 0 ? 1 / l : 0;
-    if (s.bending_stiffness > 0 && l * L < 1) return over_modes(s, 20000, {p}, q);  // a bar: the sum falls as 1/i^4, and G cancels
-    const double apart = std::abs(p.position - q.position) - 0.5 * (p.width + q.width), widest = std::max(p.width, q.width);
+    // a bar: the sum falls as 1/i^4, and G cancels
+    if (s.bending_stiffness > 0 && l * L < 1) return over_modes(s, 20000, {p}, q);
+    const double apart = std::abs(p.position - q.position) - 0.5 * (p.width + q.width),
+                 widest = std::max(p.width, q.width);
     if (apart >= 0 && l * widest < 300) {
-        const auto window = [&](double w) { return pi * pi * std::cosh(0.5 * l * w) / (pi * pi + l * l * w * w); };
+        const auto window = [&](double w) {
+            return pi * pi * std::cosh(0.5 * l * w) / (pi * pi + l * l * w * w);
+        };
         const double x = std::min(p.position, q.position), z = std::max(p.position, q.position);
         return (x * (L - z) / L - window(p.width) * window(q.width) * bent(l, L, x, z)) / s.tension;
     }
     const Footprint &inner = p.width < q.width ? q : p, &outer = p.width < q.width ? p : q;
-    return averaged(outer, layer, {inner.position - 0.5 * inner.width, inner.position + 0.5 * inner.width},
-                    [&](double x) { return averaged(inner, layer, {x}, [&](double z) { return green(s, x, z); }); });
+    return averaged(
+        outer, layer, {inner.position - 0.5 * inner.width, inner.position + 0.5 * inner.width},
+        [&](double x) {
+            return averaged(inner, layer, {x}, [&](double z) { return green(s, x, z); });
+        });
 }
 
 double static_nut_force(const String& s, const Footprint& force) {
-    if (const auto* table = measured(s)) return over_modes(s, static_cast<int>(table->frequency_hz.size()), {{}, true}, force);
+    if (const auto* table = measured(s))
+        return over_modes(s, static_cast<int>(table->frequency_hz.size()), {{}, true}, force);
     return force.position / s.length;  // the balance of moments about the other end
 }
 
 namespace {
-constexpr int further_modes = 8;  // times as many as are kept: what is beyond adds 1/500 to E, and to C from its closed form
+// times as many as are kept: what is beyond adds 1/500 to E, and to C from its closed form
+constexpr int further_modes = 8;
 
 // What the cut modes answer to a force on a point, or on a pattern of points.
 struct Answer {
     const Modes& modes;
     int kept;
     std::vector<double> g;
-    double C;  // under a steady force, with those that are not summed, whose share falls as 1/omega^2 [m/N]
+    // under a steady force, with those that are not summed, whose share falls as 1/omega^2 [m/N]
+    double C;
 
     double square(int i) const { return modes.omega0[i] * modes.omega0[i]; }
     double yield(int i) const { return g[i] * g[i] / (modes.mass * square(i)); }
     double last() const { return modes.omega0[kept - 1]; }
-    double slower(double s) const {  // C - H at a real frequency s, of those that are summed; what the others add falls as 1/i^3
+    // C - H at a real frequency s, of those that are summed; what the others add falls as 1/i^3
+    double slower(double s) const {
         double sum = 0;
-        for (int i = modes.count() - 1; i >= kept; --i) sum += yield(i) * s * s / (square(i) + s * s);
+        for (int i = modes.count() - 1; i >= kept; --i)
+            sum += yield(i) * s * s / (square(i) + s * s);
         return sum;
     }
     double inertia(double nyquist) const {  // E of those below
@@ -133,29 +152,34 @@ struct Answer {
         return sum;
     }
 
-    // R of C^-1 D + R (D' - v), E/C^2 v' = R (D' - v), where its admittance is that of the cut modes at one real frequency: the least over
-    // all. There both touch. On an ideal string that is at infinity, and R the wave resistance. With stiffness and footprints R is larger,
-    // and hardly changes near three times the frequency of the last mode kept. `none`: of a single cut mode, which has no resistance.
+    // R of C^-1 D + R (D' - v), E/C^2 v' = R (D' - v), where its admittance is that of the cut
+    // modes at one real frequency: the least over all. There both touch. On an ideal string that is
+    // at infinity, and R the wave resistance. With stiffness and footprints R is larger, and hardly
+    // changes near three times the frequency of the last mode kept. `none`: of a single cut mode,
+    // which has no resistance.
     double touching_resistance(double none) const {
         const double mass = inertia(HUGE_VAL) / (C * C);
         double beyond = C, least = std::numeric_limits<double>::infinity();
         for (int i = modes.count() - 1; i >= kept; --i) beyond -= yield(i);
         for (double s = last(); s < further_modes * last(); s *= 1.1) {
-            const double x_end = s / modes.omega0.back(), lag = beyond * (1 - std::atan(x_end) / x_end) + slower(s);
+            const double x_end = s / modes.omega0.back(),
+                         lag = beyond * (1 - std::atan(x_end) / x_end) + slower(s);
             const double x = mass * s * C * (C - lag) * s / lag - 1;  // M s^2/(1/H - 1/C) - 1
             if (lag < C && x > 1e-6) least = std::min(least, mass * s / x);
         }
         return std::isfinite(least) ? least : none;
     }
 
-    // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the frequencies of the kept ones, each of
-    // which weighs g^2/omega, by as much as a blow moves it; and of that the share of the modes below `nyquist`.
+    // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the
+    // frequencies of the kept ones, each of which weighs g^2/omega, by as much as a blow moves it;
+    // and of that the share of the modes below `nyquist`.
     double mass(double nyquist) const {
         double sum = 0, weights = 0;
         const int every = 1 + kept / 128;
         for (int k = kept - 1 - every / 2; k >= 0; k -= every) {
             double more = 0;  // (H - C)/omega^2
-            for (int i = modes.count() - 1; i >= kept; --i) more += yield(i) / (square(i) - square(k));
+            for (int i = modes.count() - 1; i >= kept; --i)
+                more += yield(i) / (square(i) - square(k));
             const double weight = g[k] * g[k] / modes.omega0[k];
             sum += weight * more / (C * (C + more * square(k)));
             weights += weight;
@@ -171,7 +195,8 @@ double radiation_resistance(const String& s, const Footprint& at, int kept) {
     if (cut.C.empty()) return none;
     const Answer answer{cut.modes, kept, cut.g.front(), cut.C.front()};
     const double frequency = answer.last() / 3, slower = answer.slower(frequency);
-    return answer.C > slower && slower > 0 ? slower / (answer.C * (answer.C - slower) * frequency) : none;
+    return answer.C > slower && slower > 0 ? slower / (answer.C * (answer.C - slower) * frequency)
+                                           : none;
 }
 
 CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept, double nyquist) {
@@ -181,12 +206,15 @@ CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept,
     CutModes cut;
     const Modes& modes = cut.modes = modes_of(s, all);
     const std::size_t n = points.size();
-    for (const Footprint& p : points) cut.g.push_back(footprint_weights(modes, p.position, p.width));
+    for (const Footprint& p : points)
+        cut.g.push_back(footprint_weights(modes, p.position, p.width));
     for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b) {
-            double C = table ? 0 : static_deflection(s, points[a], points[b]), E = 0, below = 0;  // below half the sample rate
+            // below half the sample rate
+            double C = table ? 0 : static_deflection(s, points[a], points[b]), E = 0, below = 0;
             for (int i = all - 1; i >= 0; --i) {
-                const double square = modes.omega0[i] * modes.omega0[i], own = cut.g[a][i] * cut.g[b][i] / (modes.mass * square);
+                const double square = modes.omega0[i] * modes.omega0[i],
+                             own = cut.g[a][i] * cut.g[b][i] / (modes.mass * square);
                 if (i < kept) C -= table ? 0 : own;
                 else {
                     if (table) C += own;
@@ -223,45 +251,53 @@ Sites sites_of(const Scene& scene, std::span<const Footprint> contacts) {
 std::vector<Footprint> footprints_of(const String& s) {
     std::vector<Footprint> all;
     for (const Barrier& barrier : s.barriers)
-        if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) all.push_back({b->position, b->width});
+        if (const auto* b = std::get_if<LumpedBarrier>(&barrier))
+            all.push_back({b->position, b->width});
     return all;
 }
 
-Sites sites_of(const Scene& scene) {
-    return sites_of(scene, footprints_of(scene.strings.front()));
-}
+Sites sites_of(const Scene& scene) { return sites_of(scene, footprints_of(scene.strings.front())); }
 
 namespace {
 [[noreturn]] void refuse_soft(const std::string& who, const std::string& where, double excess) {
-    throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " + std::to_string(excess * 1e6) +
-                  " um/N, so nothing can stand in series there; compliance=own always can run, another rate or number of modes may");
+    throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " +
+                  std::to_string(excess * 1e6) +
+                  " um/N, so nothing can stand in series there; compliance=own always can run, "
+                  "another rate or number of modes may");
 }
 void refuse_soft(const std::string& who, double bb, double bc, double cc) {
     if (!(bb >= 0)) refuse_soft(who, "barrier", -bb);
     if (!(cc >= 0)) refuse_soft(who, "thread", -cc);
-    if (!(bb * cc >= bc * bc)) refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
+    if (!(bb * cc >= bc * bc))
+        refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
-// The mass of the ladder stands for modes above the last one kept. Where the step takes far more from a point than the cut modes do, mass
-// and spring would swing below it, at a frequency that no part of the string has there.
-void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut, int kept) {
+// The mass of the ladder stands for modes above the last one kept. Where the step takes far more
+// from a point than the cut modes do, mass and spring would swing below it, at a frequency that no
+// part of the string has there.
+void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut,
+                     int kept) {
     const int n = m.points();
     for (int p = 0; p < n && !cut.C.empty(); ++p) {
         const int at = p * n + p;
-        const double last = cut.modes.omega0[kept - 1], swings = std::abs(cut.C[at]) / std::sqrt(cut.E[at] * m.C[at]);
+        const double last = cut.modes.omega0[kept - 1],
+                     swings = std::abs(cut.C[at]) / std::sqrt(cut.E[at] * m.C[at]);
         if (swings < last)
             throw Refusal(
                 who + ": at the " + (p < m.contacts ? "barrier" : "thread") +
-                " nearly all that the string lacks is due to the step, not to modes that are cut off; what stands for those would "
+                " nearly all that the string lacks is due to the step, not to modes that are cut "
+                "off; what stands for those would "
                 "swing at " +
                 std::to_string(std::lround(swings / (2 * pi))) + " Hz, below the highest mode, " +
-                std::to_string(std::lround(last / (2 * pi))) + " Hz; compliance=own always can run, another rate or number of modes may");
+                std::to_string(std::lround(last / (2 * pi))) +
+                " Hz; compliance=own always can run, another rate or number of modes may");
     }
 }
 
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Square power_of(const std::vector<double>& m, int n, double power) {  // of what is more than rounding of a symmetric, positive matrix
+// of what is more than rounding of a symmetric, positive matrix
+Square power_of(const std::vector<double>& m, int n, double power) {
     const SymmetricParts parts = symmetric_parts(m, n);
     const Eigen::Map<const Square> vectors(parts.vector.data(), n, n);  // in rows
     Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
@@ -270,10 +306,12 @@ Square power_of(const std::vector<double>& m, int n, double power) {  // of what
     return vectors.transpose() * values.asDiagonal() * vectors;
 }
 
-// The patterns are those in which C and E of the cut modes are both diagonal. Modes above half the sample rate fold down to any frequency:
-// sampled, they are a spring with a damper of dt/2 over their compliance, without inertia. In a step of constant velocity a mass takes up
-// what is exact, 1 - exp(-R dt/M).
-Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& cut, int n, int kept, double dt) {
+// The patterns are those in which C and E of the cut modes are both diagonal. Modes above half the
+// sample rate fold down to any frequency: sampled, they are a spring with a damper of dt/2 over
+// their compliance, without inertia. In a step of constant velocity a mass takes up what is exact,
+// 1 - exp(-R dt/M).
+Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& cut, int n,
+                 int kept, double dt) {
     Ladder l;
     for (auto* v : {&l.mass, &l.resistance}) v->assign(n, 0.0);
     for (auto* m : {&l.damper, &l.V}) m->assign(static_cast<std::size_t>(n) * n, 0.0);
@@ -290,7 +328,8 @@ Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& 
     const SymmetricParts parts = symmetric_parts({slow.data(), slow.data() + slow.size()}, n);
     const Square V = Eigen::Map<const Square>(parts.vector.data(), n, n) * white;
     for (int k = 0; k < n; ++k) {
-        const double length = std::copysign(V.row(k).norm(), V(k, 0));  // a point that is alone moves with its mass
+        // a point that is alone moves with its mass
+        const double length = std::copysign(V.row(k).norm(), V(k, 0));
         if (!(length != 0 && parts.value[k] > 0)) continue;
         patterns.row(k) = V.row(k) / length;
         std::vector<double> g(cut.modes.count());
@@ -298,12 +337,15 @@ Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& 
             for (std::size_t i = 0; i < g.size(); ++i) g[i] += patterns(k, a) * cut.g[a][i];
         const Answer answer{cut.modes, kept, std::move(g), 1 / (length * length)};
         const double mass = l.mass[k] = answer.mass(std::numbers::pi / dt);
-        if (mass > 0) l.resistance[k] = 2 * mass / dt * std::tanh(0.5 * dt * answer.touching_resistance(2 * Z) / mass);
+        if (mass > 0)
+            l.resistance[k] =
+                2 * mass / dt * std::tanh(0.5 * dt * answer.touching_resistance(2 * Z) / mass);
     }
     return l;
 }
 
-MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, const OwnResponse& own) {
+MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps,
+                         const OwnResponse& own) {
     MissingMatrix m;
     const int forces = static_cast<int>(sites.forces.size()), points = sites.points();
     m.contacts = sites.contacts;
@@ -312,8 +354,9 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, 
     for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
         for (int f = 0; f < forces; ++f) {
             const Reading& reading = sites.readings[r];
-            const double truth =
-                reading.nut_force ? static_nut_force(s, sites.forces[f]) : static_deflection(s, reading.at, sites.forces[f]);
+            const double truth = reading.nut_force
+                                     ? static_nut_force(s, sites.forces[f])
+                                     : static_deflection(s, reading.at, sites.forces[f]);
             const double missing = truth - own(r, f);
             if (r >= points) m.taps[sites.tap[r - points]].push_back(missing);
             else (f < points ? m.C : m.pluck).push_back(missing);
@@ -322,8 +365,8 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps, 
 }
 }  // namespace
 
-MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites, std::size_t taps, int kept, double dt,
-                             const OwnResponse& own) {
+MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites,
+                             std::size_t taps, int kept, double dt, const OwnResponse& own) {
     MissingMatrix m = difference(s, sites, taps, own);
     const int n = sites.points();
     const auto put_ladder = [&] {
@@ -333,7 +376,8 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
         m.ladder = ladder_of(s, m.C, cut, n, kept, dt);
     };
     if (n <= 1 + (m.thread ? 1 : 0)) {
-        refuse_soft(who, m.contacts > 0 ? m.C.front() : 0, n == 2 ? m.C[1] : 0, m.thread ? m.C.back() : 0);
+        refuse_soft(who, m.contacts > 0 ? m.C.front() : 0, n == 2 ? m.C[1] : 0,
+                    m.thread ? m.C.back() : 0);
         put_ladder();
         return m;
     }
@@ -346,26 +390,31 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
     for (int a = 0; a < n; ++a)
         for (int b = 0; b <= a; ++b) {
             double sum = 0;
-            for (int k = 0; k < n; ++k) sum += parts.vector[k * n + a] * std::max(parts.value[k], 0.0) * parts.vector[k * n + b];
+            for (int k = 0; k < n; ++k)
+                sum += parts.vector[k * n + a] * std::max(parts.value[k], 0.0) *
+                       parts.vector[k * n + b];
             m.C[a * n + b] = m.C[b * n + a] = sum;  // symmetric to the last bit
         }
     put_ladder();
     return m;
 }
 
-bool matched_without_loss(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+bool matched_without_loss(const Descriptor& descriptor, const Scene& scene,
+                          const Settings& settings) {
     if (choice_option(settings, compliance_option) != "matched") return false;
     const Features needed = needed_by(scene);
-    for (const auto& [feature, name] : {std::pair(Feature::contact_loss, "contact loss"), std::pair(Feature::moving_body, "a moving body")})
-        if (needed.has(feature)) throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out " + name);
+    for (const auto& [feature, name] : {std::pair(Feature::contact_loss, "contact loss"),
+                                        std::pair(Feature::moving_body, "a moving body")})
+        if (needed.has(feature))
+            throw Refusal(std::string(descriptor.name) + ": compliance=matched leaves out " + name);
     return true;
 }
 
 String with_profile_points(String s, const Settings& settings) {
     const double count = number_option(settings, profile_points_option);
     if (!(count >= 1 && count <= most_profile_points) || count != std::floor(count))
-        throw Refusal("option points: found " + std::to_string(count) + ", expected a whole number from 1 to " +
-                      std::to_string(most_profile_points));
+        throw Refusal("option points: found " + std::to_string(count) +
+                      ", expected a whole number from 1 to " + std::to_string(most_profile_points));
     std::vector<Barrier> barriers;
     for (const Barrier& barrier : s.barriers) {
         const auto* b = std::get_if<ProfileBarrier>(&barrier);
@@ -373,7 +422,8 @@ String with_profile_points(String s, const Settings& settings) {
             barriers.push_back(barrier);
             continue;
         }
-        for (const LumpedBarrier& point : lumped(*b, middles(*b, static_cast<int>(count)), (b->to - b->from) / count))
+        for (const LumpedBarrier& point :
+             lumped(*b, middles(*b, static_cast<int>(count)), (b->to - b->from) / count))
             barriers.push_back(point);
     }
     s.barriers = std::move(barriers);

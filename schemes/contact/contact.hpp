@@ -1,10 +1,12 @@
-// THE contact equation. Every scheme ends at the same scalar problem: with a the older displacement of the contact point, r its unknown
-// increment, b minus the force-free increment and theta the scheme's compliance [m/N],
+// THE contact equation. Every scheme ends at the same scalar problem: with a the older displacement
+// of the contact point, r its unknown increment, b minus the force-free increment and theta the
+// scheme's compliance [m/N],
 //
 //     r + b + theta [V(h - a - r) - V(h - a)]/r = 0,      V(eta) = k [eta]^(alpha+1)/(alpha+1)
 //
-// Two-point schemes: a = y^n, r = y^{n+1} - y^n (van Walstijn et al. 2016, eq 48). Three-point: a = u^{n-1}, r = u^{n+1} - u^{n-1}
-// (Issanchou et al. 2016, eq 16). Monotone in r, so the root is unique. A Hunt-Crossley term (1 + c) r divides b and theta by 1 + c.
+// Two-point schemes: a = y^n, r = y^{n+1} - y^n (van Walstijn et al. 2016, eq 48). Three-point: a =
+// u^{n-1}, r = u^{n+1} - u^{n-1} (Issanchou et al. 2016, eq 16). Monotone in r, so the root is
+// unique. A Hunt-Crossley term (1 + c) r divides b and theta by 1 + c.
 #pragma once
 
 #include <algorithm>
@@ -64,11 +66,13 @@ struct ContactSolution {
     double force = 0;    // mean force on the string over the step, >= 0 [N]
     int iterations = 0;  // 0: closed form
     bool converged = true;
-    double residual = 0;  // of the equation at the last iterate, before its final correction, relative to its largest term
+    // of the equation at the last iterate, before its final correction, relative to its largest
+    // term
+    double residual = 0;
 };
 
-// Exponent 1: four cases (van Walstijn et al. 2016, fig 4). eta = h - a, phi = theta k/2. Written so that no case subtracts two numbers
-// that a stiff contact (phi >> 1) makes nearly equal.
+// Exponent 1: four cases (van Walstijn et al. 2016, fig 4). eta = h - a, phi = theta k/2. Written
+// so that no case subtracts two numbers that a stiff contact (phi >> 1) makes nearly equal.
 inline ContactSolution solve_linear_contact(double k, double eta, double b, double theta) {
     const double phi = 0.5 * theta * k;
     if (eta <= 0 && eta + b <= 0) return {-b, 0.0};  // stays out
@@ -79,14 +83,16 @@ inline ContactSolution solve_linear_contact(double k, double eta, double b, doub
         const double r = b > 0 ? 2 * phi * eta * eta / (b + root) : 0.5 * (root - b);
         return {r, 0.5 * k * eta * eta / r};
     }
-    // enters: depth x = eta - r solves (1 + phi) x^2 + (gap - free) x - free gap = 0, gap = -eta, free = eta + b > 0
+    // enters: depth x = eta - r solves (1 + phi) x^2 + (gap - free) x - free gap = 0, gap = -eta,
+    // free = eta + b > 0
     const double gap = -eta, free = eta + b, p = gap - free;
     const double root = std::sqrt(p * p + 4 * (1 + phi) * free * gap);
     const double x = p > 0 ? 2 * free * gap / (p + root) : 0.5 * (root - p) / (1 + phi);
     return {-(gap + x), 0.5 * k * x / (gap + x) * x};
 }
 
-// Any exponent >= 1: leaving is analytic; staying and entering by Newton on a convex increasing function, from above its root.
+// Any exponent >= 1: leaving is analytic; staying and entering by Newton on a convex increasing
+// function, from above its root.
 ContactSolution solve_power_contact(const ContactLaw&, double eta, double b, double theta);
 
 struct PowerQuotient {
@@ -95,12 +101,13 @@ struct PowerQuotient {
 // ((1+z)^p - 1)/z and its derivative, z >= -1, with the limits p and p (p-1)/2 at z = 0
 PowerQuotient power_quotient(double p, double z);
 
-// The depth eta with eta + S V'(eta) = zeta: of a contact that a compliance S [m/N] in series holds back.
-// zeta itself where that is negative.
+// The depth eta with eta + S V'(eta) = zeta: of a contact that a compliance S [m/N] in series holds
+// back. zeta itself where that is negative.
 double depth_in_series(const ContactLaw&, double zeta, double S);
 
 inline ContactSolution solve_contact(const ContactLaw& law, double eta, double b, double theta) {
-    return law.alpha == 1 ? solve_linear_contact(law.k, eta, b, theta) : solve_power_contact(law, eta, b, theta);
+    return law.alpha == 1 ? solve_linear_contact(law.k, eta, b, theta)
+                          : solve_power_contact(law, eta, b, theta);
 }
 
 }  // namespace jvari

@@ -1,6 +1,7 @@
-// The unknown is each contact's new depth eta - r, and not r: a stiff contact's depth is far below the rounding of r.
-// Source: the contact equations of van Walstijn et al. 2016 (eq 48) and Issanchou et al. 2016 (eq 16) for several contacts; Newton's
-// method with a derivative line search (Nocedal & Wright 2006, chapter 3) on a convex merit.
+// The unknown is each contact's new depth eta - r, and not r: a stiff contact's depth is far below
+// the rounding of r. Source: the contact equations of van Walstijn et al. 2016 (eq 48) and
+// Issanchou et al. 2016 (eq 16) for several contacts; Newton's method with a derivative line search
+// (Nocedal & Wright 2006, chapter 3) on a convex merit.
 #include "schemes/contact/contact_gram.hpp"
 
 namespace jvari {
@@ -28,8 +29,11 @@ MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
     return {scale * value, std::min(0.0, -scale / eta * slope)};
 }
 
-ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta, Force force)
-    : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()), at_the_end_(force == Force::at_the_end) {
+ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,
+                         Force force)
+    : laws_(laws.begin(), laws.end()),
+      theta_(theta.begin(), theta.end()),
+      at_the_end_(force == Force::at_the_end) {
     const int n = count();
     std::vector<char> seen(n, 0);
     for (int seed = 0; seed < n; ++seed) {
@@ -51,7 +55,8 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
     system_ = ScaledSystem(largest_);
 }
 
-[[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta, double b) const noexcept {
+[[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta,
+                                                                 double b) const noexcept {
     const double theta = theta_[a * count() + a];
     if (!at_the_end_) return solve_contact(laws_[a], eta, b, theta);
     const double force = laws_[a].force(depth_in_series(laws_[a], eta + b, theta));
@@ -59,10 +64,12 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
 }
 
 MeanForce ContactGram::force_at(int a, double eta, double depth) const noexcept {
-    return at_the_end_ ? MeanForce{laws_[a].force(depth), -laws_[a].slope(depth)} : mean_force(laws_[a], eta, depth);
+    return at_the_end_ ? MeanForce{laws_[a].force(depth), -laws_[a].slope(depth)}
+                       : mean_force(laws_[a], eta, depth);
 }
 
-GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force) noexcept {
+GramSolution ContactGram::solve(const double* eta, const double* b, double* r,
+                                double* force) noexcept {
     GramSolution worst;
     for (const Group& g : groups_) {
         const int a = order_[g.first];
@@ -87,8 +94,9 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
     return worst;
 }
 
-// dr = -(I + Theta D)^-1 (r + b - Theta F), D = -dF/dr; with w = D^1/2 dr on the active set the matrix I + D^1/2 Theta D^1/2 is symmetric
-// and positive definite whatever Theta's rank. df is the matching change of f, dr = Theta df. False where the factor is not finite.
+// dr = -(I + Theta D)^-1 (r + b - Theta F), D = -dF/dr; with w = D^1/2 dr on the active set the
+// matrix I + D^1/2 Theta D^1/2 is symmetric and positive definite whatever Theta's rank. df is the
+// matching change of f, dr = Theta df. False where the factor is not finite.
 bool ContactGram::newton_step(const int* set, int n) noexcept {
     const int stride = count();
     int m = 0;
@@ -104,15 +112,18 @@ bool ContactGram::newton_step(const int* set, int n) noexcept {
     for (int i = 0; i < n; ++i) {  // dr = -defect - Theta D dr; on the active set D dr = D^1/2 w
         const int a = set[i];
         double sum = -defect_[a];
-        for (int l = 0; l < m; ++l) sum -= theta_[a * stride + active_[l]] * root_[active_[l]] * w[l];
+        for (int l = 0; l < m; ++l)
+            sum -= theta_[a * stride + active_[l]] * root_[active_[l]] * w[l];
         dr_[a] = sum;
     }
     for (int i = 0; i < m; ++i)  // stiff: the same without the difference of nearly equal terms
-        if (-slope_[active_[i]] * theta_[active_[i] * stride + active_[i]] > 1) dr_[active_[i]] = w[i] / root_[active_[i]];
+        if (-slope_[active_[i]] * theta_[active_[i] * stride + active_[i]] > 1)
+            dr_[active_[i]] = w[i] / root_[active_[i]];
     return true;
 }
 
-GramSolution ContactGram::solve_group(const Group& group, const double* eta, const double* b, double* r, double* f) noexcept {
+GramSolution ContactGram::solve_group(const Group& group, const double* eta, const double* b,
+                                      double* r, double* f) noexcept {
     const int stride = count(), n = group.count;
     const int* set = order_.data() + group.first;
     bool out = true;
@@ -124,7 +135,8 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
     }
     if (out) return {};
 
-    for (int sweep = 0; sweep < 2; ++sweep)  // a first guess: each contact with the others' forces held
+    // a first guess: each contact with the others' forces held
+    for (int sweep = 0; sweep < 2; ++sweep)
         for (int i = 0; i < n; ++i) {
             const int a = set[i];
             double held = b[a];
@@ -177,13 +189,16 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             const double step = std::abs(dr_[a]);
             const bool stays_out = slope_[a] == 0 && step <= -1e-3 * depth_[a];
             const bool settled = slope_[a] < 0 && -slope_[a] * step <= force_change * mean_[a];
-            s.converged = s.converged && (stays_out || settled || std::abs(defect_[a]) <= rounding * reach(a));
+            s.converged = s.converged &&
+                          (stays_out || settled || std::abs(defect_[a]) <= rounding * reach(a));
         }
         double t = 1;
         if (!s.converged) {
             const double start = merit_slope(0);
-            const double end = merit_slope(1), allowed = s.iterations <= plain_iterations ? 0.25 * std::abs(start) : 0;
-            if (end > allowed) {  // past the minimum: bisect for a point before it where the slope has fallen by half
+            const double end = merit_slope(1),
+                         allowed = s.iterations <= plain_iterations ? 0.25 * std::abs(start) : 0;
+            // past the minimum: bisect for a point before it where the slope has fallen by half
+            if (end > allowed) {
                 double low = 0, high = 1;
                 for (int i = 0; i < 60; ++i) {
                     t = 0.5 * (low + high);

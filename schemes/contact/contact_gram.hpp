@@ -2,12 +2,14 @@
 //
 //     r + b = Theta F(r),   F_a(r_a) = -[V_a(eta_a - r_a) - V_a(eta_a)]/r_a >= 0
 //
-// with Theta the compliances between the contacts (a Gram matrix: symmetric, positive semi-definite, perhaps singular). Each F_a falls
-// with r_a, so with r = -b + Theta f the solution is the one minimum of the convex merit f' Theta f/2 - sum_a int F_a dr_a.
-// With Force::at_the_end F_a is V_a'(eta_a - r_a) instead, of the new depths alone: what a contact with Theta in series gives.
-// Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta is diagonal); the coupled ones take Newton
-// steps on the active set, each with a line search on the merit's slope. Hunt-Crossley losses are left out.
-// It ends where a Newton step leads through forces k Theta times as large as the solution's, whose difference has no digits left: with
+// with Theta the compliances between the contacts (a Gram matrix: symmetric, positive
+// semi-definite, perhaps singular). Each F_a falls with r_a, so with r = -b + Theta f the solution
+// is the one minimum of the convex merit f' Theta f/2 - sum_a int F_a dr_a. With Force::at_the_end
+// F_a is V_a'(eta_a - r_a) instead, of the new depths alone: what a contact with Theta in series
+// gives. Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta
+// is diagonal); the coupled ones take Newton steps on the active set, each with a line search on
+// the merit's slope. Hunt-Crossley losses are left out. It ends where a Newton step leads through
+// forces k Theta times as large as the solution's, whose difference has no digits left: with
 // strings from k Theta of 1e18 on, with random singular Theta of both signs,
 // which strings have not, from 1e11 on in a few draws of a hundred.
 #pragma once
@@ -24,7 +26,9 @@ namespace jvari {
 struct GramSolution {
     int iterations = 0;  // Newton iterations, the most that any group of coupled contacts took
     double residual =
-        0;  // worst: of a lone contact that of ContactSolution; of coupled ones the error of r relative to |eta| + |b| + |Theta| f
+        // worst: of a lone contact that of ContactSolution; of coupled ones the error of r relative
+        // to |eta| + |b| + |Theta| f
+        0;
     bool converged = true;
 };
 
@@ -39,15 +43,19 @@ class ContactGram {
 public:
     enum class Force { mean_of_the_step, at_the_end };
     ContactGram() = default;
-    ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,  // theta: n x n, row-major [m/N]
+    // theta: n x n, row-major [m/N]
+    ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,
                 Force = Force::mean_of_the_step);
 
     int count() const { return static_cast<int>(laws_.size()); }
     std::span<const double> theta() const { return theta_; }
-    int coupled() const { return largest_; }  // of the contacts that Theta couples to each other, the most; a step costs up to their cube
+    // of the contacts that Theta couples to each other, the most; a step costs up to their cube
+    int coupled() const { return largest_; }
 
     // Other compliances, coupled where the first ones were. Allocates nothing.
-    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
+    void set(std::span<const double> theta) noexcept {
+        std::copy(theta.begin(), theta.end(), theta_.begin());
+    }
 
     // eta [m] and b [m] in, r [m] and the mean forces [N] out; n of each. Allocates nothing.
     GramSolution solve(const double* eta, const double* b, double* r, double* force) noexcept;
@@ -56,7 +64,8 @@ private:
     struct Group {  // contacts coupled to each other: order_[first ... first + count)
         int first, count;
     };
-    GramSolution solve_group(const Group&, const double* eta, const double* b, double* r, double* force) noexcept;
+    GramSolution solve_group(const Group&, const double* eta, const double* b, double* r,
+                             double* force) noexcept;
     bool newton_step(const int* set, int n) noexcept;
     ContactSolution alone(int a, double eta, double b) const noexcept;
     MeanForce force_at(int a, double eta, double depth) const noexcept;

@@ -5,8 +5,10 @@
 
 namespace jvari {
 
-ContactLoss::ContactLoss(const Contacts& contacts, std::vector<double> theta, double span) : theta_(std::move(theta)), span_(span) {
-    if (std::all_of(contacts.loss.begin(), contacts.loss.end(), [](double b) { return b == 0; })) return;
+ContactLoss::ContactLoss(const Contacts& contacts, std::vector<double> theta, double span)
+    : theta_(std::move(theta)), span_(span) {
+    if (std::all_of(contacts.loss.begin(), contacts.loss.end(), [](double b) { return b == 0; }))
+        return;
     laws_ = contacts.laws;
     beta_ = contacts.loss;
     damped_ = across_ = theta_;
@@ -15,8 +17,8 @@ ContactLoss::ContactLoss(const Contacts& contacts, std::vector<double> theta, do
     closed_.resize(beta_.size());
 }
 
-// Theta and b of the contacts with D: with S = D^1/2 on the closed ones and M = I + S Theta S = L L', X = L^-1 S Theta,
-// Theta - X' X and b - X' L^-1 S b.
+// Theta and b of the contacts with D: with S = D^1/2 on the closed ones and M = I + S Theta S = L
+// L', X = L^-1 S Theta, Theta - X' X and b - X' L^-1 S b.
 bool ContactLoss::damp_closed(const BeforeStep& at, double* b) noexcept {
     lost_ = 0;
     const int n = static_cast<int>(beta_.size());
@@ -45,8 +47,9 @@ bool ContactLoss::damp_closed(const BeforeStep& at, double* b) noexcept {
     return true;
 }
 
-// Where D Theta >> 1, a contact that creeps, the two terms of F - D r nearly cancel and r is small beside b: what rounding then leaves of
-// r = -b + Theta F is put right by changes of r that D alone resists, D dr = S M^-1 S off.
+// Where D Theta >> 1, a contact that creeps, the two terms of F - D r nearly cancel and r is small
+// beside b: what rounding then leaves of r = -b + Theta F is put right by changes of r that D alone
+// resists, D dr = S M^-1 S off.
 void ContactLoss::settle(double* r, double* force) noexcept {
     const int n = static_cast<int>(beta_.size());
     int m = 0;

@@ -1,5 +1,6 @@
-// Contacts that lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), as obstacle.hpp has them: each pulls by D r more,
-// D = beta V'(eta)/span at the level that the step is centred on, and the contacts see other compliances while one of them is closed.
+// Contacts that lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), as obstacle.hpp has
+// them: each pulls by D r more, D = beta V'(eta)/span at the level that the step is centred on, and
+// the contacts see other compliances while one of them is closed.
 #pragma once
 
 #include <vector>
@@ -11,10 +12,14 @@ namespace jvari {
 class ContactLoss {
 public:
     ContactLoss() = default;
-    ContactLoss(const Contacts&, std::vector<double> theta, double span);  // theta: between the contacts, the thread eliminated
+    // theta: between the contacts, the thread eliminated
+    ContactLoss(const Contacts&, std::vector<double> theta, double span);
 
-    // D, and with it the compliances and b. False where no lossy contact is closed, and where none loses anything. Allocates nothing.
-    bool damp(const BeforeStep& at, double* b) noexcept { return !beta_.empty() && damp_closed(at, b); }
+    // D, and with it the compliances and b. False where no lossy contact is closed, and where none
+    // loses anything. Allocates nothing.
+    bool damp(const BeforeStep& at, double* b) noexcept {
+        return !beta_.empty() && damp_closed(at, b);
+    }
     // The springs' forces become those on the string; r is put right.
     void settle(double* r, double* force) noexcept;
     double lost() const { return lost_; }  // in the last step [J]
@@ -30,7 +35,8 @@ private:
     std::vector<double> theta_, damped_;  // as it is, and with D
     std::vector<double> root_, across_;   // workspaces: S, X by columns
     ScaledSystem system_;                 // M
-    std::vector<double> b_, off_, x_;     // b without D; by how much the readings miss the forces, on the closed contacts
+    // b without D; by how much the readings miss the forces, on the closed contacts
+    std::vector<double> b_, off_, x_;
     std::vector<int> closed_;
     double span_ = 1, lost_ = 0;
 };

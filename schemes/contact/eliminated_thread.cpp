@@ -8,15 +8,18 @@ namespace {  // rounded once: an error here is one in the balance of every step,
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 }
 
-EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts, std::span<const double> theta, double span)
+EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts,
+                                     std::span<const double> theta, double span)
     : laws_(std::move(threads)), contacts_(contacts), span_(span) {
     const int n = contacts, m = count(), all = n + m;
     if (m == 0) return;
     for (const Thread& t : laws_) phi_.push_back(0.5 * t.stiffness + t.damping / span);
     Matrix give = Matrix::Identity(m, m), across(m, n);
     for (int t = 0; t < m; ++t) {
-        for (int u = 0; u < m; ++u) give(t, u) += static_cast<long double>(phi_[t]) * theta[(n + t) * all + n + u];
-        for (int a = 0; a < n; ++a) across(t, a) = static_cast<long double>(phi_[t]) * theta[(n + t) * all + a];
+        for (int u = 0; u < m; ++u)
+            give(t, u) += static_cast<long double>(phi_[t]) * theta[(n + t) * all + n + u];
+        for (int a = 0; a < n; ++a)
+            across(t, a) = static_cast<long double>(phi_[t]) * theta[(n + t) * all + a];
     }
     const Matrix inverse = give.inverse(), answer = inverse * across;
     for (int t = 0; t < m; ++t) {
@@ -25,7 +28,8 @@ EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts, 
     }
     for (int a = 0; a < n; ++a)
         for (int t = 0; t < m; ++t) coupling_.push_back(theta[a * all + n + t]);
-    one_ = {laws_[0].stiffness, laws_[0].height, phi_[0], inverse_[0], n > 0 ? coupling_[0] : 0, n > 0 ? answer_[0] : 0};
+    one_ = {laws_[0].stiffness, laws_[0].height,          phi_[0],
+            inverse_[0],        n > 0 ? coupling_[0] : 0, n > 0 ? answer_[0] : 0};
 }
 
 std::vector<double> EliminatedThreads::between_contacts(std::span<const double> theta) const {
@@ -34,8 +38,10 @@ std::vector<double> EliminatedThreads::between_contacts(std::span<const double> 
     for (int a = 0; a < n; ++a)
         for (int b = 0; b <= a; ++b) {  // symmetric to the last bit
             long double sum = theta[static_cast<std::size_t>(a) * all + b];
-            for (int t = 0; t < count(); ++t) sum -= static_cast<long double>(coupling(a, t)) * answer(t, b);
-            between[static_cast<std::size_t>(a) * n + b] = between[static_cast<std::size_t>(b) * n + a] = static_cast<double>(sum);
+            for (int t = 0; t < count(); ++t)
+                sum -= static_cast<long double>(coupling(a, t)) * answer(t, b);
+            between[static_cast<std::size_t>(a) * n + b] =
+                between[static_cast<std::size_t>(b) * n + a] = static_cast<double>(sum);
         }
     return between;
 }

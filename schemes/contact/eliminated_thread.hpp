@@ -1,11 +1,15 @@
-// Threads are linear in the step and leave the contact equation: van Walstijn, Bridges & Mehes 2016, eqs 44-48. With r the motion of a
-// thread's point over the step, span the time between the outer levels and k_c, r_c its stiffness and damping,
+// Threads are linear in the step and leave the contact equation: van Walstijn, Bridges & Mehes
+// 2016, eqs 44-48. With r the motion of a thread's point over the step, span the time between the
+// outer levels and k_c, r_c its stiffness and damping,
 //
-//     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span,   r = free + theta_cc F_c + theta_bc F_b
-//     F_c = v - beta F_b,            v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]                (46), (47)
+//     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span,   r = free + theta_cc F_c + theta_bc
+//                                    F_b
+//     F_c = v - beta F_b,            v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]
+//                                    (46), (47)
 //
-// and a contact sees theta_bb - theta_bc beta for its own compliance (48). A string has one thread at most; on a body that moves those of
-// all strings are eliminated together, and phi, beta and (1 + phi theta_cc)^-1 are matrices.
+// and a contact sees theta_bb - theta_bc beta for its own compliance (48). A string has one thread
+// at most; on a body that moves those of all strings are eliminated together, and phi, beta and (1
+// + phi theta_cc)^-1 are matrices.
 #pragma once
 
 #include <span>
@@ -19,26 +23,34 @@ class EliminatedThreads {
 public:
     struct One {  // of one thread, beside one contact at most
         double k = 0, rest = 0, phi = 0, inverse = 1, coupling = 0, answer = 0;
-        double alone(double older, double free) const { return -(phi * free + k * (older - rest)) * inverse; }  // v
+        // v
+        double alone(double older, double free) const {
+            return -(phi * free + k * (older - rest)) * inverse;
+        }
     };
 
     EliminatedThreads() = default;
     // theta [m/N]: row-major over the points, the contacts first and then the threads.
-    EliminatedThreads(std::vector<Thread> threads, int contacts, std::span<const double> theta, double span);
+    EliminatedThreads(std::vector<Thread> threads, int contacts, std::span<const double> theta,
+                      double span);
 
     int count() const { return static_cast<int>(laws_.size()); }
     const std::vector<Thread>& laws() const { return laws_; }
     const One& one() const { return one_; }
-    double coupling(int a, int t) const { return coupling_[a * count() + t]; }       // theta_bc of contact a [m/N]
-    double answer(int t, int a) const { return answer_[t * contacts_ + a]; }         // beta
-    std::vector<double> between_contacts(std::span<const double> theta) const;       // the threads yielding: contacts x contacts
-    void alone(const double* older, const double* free, double* v) const noexcept {  // of the points' readings: v of each thread
+    // theta_bc of contact a [m/N]
+    double coupling(int a, int t) const { return coupling_[a * count() + t]; }
+    double answer(int t, int a) const { return answer_[t * contacts_ + a]; }  // beta
+    // the threads yielding: contacts x contacts
+    std::vector<double> between_contacts(std::span<const double> theta) const;
+    // of the points' readings: v of each thread
+    void alone(const double* older, const double* free, double* v) const noexcept {
         const int m = count();
         for (int t = 0; t < m; ++t) {
             v[t] = 0;
             for (int u = 0; u < m; ++u) {
                 const int p = contacts_ + u;
-                v[t] -= inverse_[t * m + u] * (phi_[u] * free[p] + laws_[u].stiffness * (older[p] - laws_[u].height));
+                v[t] -= inverse_[t * m + u] *
+                        (phi_[u] * free[p] + laws_[u].stiffness * (older[p] - laws_[u].height));
             }
         }
     }
@@ -50,7 +62,8 @@ public:
         const double stretch = reading - laws_[t].height;
         return 0.5 * laws_[t].stiffness * stretch * stretch;
     }
-    double lost(int t, double r) const { return laws_[t].damping * (r / span_) * (r / span_); }  // [W]
+    // [W]
+    double lost(int t, double r) const { return laws_[t].damping * (r / span_) * (r / span_); }
 
 private:
     std::vector<Thread> laws_;

@@ -1,6 +1,7 @@
-// The force of the level that the step is centred on, known before it: F_a = V_a'(eta_a). A conditionally stable control, which balances no
-// energy. In two-point steps that level is the middle of the step, from where the string would move by itself: position Verlet, of second
-// order. (The force of the older level would act half a step late and gain energy at any rate.)
+// The force of the level that the step is centred on, known before it: F_a = V_a'(eta_a). A
+// conditionally stable control, which balances no energy. In two-point steps that level is the
+// middle of the step, from where the string would move by itself: position Verlet, of second order.
+// (The force of the older level would act half a step late and gain energy at any rate.)
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"
@@ -11,7 +12,8 @@ class ExplicitRule : public PlainRule {
 public:
     static constexpr bool conserves = false, iterates = false, centred = true, own_only = true;
 
-    ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int) : PlainRule(laws, theta) {}
+    ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
+        : PlainRule(laws, theta) {}
     bool acts(const BeforeStep& at) const {
         bool touching = false;
         for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.now[a] > 0;

@@ -1,9 +1,11 @@
-// The discrete gradient of each contact's potential over the step, which takes from it exactly what the contact does on the string:
+// The discrete gradient of each contact's potential over the step, which takes from it exactly what
+// the contact does on the string:
 //
 //     F_a(r_a) = -[V_a(eta_a - r_a) - V_a(eta_a)]/r_a >= 0
 //
-// Two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 30 and 48; three-point: Issanchou et al. 2016, eq 16. One contact has a closed
-// form with exponent 1 (contact.hpp), several that Theta couples take Newton steps (contact_gram.hpp).
+// Two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 30 and 48; three-point: Issanchou et al.
+// 2016, eq 16. One contact has a closed form with exponent 1 (contact.hpp), several that Theta
+// couples take Newton steps (contact_gram.hpp).
 #pragma once
 
 #include "schemes/contact/rigid_rule.hpp"
@@ -15,7 +17,8 @@ public:
     static constexpr bool conserves = true;
     using Rigid = RigidRule;
 
-    GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int) : PlainRule(laws, theta), gram_(laws, theta) {}
+    GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
+        : PlainRule(laws, theta), gram_(laws, theta) {}
     void set(std::span<const double> theta) noexcept { gram_.set(theta); }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
         if (laws_.size() != 1) return gram_.solve(at.older, at.b, r, force);

@@ -1,5 +1,6 @@
-// Source: Ducceschi, Bilbao, Willemsen & Serafin 2021; the release and its convex form: quadratised_rule.hpp. Newton's method with a
-// derivative line search (Nocedal & Wright 2006, chapter 3).
+// Source: Ducceschi, Bilbao, Willemsen & Serafin 2021; the release and its convex form:
+// quadratised_rule.hpp. Newton's method with a derivative line search (Nocedal & Wright 2006,
+// chapter 3).
 #include "schemes/contact/quadratised_rule.hpp"
 
 #include <algorithm>
@@ -14,12 +15,18 @@ constexpr double rounding = 2e-15, force_change = 1e-9;  // as in contact_gram.c
 constexpr double no_psi = 1e-150;                        // [sqrt(J)] its square is no number
 }  // namespace
 
-QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws, std::span<const double> theta, int levels,
+QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws,
+                                         std::span<const double> theta, int levels,
                                          Quadratisation variant)
-    : variant_(variant), levels_(levels), c_(levels == 1 ? 0.5 : 1), theta_(theta.begin(), theta.end()), system_(laws.size()) {
+    : variant_(variant),
+      levels_(levels),
+      c_(levels == 1 ? 0.5 : 1),
+      theta_(theta.begin(), theta.end()),
+      system_(laws.size()) {
     const std::size_t n = laws.size();
     for (const ContactLaw& law : laws) laws_.push_back(QuadratisedLaw::make(law, variant, c_));
-    for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_}) v->assign(n, 0.0);
+    for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_})
+        v->assign(n, 0.0);
     set_.assign(n, 0);
 }
 
@@ -44,7 +51,8 @@ bool QuadratisedContacts::solve_linearly() noexcept {
         if (gamma != 0) set_[many_++] = a;
     }
     if (!factor()) return false;
-    for (int i = 0; i < many_; ++i) work_[i] = std::sqrt(c_) * (2 * psi_[set_[i]] - gamma_[set_[i]] * free_[set_[i]]);
+    for (int i = 0; i < many_; ++i)
+        work_[i] = std::sqrt(c_) * (2 * psi_[set_[i]] - gamma_[set_[i]] * free_[set_[i]]);
     system_.solve(work_.data());
     for (int i = 0; i < many_; ++i) {
         f_[set_[i]] = scale_[set_[i]] * work_[i];
@@ -57,7 +65,8 @@ double QuadratisedContacts::falls_short(int a) const noexcept {
     double sum = free_[a];
     for (int b = 0; b < contacts(); ++b) sum += theta_[a * contacts() + b] * f_[b];
     const bool stays = gamma_[a] > 0 && f_[a] >= c_ * gamma_[a] * psi_[a];
-    return sum - (stays ? (2 * psi_[a] - f_[a] / (c_ * gamma_[a])) / gamma_[a] : c_ * psi_[a] * psi_[a] / f_[a]);
+    return sum - (stays ? (2 * psi_[a] - f_[a] / (c_ * gamma_[a])) / gamma_[a]
+                        : c_ * psi_[a] * psi_[a] / f_[a]);
 }
 
 bool QuadratisedContacts::release() noexcept {
@@ -67,7 +76,10 @@ bool QuadratisedContacts::release() noexcept {
         gamma_[a] = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
         next_[a] = 0;
         f_[a] = gamma_[a] > 0 || psi_[a] > 0
-                    ? std::max(solve_quadratised(laws_[a], eta_[a], psi_[a], free_[a], theta_[a * n + a]).force, 0.0)
+                    ? std::max(
+                          solve_quadratised(laws_[a], eta_[a], psi_[a], free_[a], theta_[a * n + a])
+                              .force,
+                          0.0)
                     : 0;
         if (psi_[a] > 0) f_[a] = std::max(f_[a], std::numeric_limits<double>::min());
     }
@@ -85,13 +97,15 @@ bool QuadratisedContacts::release() noexcept {
         many_ = 0;
         for (int a = 0; a < n; ++a) {
             df_[a] = 0;
-            if (psi_[a] > 0 || (gamma_[a] > 0 && (f_[a] > 0 || falls_short(a) < 0))) set_[many_++] = a;
+            if (psi_[a] > 0 || (gamma_[a] > 0 && (f_[a] > 0 || falls_short(a) < 0)))
+                set_[many_++] = a;
         }
         if (many_ == 0) return true;
         solved = true;
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
-            scale_[a] = stays(a) ? std::sqrt(c_) * gamma_[a] : f_[a] / (std::sqrt(c_) * psi_[a]);  // (-dr/dF)^-1/2
+            // (-dr/dF)^-1/2
+            scale_[a] = stays(a) ? std::sqrt(c_) * gamma_[a] : f_[a] / (std::sqrt(c_) * psi_[a]);
             work_[i] = -scale_[a] * falls_short(a);
         }
         if (!factor()) return false;
@@ -102,12 +116,17 @@ bool QuadratisedContacts::release() noexcept {
             df_[a] = scale_[a] * work_[i];
             double reach = std::abs(free_[a]) + std::abs(eta_[a]);
             for (int b = 0; b < n; ++b) reach += std::abs(theta_[a * n + b] * f_[b]);
-            solved = solved && (std::abs(df_[a]) <= force_change * f_[a] || std::abs(falls_short(a)) <= rounding * reach);
-            if (f_[a] + df_[a] <= 0) t = std::min(t, psi_[a] > 0 ? -0.9 * f_[a] / df_[a] : f_[a] > 0 ? -f_[a] / df_[a] : 1.0);
+            solved = solved && (std::abs(df_[a]) <= force_change * f_[a] ||
+                                std::abs(falls_short(a)) <= rounding * reach);
+            if (f_[a] + df_[a] <= 0)
+                t = std::min(t, psi_[a] > 0 ? -0.9 * f_[a] / df_[a]
+                                : f_[a] > 0 ? -f_[a] / df_[a]
+                                            : 1.0);
         }
         if (!solved) {
             const double start = merit_slope(0);
-            if (merit_slope(t) > 0.25 * std::abs(start)) {  // past the minimum: bisect for a point where the slope has fallen by half
+            // past the minimum: bisect for a point where the slope has fallen by half
+            if (merit_slope(t) > 0.25 * std::abs(start)) {
                 double low = 0, high = t;
                 for (int i = 0; i < 60; ++i) {
                     t = 0.5 * (low + high);
@@ -139,7 +158,8 @@ GramSolution QuadratisedContacts::solve(const BeforeStep& at, double* r, double*
     iterations_ = 0;
     bool solved = true;
     if (contacts() == 1) {  // in closed form
-        const QuadratisedStep s = solve_quadratised(laws_[0], eta_[0], psi_[0], free_[0], theta_[0]);
+        const QuadratisedStep s =
+            solve_quadratised(laws_[0], eta_[0], psi_[0], free_[0], theta_[0]);
         f_[0] = s.force;
         next_[0] = s.psi;
     } else {

@@ -1,17 +1,21 @@
-// Contacts by energy quadratisation: each has a psi of its own, psi = sqrt(2V), stepped as a state (quadratised_contact.hpp; Ducceschi,
-// Bilbao, Willemsen & Serafin 2021, of several collisions). With gamma taken at the level that the step is centred on,
+// Contacts by energy quadratisation: each has a psi of its own, psi = sqrt(2V), stepped as a state
+// (quadratised_contact.hpp; Ducceschi, Bilbao, Willemsen & Serafin 2021, of several collisions).
+// With gamma taken at the level that the step is centred on,
 //
-//     psi+ = psi - gamma r,   F = c gamma (psi + psi+),   r = free + Theta F,   c = 1/2 in two-point steps, 1 in three-point ones
+//     psi+ = psi - gamma r,   F = c gamma (psi + psi+),   r = free + Theta F,   c = 1/2 in
+//                             two-point steps, 1 in three-point ones
 //
-// so the forces are those of one symmetric system (I + G Theta G) x = sqrt(c) (2 psi - gamma free), G = sqrt(c) gamma, F = G x: one linear
-// solve a step in the raw form. Where psi+ would turn negative, and wherever psi > 0 out of contact, the released form has
-// psi+ = 0 and F r = c psi^2. Then each r falls with its F,
+// so the forces are those of one symmetric system (I + G Theta G) x = sqrt(c) (2 psi - gamma free),
+// G = sqrt(c) gamma, F = G x: one linear solve a step in the raw form. Where psi+ would turn
+// negative, and wherever psi > 0 out of contact, the released form has psi+ = 0 and F r = c psi^2.
+// Then each r falls with its F,
 //
 //     r = (2 psi - F/(c gamma))/gamma  where F >= c gamma psi,   else  r = c psi^2/F,
 //
-// and the forces are the minimum of a convex function: Newton steps with a line search, F > 0 throughout. Whatever gamma is, F r is
-// c (psi^2 - psi+^2) contact by contact, so the energy is balanced exactly. In three-point steps psi lives at half steps, and from rest
-// F^0 = 2 gamma psi^{1/2}, psi^{1/2} = psi^0 - gamma (y^1 - y^0).
+// and the forces are the minimum of a convex function: Newton steps with a line search, F > 0
+// throughout. Whatever gamma is, F r is c (psi^2 - psi+^2) contact by contact, so the energy is
+// balanced exactly. In three-point steps psi lives at half steps, and from rest F^0 = 2 gamma
+// psi^{1/2}, psi^{1/2} = psi^0 - gamma (y^1 - y^0).
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"
@@ -21,21 +25,27 @@ namespace jvari {
 
 class QuadratisedContacts {
 public:
-    QuadratisedContacts(std::span<const ContactLaw>, std::span<const double> theta, int levels, Quadratisation);
+    QuadratisedContacts(std::span<const ContactLaw>, std::span<const double> theta, int levels,
+                        Quadratisation);
 
     int dofs() const { return static_cast<int>(laws_.size()); }  // psi
-    void set(std::span<const double> theta) noexcept { std::copy(theta.begin(), theta.end(), theta_.begin()); }
+    void set(std::span<const double> theta) noexcept {
+        std::copy(theta.begin(), theta.end(), theta_.begin());
+    }
     void begin(const double* eta);
     bool acts(const BeforeStep&) const;
     GramSolution solve(const BeforeStep&, double* r, double* force) noexcept;
     GramSolution start(const BeforeStep&, double* r, double* force) noexcept;
-    double potential(int a, double) const { return 0.5 * psi_[a] * psi_[a]; }  // of the half step after, in three-point steps
+    // of the half step after, in three-point steps
+    double potential(int a, double) const { return 0.5 * psi_[a] * psi_[a]; }
     std::vector<Fact> facts() const { return seen_.list(); }
 
 private:
     bool solve_linearly() noexcept;
     bool release() noexcept;
-    bool factor() noexcept { return system_.factor(theta_.data(), contacts(), set_.data(), many_, scale_.data()); }
+    bool factor() noexcept {
+        return system_.factor(theta_.data(), contacts(), set_.data(), many_, scale_.data());
+    }
     double falls_short(int a) const noexcept;  // free + Theta f, less the r that f belongs to
     void end(const BeforeStep&, double* r, double* force) noexcept;
     int contacts() const { return static_cast<int>(laws_.size()); }
@@ -54,10 +64,12 @@ private:
     QuadratisedFacts seen_;
 };
 
-// in_the_middle: gamma of two-point steps at their middle, by which the rule is of second order, in place of the older level.
+// in_the_middle: gamma of two-point steps at their middle, by which the rule is of second order, in
+// place of the older level.
 template <Quadratisation variant, bool in_the_middle = false>
 struct QuadratisedRule : QuadratisedContacts {
-    static constexpr bool conserves = true, iterates = variant == Quadratisation::released, centred = in_the_middle;
+    static constexpr bool conserves = true, iterates = variant == Quadratisation::released,
+                          centred = in_the_middle;
     QuadratisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : QuadratisedContacts(laws, theta, levels, variant) {}
 };

@@ -10,7 +10,8 @@ Residual::Residual(const MissingMatrix& m, double span)
     const auto n = static_cast<Eigen::Index>(points);
     const auto of = [n](std::vector<double>& x) { return Eigen::Map<Matrix>(x.data(), n, n); };
     Eigen::VectorXd branch(n);
-    for (Eigen::Index k = 0; k < n; ++k) branch[k] = masses.emplace_back(m.ladder.mass[k], m.ladder.resistance[k], span).branch;
+    for (Eigen::Index k = 0; k < n; ++k)
+        branch[k] = masses.emplace_back(m.ladder.mass[k], m.ladder.resistance[k], span).branch;
     const Matrix R = of(damper) + of(V).transpose() * branch.asDiagonal() * of(V);
     const Matrix w = (R * of(C) / span + 0.5 * Matrix::Identity(n, n)).inverse(), k = of(C) * w;
     of(W) = w;
@@ -30,7 +31,8 @@ ResidualPair::ResidualPair(const MissingMatrix& m, double span) {
         if (contact) b_[k] = of.V[k * of.points];
         if (m.thread) c_[k] = of.V[(k + 1) * of.points - 1];
     }
-    const double C_bc = both ? of.C[1] : 0, C_cc = m.thread ? of.C.back() : 0, det = C_bb * C_cc - C_bc * C_bc;
+    const double C_bc = both ? of.C[1] : 0, C_cc = m.thread ? of.C.back() : 0,
+                 det = C_bb * C_cc - C_bc * C_bc;
     if (det > 0) stiff_bb = C_cc / det, stiff_bc = -C_bc / det, stiff_cc = C_bb / det;
     else if (C_bb > 0) stiff_bb = 1 / C_bb;
     else if (C_cc > 0) stiff_cc = 1 / C_cc;

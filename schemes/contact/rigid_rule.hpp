@@ -1,17 +1,23 @@
-// Barriers that do not give way: the limit of the discrete gradient (gradient_rule.hpp) for k -> infinity. What then gives way is Theta
-// alone: the modes over the step, and with compliance=matched the element that stands for the modes left out, a contact point without mass
-// (Monjaraz-Tec, Gross & Krack 2022, "massless boundary component mode synthesis"). No law of impact is needed.
+// Barriers that do not give way: the limit of the discrete gradient (gradient_rule.hpp) for k ->
+// infinity. What then gives way is Theta alone: the modes over the step, and with
+// compliance=matched the element that stands for the modes left out, a contact point without mass
+// (Monjaraz-Tec, Gross & Krack 2022, "massless boundary component mode synthesis"). No law of
+// impact is needed.
 //
-// A spring that gets ever stiffer gives way by nothing, but its energy V = k eta^2/2 has a limit. So each contact has one state, V, which
-// is not 0 only in a step in which it lies on its barrier. With b and gap = -eta before the step, r = -b + Theta F,
+// A spring that gets ever stiffer gives way by nothing, but its energy V = k eta^2/2 has a limit.
+// So each contact has one state, V, which is not 0 only in a step in which it lies on its barrier.
+// With b and gap = -eta before the step, r = -b + Theta F,
 //
-//     V = 0:   0 <= F,   0 <= gap + r,   F (gap + r) = 0,   V+ = F gap     stays out; or comes to lie on the barrier, or stays there
-//     V > 0:   F r = V,  r > 0,   V+ = 0                                   what struck the barrier is thrown back by what it gave
+//     V = 0:   0 <= F,   0 <= gap + r,   F (gap + r) = 0,   V+ = F gap     stays out; or comes to
+//              lie on the barrier, or stays there
+//     V > 0:   F r = V,  r > 0,   V+ = 0                                   what struck the barrier
+//              is thrown back by what it gave
 //
-// The first line is a linear complementarity problem. It constrains the new position, not the mean: a point that strikes does so F gap
-// before the step ends, and the second line returns this. The invariant of obstacle_rule.hpp holds exactly with potential = V; F never
-// pulls; no energy is gained whatever the step. Several contacts: the same in turn, each with the others' forces held (Gauss-Seidel on a
-// convex problem: Theta is a Gram matrix), until no force changes.
+// The first line is a linear complementarity problem. It constrains the new position, not the mean:
+// a point that strikes does so F gap before the step ends, and the second line returns this. The
+// invariant of obstacle_rule.hpp holds exactly with potential = V; F never pulls; no energy is
+// gained whatever the step. Several contacts: the same in turn, each with the others' forces held
+// (Gauss-Seidel on a convex problem: Theta is a Gram matrix), until no force changes.
 // In three-point steps every other level is a chain of its own, with a V of its own.
 #pragma once
 
@@ -34,17 +40,21 @@ public:
     bool acts(const BeforeStep& at) const {
         bool touching = false;
         for (std::size_t a = 0; a < stored_.size(); ++a)
-            touching = touching || stored_[a].older > 0 || stored_[a].now > 0 || at.older[a] + at.b[a] > 0;
+            touching =
+                touching || stored_[a].older > 0 || stored_[a].now > 0 || at.older[a] + at.b[a] > 0;
         return touching;
     }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept;
-    double potential(int a, double) const { return levels_ == 1 ? stored_[a].older : 0.5 * (stored_[a].older + stored_[a].now); }
+    double potential(int a, double) const {
+        return levels_ == 1 ? stored_[a].older : 0.5 * (stored_[a].older + stored_[a].now);
+    }
 
 private:
     struct Levels {                 // V [J]
         double older = 0, now = 0;  // now: in three-point steps only
     };
-    double force_of(std::size_t a, double eta, double b) const {  // of a contact with the others' forces held in b
+    // of a contact with the others' forces held in b
+    double force_of(std::size_t a, double eta, double b) const {
         const double theta = theta_[a * stored_.size() + a], V = stored_[a].older;
         if (V <= 0) return std::max(0.0, (eta + b) / theta);
         const double root = std::sqrt(b * b + 4 * theta * V);  // r^2 + b r - theta V = 0
@@ -57,7 +67,8 @@ private:
 
 inline GramSolution RigidRule::solve(const BeforeStep& at, double* r, double* force) noexcept {
     const GramSolution s =
-        solve_in_turn(theta_, at.b, stored_.size(), r, force, [&](std::size_t a, double b) { return force_of(a, at.older[a], b); });
+        solve_in_turn(theta_, at.b, stored_.size(), r, force,
+                      [&](std::size_t a, double b) { return force_of(a, at.older[a], b); });
     for (std::size_t a = 0; a < stored_.size(); ++a) {
         Levels& V = stored_[a];
         const double newer = V.older > 0 ? 0 : std::max(0.0, -force[a] * r[a]);

@@ -1,6 +1,8 @@
-// I + S Theta S over some of the contacts, S a scale for each: symmetric and positive definite whatever the rank of Theta, which is a Gram
-// matrix. Contact losses, quadratised contacts and Newton's steps on several contacts all come to it. Factored as L L' column by column,
-// which compilers vectorise: as fast as Eigen's LLT, and at any size without the workspace that Eigen allocates from some hundreds on.
+// I + S Theta S over some of the contacts, S a scale for each: symmetric and positive definite
+// whatever the rank of Theta, which is a Gram matrix. Contact losses, quadratised contacts and
+// Newton's steps on several contacts all come to it. Factored as L L' column by column, which
+// compilers vectorise: as fast as Eigen's LLT, and at any size without the workspace that Eigen
+// allocates from some hundreds on.
 #pragma once
 
 #include <cmath>
@@ -13,8 +15,10 @@ class ScaledSystem {
 public:
     explicit ScaledSystem(std::size_t most = 0) : factor_(most * most) {}  // contacts
 
-    // theta: of all contacts, row-major, `stride` of them; set: the n that are meant; scale: of all. False where a pivot is not finite.
-    bool factor(const double* theta, int stride, const int* set, int n, const double* scale) noexcept {
+    // theta: of all contacts, row-major, `stride` of them; set: the n that are meant; scale: of
+    // all. False where a pivot is not finite.
+    bool factor(const double* theta, int stride, const int* set, int n,
+                const double* scale) noexcept {
         size_ = n;
         for (int j = 0; j < n; ++j) {
             const double* row = theta + static_cast<std::ptrdiff_t>(set[j]) * stride;
@@ -49,7 +53,9 @@ public:
 
 private:
     double* column(int j) { return factor_.data() + static_cast<std::ptrdiff_t>(j) * size_; }
-    const double* column(int j) const { return factor_.data() + static_cast<std::ptrdiff_t>(j) * size_; }
+    const double* column(int j) const {
+        return factor_.data() + static_cast<std::ptrdiff_t>(j) * size_;
+    }
     std::vector<double> factor_;
     int size_ = 0;
 };

@@ -1,5 +1,6 @@
-// Several contacts whose forces are found one by one, the others' held, until no r changes (Gauss-Seidel). It converges where each force
-// falls with its r, since Theta is a Gram matrix and the problem convex. One contact is solved once.
+// Several contacts whose forces are found one by one, the others' held, until no r changes
+// (Gauss-Seidel). It converges where each force falls with its r, since Theta is a Gram matrix and
+// the problem convex. One contact is solved once.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace jvari {
 
 // force_of(a, b): F of contact a where r = -b + theta_aa F. theta: row-major between the contacts.
 template <class ForceOf>
-GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::size_t n, double* r, double* force, ForceOf force_of) {
+GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::size_t n, double* r,
+                           double* force, ForceOf force_of) {
     constexpr int most_sweeps = 10000;
     const auto held = [&](std::size_t a) {  // sum of Theta F over the others
         double sum = 0;
@@ -25,9 +27,11 @@ GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::
     s.converged = false;
     std::fill_n(force, n, 0.0);
     for (s.iterations = 1; s.iterations <= most_sweeps && !s.converged; ++s.iterations) {
-        double change = 0, reach = 0;  // of r [m]: what forces do that Theta hardly tells apart is left open
+        // of r [m]: what forces do that Theta hardly tells apart is left open
+        double change = 0, reach = 0;
         for (std::size_t a = 0; a < n; ++a) {
-            const double others = held(a), F = force_of(a, b[a] - others), theta_aa = theta[a * n + a];
+            const double others = held(a), F = force_of(a, b[a] - others),
+                         theta_aa = theta[a * n + a];
             change = std::max(change, theta_aa * std::abs(F - force[a]));
             reach = std::max(reach, std::abs(b[a]) + std::abs(others) + theta_aa * F);
             force[a] = F;

@@ -1,10 +1,13 @@
-// A scheme is a string (string_step.hpp), an obstacle rule (contact/obstacle_rule.hpp) and this driver, which has all that is neither:
-// rows, means of the contact forces, the energy ledger, what stands in series and is moved by the pluck, stopping and failing.
+// A scheme is a string (string_step.hpp), an obstacle rule (contact/obstacle_rule.hpp) and this
+// driver, which has all that is neither: rows, means of the contact forces, the energy ledger, what
+// stands in series and is moved by the pluck, stopping and failing.
 //
-// Instants. Row n is written when the force of step n is known. A contact force is the mean over the interval that ends at the row: of
-// two-point steps the mean of theirs; of three-point steps, whose force F^n stands for n - 1/2 .. n + 1/2, the trapezoidal mean.
-// Energy: stored(n) - stored(n-1) = supplied - dissipated, over the steps after the former row, where the rule conserves. Stored is the
-// string's own (string_step.hpp) and the points' potential at the same instants, P(n) or [P(n) + P(n+1)]/2.
+// Instants. Row n is written when the force of step n is known. A contact force is the mean over
+// the interval that ends at the row: of two-point steps the mean of theirs; of three-point steps,
+// whose force F^n stands for n - 1/2 .. n + 1/2, the trapezoidal mean. Energy: stored(n) -
+// stored(n-1) = supplied - dissipated, over the steps after the former row, where the rule
+// conserves. Stored is the string's own (string_step.hpp) and the points' potential at the same
+// instants, P(n) or [P(n) + P(n+1)]/2.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +22,14 @@ namespace jvari {
 // Means of the forces of a string's points, from row to row.
 class RowForces {
 public:
-    RowForces(int points, int levels, int steps) : sum_(points), mean_(points), levels_(levels), steps_(steps) {}
+    RowForces(int points, int levels, int steps)
+        : sum_(points), mean_(points), levels_(levels), steps_(steps) {}
     void clear() noexcept { std::fill(sum_.begin(), sum_.end(), 0.0); }
     void count(const double* force) noexcept {
         for (std::size_t p = 0; p < sum_.size(); ++p) sum_[p] += force[p];
     }
-    const double* take(const double* last, bool at_start) noexcept {  // last: the forces of the step in hand
+    // last: the forces of the step in hand
+    const double* take(const double* last, bool at_start) noexcept {
         for (std::size_t p = 0; p < sum_.size(); ++p) {
             const double half = levels_ == 2 ? 0.5 * last[p] : 0;
             mean_[p] = at_start ? 0 : (sum_[p] - half) / steps_;
@@ -44,8 +49,11 @@ public:
     static constexpr int levels = String::levels;
 
     Driver(std::unique_ptr<String> string, int steps_per_row)
-        : string_(std::move(string)), steps_(steps_per_row), means_(points().count(), levels, steps_per_row) {
-        obstacle_ = {points().contacts, points().threads, points().theta, levels * points().dt, levels};
+        : string_(std::move(string)),
+          steps_(steps_per_row),
+          means_(points().count(), levels, steps_per_row) {
+        obstacle_ = {points().contacts, points().threads, points().theta, levels * points().dt,
+                     levels};
         if constexpr (levels == 2) {
             std::vector<double> theta = points().start_theta;
             for (double x : points().theta)
@@ -121,23 +129,30 @@ private:
 
     void step(bool probed, bool last_of_row) noexcept {
         string_->approach(last_of_row);
-        const long n = done_ + levels - 1, before = n + 1 - levels;  // the level that the step is centred on, or starts from; its oldest
+        // the level that the step is centred on, or starts from; its oldest
+        const long n = done_ + levels - 1, before = n + 1 - levels;
         const ReadingsBeforeStep at = with_pluck(string_->readings(), before, n, n + 1);
         if constexpr (stretches) obstacle_.set(string_->theta());
-        if (!force_.empty() && !obstacle_.solve(at, force_.data())) status_ = {Outcome::not_converged, done_};
+        if (!force_.empty() && !obstacle_.solve(at, force_.data()))
+            status_ = {Outcome::not_converged, done_};
         means_.count(force_.data());
         const Spent spent = string_->pass(force_.data(), 0, probed);
         if (probed) {
             supplied_ += spent.supplied - by_way_of_series(before, n + 1);
             dissipated_ += spent.dissipated + dt_ * obstacle_.loss();
         }
-        if (string_->failed() && status_.outcome == Outcome::ok) status_ = {Outcome::diverged, done_};
+        if (string_->failed() && status_.outcome == Outcome::ok)
+            status_ = {Outcome::diverged, done_};
         ++done_;
     }
 
     // The pluck moves the points by way of what is in series too.
-    double pluck_at(long n) const { return points().pluck ? jvari::force(*points().pluck, static_cast<double>(n) * points().dt) : 0; }
-    ReadingsBeforeStep with_pluck(const ReadingsBeforeStep& at, long older, long now, long newer) noexcept {
+    double pluck_at(long n) const {
+        return points().pluck ? jvari::force(*points().pluck, static_cast<double>(n) * points().dt)
+                              : 0;
+    }
+    ReadingsBeforeStep with_pluck(const ReadingsBeforeStep& at, long older, long now,
+                                  long newer) noexcept {
         if (!plucked_in_series_) return at;
         const double a = pluck_at(older), b = pluck_at(now), c = pluck_at(newer);
         for (int p = 0; p < points().count(); ++p) {
@@ -148,11 +163,13 @@ private:
         }
         return {older_.data(), now_.data(), free_.data()};
     }
-    double by_way_of_series(long older, long newer) const noexcept {  // the work that the forces do there [J]
+    // the work that the forces do there [J]
+    double by_way_of_series(long older, long newer) const noexcept {
         double work = 0;
         if (!plucked_in_series_) return work;
         const double change = pluck_at(newer) - pluck_at(older);
-        for (int p = 0; p < points().count(); ++p) work += force_[p] * points().series->pluck[p] * change;
+        for (int p = 0; p < points().count(); ++p)
+            work += force_[p] * points().series->pluck[p] * change;
         return work / levels;
     }
 
@@ -161,7 +178,8 @@ private:
         for (int level = 0; level < levels; ++level) {
             string_->reading(level, now_.data());
             if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
-                for (int p = 0; p < points().count(); ++p) now_[p] += points().series->pluck[p] * F_e;
+                for (int p = 0; p < points().count(); ++p)
+                    now_[p] += points().series->pluck[p] * F_e;
             sum += obstacle_.potential(now_.data(), level) / levels;
         }
         return sum;
@@ -172,7 +190,9 @@ private:
         for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = string_->tap(k, means);
         if (points().series) {
             obstacle_.forces(0, now_.data());
-            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] += points().series->on_tap(k, now_.data(), pluck_at(done_));
+            for (int k = 0; k < out.taps; ++k)
+                out.tap[k * out.stride + row] +=
+                    points().series->on_tap(k, now_.data(), pluck_at(done_));
         }
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
@@ -191,15 +211,18 @@ private:
 };
 
 template <ObstacleRule Rule, StringStep String, class Tell>
-std::unique_ptr<Scheme> driven_as_told(std::unique_ptr<String> string, const Settings& settings, Tell tell) {
+std::unique_ptr<Scheme> driven_as_told(std::unique_ptr<String> string, const Settings& settings,
+                                       Tell tell) {
     auto made = std::make_unique<Driver<String, Rule>>(std::move(string), steps_per_row(settings));
     made->tell(tell);
     return made;
 }
 
-// The scheme of a string and a rule, which reads its options. Where the barriers do not give way, by the rule that is the limit of it.
+// The scheme of a string and a rule, which reads its options. Where the barriers do not give way,
+// by the rule that is the limit of it.
 template <ObstacleRule Rule, StringStep String>
-std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme, const Settings& settings) {
+std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme,
+                               const Settings& settings) {
     const auto choose = [&settings](auto& rule) {
         if constexpr (requires { rule.choose(settings); }) rule.choose(settings);
     };

@@ -20,7 +20,13 @@ struct Column {
     Features leaves_out;
 };
 #define JVARI_ROW(name, Rule, source) \
-    {#name, source, Rule::conserves, OwnOnly<Rule>, options_of<Rule>(), approximations_of<Rule>(), left_out_by<Rule>()},
+    {#name,                           \
+     source,                          \
+     Rule::conserves,                 \
+     OwnOnly<Rule>,                   \
+     options_of<Rule>(),              \
+     approximations_of<Rule>(),       \
+     left_out_by<Rule>()},
 const Column columns[] = {JVARI_RULES(JVARI_ROW)};
 #undef JVARI_ROW
 
@@ -49,10 +55,12 @@ std::span<const T> both(std::span<const T> one, std::span<const T> other) {  // 
     kept.back().insert(kept.back().end(), other.begin(), other.end());
     return kept.back();
 }
-std::span<const Option> own_only(std::span<const Option> options) {  // without compliance=matched, kept for good
+// without compliance=matched, kept for good
+std::span<const Option> own_only(std::span<const Option> options) {
     static std::list<std::vector<Option>> kept;
     kept.emplace_back(options.begin(), options.end());
-    std::erase_if(kept.back(), [](const Option& o) { return std::string(o.name) == compliance_option.name; });
+    std::erase_if(kept.back(),
+                  [](const Option& o) { return std::string(o.name) == compliance_option.name; });
     return kept.back();
 }
 }  // namespace
@@ -63,8 +71,9 @@ std::vector<Pairing> pairings() {
         all.push_back({row->scheme->name, "gradient", row->scheme->name, ""});
         for (const Column& column : columns) {
             const StringRow::Known* known = known_cell(*row, column);
-            all.push_back(
-                {row->scheme->name, column.name, known ? known->scheme->name : new_name(*row, column), known ? known->options : ""});
+            all.push_back({row->scheme->name, column.name,
+                           known ? known->scheme->name : new_name(*row, column),
+                           known ? known->options : ""});
         }
     }
     return all;
@@ -81,7 +90,8 @@ const std::vector<Descriptor>& schemes_of_pairings() {
                 d.name = names.emplace_back(new_name(*row, columns[c])).c_str();
                 d.source = columns[c].source;
                 d.represents = d.represents - Feature::moving_body - columns[c].leaves_out;
-                d.options = both(columns[c].own_only ? own_only(d.options) : d.options, columns[c].options);
+                d.options =
+                    both(columns[c].own_only ? own_only(d.options) : d.options, columns[c].options);
                 d.approximates = both(d.approximates, columns[c].approximates);
                 d.balance = columns[c].conserves ? Balance::exact : Balance::none;
                 d.make = row->makers[c];

@@ -1,6 +1,7 @@
-// The table of pairings: a row for each string, a column for each obstacle rule, a scheme in each cell. The schemes of the first column,
-// by the discrete gradient, and some others have names that the field knows, and are in schemes.def. All others are made here, named
-// STRING_RULE, and are found by their name alone: no comparison runs them unasked.
+// The table of pairings: a row for each string, a column for each obstacle rule, a scheme in each
+// cell. The schemes of the first column, by the discrete gradient, and some others have names that
+// the field knows, and are in schemes.def. All others are made here, named STRING_RULE, and are
+// found by their name alone: no comparison runs them unasked.
 #pragma once
 
 #include <string>
@@ -18,8 +19,9 @@ constexpr int rule_count = 0 JVARI_RULES(JVARI_ROW);
 #undef JVARI_ROW
 
 struct StringRow {
-    const Descriptor* scheme;       // by the discrete gradient
-    MakeScheme makers[rule_count];  // by each other rule: {JVARI_RULES(JVARI_MAKER)} of a template made<Rule>
+    const Descriptor* scheme;  // by the discrete gradient
+    // by each other rule: {JVARI_RULES(JVARI_MAKER)} of a template made<Rule>
+    MakeScheme makers[rule_count];
     struct Known {
         const char* rule;
         const Descriptor* scheme;
@@ -32,7 +34,8 @@ struct StringRow {
 struct Pairing {
     std::string string, rule, scheme, options;  // options: by which the scheme is this pairing
 };
-std::vector<Pairing> pairings();                       // all cells, row by row, the discrete gradient first
+// all cells, row by row, the discrete gradient first
+std::vector<Pairing> pairings();
 const std::vector<Descriptor>& schemes_of_pairings();  // those that are made here
 
 }  // namespace jvari

@@ -24,18 +24,21 @@ std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals)
     };
     for (const Barrier& barrier : s.barriers) {
         if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) {
-            add({{b->position, b->width}}, {b->stiffness.k, b->exponent}, b->height, b->contact_loss);
+            add({{b->position, b->width}}, {b->stiffness.k, b->exponent}, b->height,
+                b->contact_loss);
             continue;
         }
         const auto& b = std::get<ProfileBarrier>(barrier);
         const double dx = s.length / intervals;
         const auto [first, x] = nodes_on(b, s.length, intervals);
         if (x.empty())
-            throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) + " m to " + std::to_string(b.to) +
-                          " m: the spacing is " + std::to_string(dx) + " m");
+            throw Refusal("no node of the grid lies on the barrier from " + std::to_string(b.from) +
+                          " m to " + std::to_string(b.to) + " m: the spacing is " +
+                          std::to_string(dx) + " m");
         const std::vector<double> height = heights(b.curve, x);
         for (std::size_t i = 0; i < x.size(); ++i)
-            add({{x[i], 0}, first + static_cast<int>(i)}, {b.stiffness.K * dx, b.exponent}, height[i], b.contact_loss);
+            add({{x[i], 0}, first + static_cast<int>(i)}, {b.stiffness.K * dx, b.exponent},
+                height[i], b.contact_loss);
     }
     return all;
 }
@@ -46,12 +49,17 @@ void add_lumped(StringPoints& p, const String& s) {
 }
 
 void refuse_rigid(const Descriptor& scheme, const StringPoints& p, const double* start) {
-    const auto refuse = [&](const std::string& why) { throw Refusal(std::string(scheme.name) + ": " + why); };
+    const auto refuse = [&](const std::string& why) {
+        throw Refusal(std::string(scheme.name) + ": " + why);
+    };
     for (int a = 0; a < p.contacts.count(); ++a) {
         if (!p.contacts.laws[a].rigid())
-            refuse("a rigid barrier beside one that gives way; make all of them rigid, or give each a stiffness");
+            refuse(
+                "a rigid barrier beside one that gives way; make all of them rigid, or give each a "
+                "stiffness");
         if (const double inside = p.contacts.heights[a] - start[a]; inside > 1e-12 * p.length)
-            refuse("the string starts " + std::to_string(inside * 1e6) + " um inside a rigid barrier; lower the barrier or start above it");
+            refuse("the string starts " + std::to_string(inside * 1e6) +
+                   " um inside a rigid barrier; lower the barrier or start above it");
     }
 }
 

@@ -1,19 +1,23 @@
-// What a string is between contacts: the motion of its step without the forces of its points, what it reads at them, and what they do to
-// it. A new discretisation of the string is a class of this kind and a row of the table.
+// What a string is between contacts: the motion of its step without the forces of its points, what
+// it reads at them, and what they do to it. A new discretisation of the string is a class of this
+// kind and a row of the table.
 //
 //     r_p = free_p + sum_q Theta_pq F_q        p = 0 .. P-1: contacts, then the thread
 //
-// is all that an obstacle has to know of a step (van Walstijn et al. 2016, eqs 44-48; Issanchou et al. 2016, eq 16): readings of the points
-// at the older level, their increments to the newer one without forces, and the compliances Theta. levels = 1: a two-point step, from n to
-// n+1. levels = 2: a three-point step, centred on n, from n-1 to n+1, and the string is stepped one ahead of its row: at row n it holds
-// the levels n-1, n and n+1.
+// is all that an obstacle has to know of a step (van Walstijn et al. 2016, eqs 44-48; Issanchou et
+// al. 2016, eq 16): readings of the points at the older level, their increments to the newer one
+// without forces, and the compliances Theta. levels = 1: a two-point step, from n to n+1. levels =
+// 2: a three-point step, centred on n, from n-1 to n+1, and the string is stepped one ahead of its
+// row: at row n it holds the levels n-1, n and n+1.
 //
-// The invariant: with `stored` the energy that belongs to the row (below), a step with forces F takes
+// The invariant: with `stored` the energy that belongs to the row (below), a step with forces F
+// takes
 //
 //     stored(n) - stored(n-1) = supplied - dissipated + sum_p F_p r_p/levels,   dissipated >= 0
 //
-// to rounding. Of a two-point string `stored` is that of the instant n, of a three-point one that of the half step n + 1/2, which the
-// forces of step n reach; docs/notation.md states this once for all schemes.
+// to rounding. Of a two-point string `stored` is that of the instant n, of a three-point one that
+// of the half step n + 1/2, which the forces of step n reach; docs/notation.md states this once for
+// all schemes.
 #pragma once
 
 #include <concepts>
@@ -28,13 +32,16 @@ namespace jvari {
 
 struct StringPoints {  // what a string is to whatever solves for its points
     Contacts contacts;
-    std::vector<Thread> threads;          // one at most, but of strings on a moving body (schemes/body/instrument.hpp)
-    std::vector<double> positions;        // x_p of each point [m], contacts first
-    std::vector<double> theta;            // row-major over the points, and then the moving body where there is one: [m/N], with the body
-                                          // [s^2], of the body alone [kg s^2]
-    std::vector<double> start_theta;      // of the first half step of a three-point scheme; empty: half of theta
-    std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
-    std::optional<Pluck> pluck;           //
+    // one at most, but of strings on a moving body (schemes/body/instrument.hpp)
+    std::vector<Thread> threads;
+    std::vector<double> positions;  // x_p of each point [m], contacts first
+    // row-major over the points, and then the moving body where there is one: [m/N], with the body
+    // [s^2], of the body alone [kg s^2]
+    std::vector<double> theta;
+    // of the first half step of a three-point scheme; empty: half of theta
+    std::vector<double> start_theta;
+    std::optional<MissingMatrix> series;       // in series with the points, compliance=matched
+    std::optional<Pluck> pluck;                //
     double mass = 0, length = 0, tension = 0;  // mu L [kg], L [m], T [N]
     double dt = 0;                             // [s]
     int count() const { return static_cast<int>(positions.size()); }
@@ -45,11 +52,15 @@ struct Place {  // of a contact: a node of a grid, or a footprint
     Footprint at;
     int node = 0;  // 0: none
 };
-// Adds the string's barriers as contacts; of a profile each node of a grid of so many intervals is one, which stands for a spacing of it.
-std::vector<Place> add_contacts(StringPoints&, const String&, int intervals = 0);  // Refusal where no node lies on a profile
-void add_lumped(StringPoints&, const String&);                                     // its barriers, which all are lumped, and its thread
+// Adds the string's barriers as contacts; of a profile each node of a grid of so many intervals is
+// one, which stands for a spacing of it.
+// Refusal where no node lies on a profile
+std::vector<Place> add_contacts(StringPoints&, const String&, int intervals = 0);
+// its barriers, which all are lumped, and its thread
+void add_lumped(StringPoints&, const String&);
 
-// What a tap of contact forces hears of their means since the last row [N]; 0 of any other quantity.
+// What a tap of contact forces hears of their means since the last row [N]; 0 of any other
+// quantity.
 inline double heard_force(Quantity quantity, const StringPoints& p, const double* mean) {
     double bridge = 0, thread = 0;
     for (int a = 0; a < p.contacts.count(); ++a) bridge += mean[a];
@@ -62,7 +73,8 @@ inline double heard_force(Quantity quantity, const StringPoints& p, const double
     }
 }
 
-// Of barriers one of which is rigid at least: refuses one that gives way beside it, and a start inside it.
+// Of barriers one of which is rigid at least: refuses one that gives way beside it, and a start
+// inside it.
 void refuse_rigid(const Descriptor&, const StringPoints&, const double* reading_at_start);
 
 struct Spent {                            // of one step
@@ -71,23 +83,29 @@ struct Spent {                            // of one step
 
 template <class S>
 concept StringStep = requires(S string, const S known, const double* force, double* out) {
-    { S::levels } -> std::convertible_to<int>;                 // 1 or 2
-    { S::steps_between_looks } -> std::convertible_to<long>;   // (Block::stopped)
-    { known.points() } -> std::same_as<const StringPoints&>;   //
-    string.reset();                                            // t = 0 at rest; of two levels: the free motion to level 1, pluck included
-    string.approach(true);                                     // the next step without the points' forces; true: the last of its row
+    { S::levels } -> std::convertible_to<int>;                // 1 or 2
+    { S::steps_between_looks } -> std::convertible_to<long>;  // (Block::stopped)
+    { known.points() } -> std::same_as<const StringPoints&>;  //
+    // t = 0 at rest; of two levels: the free motion to level 1, pluck included
+    string.reset();
+    // the next step without the points' forces; true: the last of its row
+    string.approach(true);
     { known.readings() } -> std::same_as<ReadingsBeforeStep>;  // of that step
-    { string.pass(force, 0.0, true) } -> std::same_as<Spent>;  // ends it by the forces and w'' of a moving body; true: `Spent` is asked for
-    string.reading(0, out);                                    // of the points at the instant of the row; 1: one step later
-    { string.stored() } -> std::same_as<double>;               // [J], without the points' potential
-    { string.failed() } -> std::same_as<bool>;                 // has diverged
-    { string.tap(0, force) } -> std::same_as<double>;          // tap k of the row; the means of the points' forces since the last one
-    { known.dofs() } -> std::same_as<int>;                     //
-    { known.facts() } -> std::same_as<std::vector<Fact>>;      //
+    // ends it by the forces and w'' of a moving body; true: `Spent` is asked for
+    { string.pass(force, 0.0, true) } -> std::same_as<Spent>;
+    // of the points at the instant of the row; 1: one step later
+    string.reading(0, out);
+    { string.stored() } -> std::same_as<double>;  // [J], without the points' potential
+    { string.failed() } -> std::same_as<bool>;    // has diverged
+    // tap k of the row; the means of the points' forces since the last one
+    { string.tap(0, force) } -> std::same_as<double>;
+    { known.dofs() } -> std::same_as<int>;                          //
+    { known.facts() } -> std::same_as<std::vector<Fact>>;           //
     { known.free_modes() } -> std::same_as<std::vector<FreeMode>>;  //
 };
 
-// Of three points also: start(force, a), which ends the first half step, and thread_start(). A string that a moving body can carry has
-// inertia(), pluck(), momentum() and, of three points, share(): schemes/body/instrument.hpp.
+// Of three points also: start(force, a), which ends the first half step, and thread_start(). A
+// string that a moving body can carry has inertia(), pluck(), momentum() and, of three points,
+// share(): schemes/body/instrument.hpp.
 
 }  // namespace jvari

@@ -1,5 +1,6 @@
-// See finite_difference.hpp for sources. Long: weights, loss fit, limits, von Neumann relations, grid and band matrix stand in the header's
-// order, each a few functions that no other file needs apart.
+// See finite_difference.hpp for sources. Long: weights, loss fit, limits, von Neumann relations,
+// grid and band matrix stand in the header's order, each a few functions that no other file needs
+// apart.
 #include "schemes/grid/finite_difference.hpp"
 
 #include <Eigen/QR>
@@ -26,7 +27,8 @@ Stencil trimmed(int first, std::vector<double> w) {  // without zeros at either 
     return {first + static_cast<int>(low), std::vector<double>(w.begin() + low, w.begin() + high)};
 }
 
-// P(x), P'' the footprint (pi/2w) cos(pi x/w) on |x| < w/2: 0 before it, x after it   (van Walstijn et al. 2016, eq 6)
+// P(x), P'' the footprint (pi/2w) cos(pi x/w) on |x| < w/2: 0 before it, x after it   (van Walstijn
+// et al. 2016, eq 6)
 long double twice_integrated(long double x, long double w) {
     if (x <= -w / 2) return 0;
     if (x >= w / 2) return x;
@@ -38,9 +40,11 @@ long double twice_integrated(long double x, long double w) {
 Stencil footprint_stencil(const Grid& g, double position, double width) {
     const long double h = g.dx;
     std::vector<double> w;
-    for (int l = 1; l < g.intervals; ++l) {  // the integral of footprint x hat: second difference of P over h
+    // the integral of footprint x hat: second difference of P over h
+    for (int l = 1; l < g.intervals; ++l) {
         const auto P = [&](int node) { return twice_integrated(node * h - position, width); };
-        const bool outside = (l + 1) * h <= position - width / 2 || (l - 1) * h >= position + width / 2;
+        const bool outside =
+            (l + 1) * h <= position - width / 2 || (l - 1) * h >= position + width / 2;
         w.push_back(outside ? 0.0 : static_cast<double>((P(l + 1) - 2 * P(l) + P(l - 1)) / h));
     }
     return trimmed(1, w);
@@ -55,16 +59,19 @@ Stencil displacement_stencil(const Grid& g, double position) {
         for (int i = -1; i <= 2; ++i)
             if (i != j) weight *= (at - cell - i) / (j - i);
         int node = cell + j;
-        if (node < 0) node = -node, weight = -weight;                             // u(-x) = -u(x)
-        if (node > g.intervals) node = 2 * g.intervals - node, weight = -weight;  // u(2L - x) = -u(x)
+        if (node < 0) node = -node, weight = -weight;  // u(-x) = -u(x)
+        // u(2L - x) = -u(x)
+        if (node > g.intervals) node = 2 * g.intervals - node, weight = -weight;
         if (node > 0 && node < g.intervals) w[node - 1] += weight;
     }
     return trimmed(1, w);
 }
 
 Stencil nut_force_stencil(const Grid& g, const String& s) {
-    const double slope = s.tension / (12 * g.dx), shear = s.bending_stiffness / (8 * g.dx * g.dx * g.dx);
-    // y' = (-16 u_{N-1} + 2 u_{N-2})/12 dx, y''' = (26 u_{N-1} - 16 u_{N-2} + 2 u_{N-3})/8 dx^3: central differences of an odd function
+    const double slope = s.tension / (12 * g.dx),
+                 shear = s.bending_stiffness / (8 * g.dx * g.dx * g.dx);
+    // y' = (-16 u_{N-1} + 2 u_{N-2})/12 dx, y''' = (26 u_{N-1} - 16 u_{N-2} + 2 u_{N-3})/8 dx^3:
+    // central differences of an odd function
     return {g.intervals - 3, {2 * shear, -2 * slope - 16 * shear, 16 * slope + 26 * shear}};
 }
 
@@ -77,7 +84,8 @@ struct Fit {
 };
 
 // Least squares with the powers 0, 1, 2 of x that `powers` has a bit for.
-Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma, const std::vector<double>& weight) {
+Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma,
+               const std::vector<double>& weight) {
     const auto n = static_cast<Eigen::Index>(x.size());
     Eigen::MatrixXd A(n, std::popcount(static_cast<unsigned>(powers)));
     Eigen::VectorXd b(n);
@@ -104,19 +112,23 @@ LossFit fit_losses(const String& s) {
     double all = 0;  // of the weights: the square that a fit of nothing would leave
     for (std::size_t i = 0; i < n; ++i) {
         if (modes.sigma[i] <= 0) return {};
-        const double relative = modes.beta[i] / modes.beta.back(), weight = 1 / static_cast<double>(i + 1);
+        const double relative = modes.beta[i] / modes.beta.back(),
+                     weight = 1 / static_cast<double>(i + 1);
         x.push_back(relative * relative);
         w.push_back(weight / (modes.sigma[i] * modes.sigma[i]));
         all += weight;
     }
-    Fit best;  // the least squares without negative coefficients are those of the best set of powers that needs none; fewest first
+    // the least squares without negative coefficients are those of the best set of powers that
+    // needs none; fewest first
+    Fit best;
     for (const int powers : {1, 2, 4, 3, 5, 6, 7}) {
         const Fit fit = fit_powers(powers, x, modes.sigma, w);
         const bool negative = std::min({fit.loss.sigma0, fit.loss.sigma1, fit.loss.sigma2}) < 0;
         if (!negative && fit.square < best.square - 1e-20 * all) best = fit;
     }
     LossFit fit = best.loss;
-    for (std::size_t i = 0; i < n; ++i) fit.misfit = std::max(fit.misfit, std::abs(fit.at(x[i]) / modes.sigma[i] - 1));
+    for (std::size_t i = 0; i < n; ++i)
+        fit.misfit = std::max(fit.misfit, std::abs(fit.at(x[i]) / modes.sigma[i] - 1));
     const double square = modes.beta.back() * modes.beta.back();
     fit.sigma1 /= square;
     fit.sigma2 /= square * square;
@@ -132,8 +144,10 @@ double explicit_spacing_limit(const String& s, const LossFit& loss, double dt) {
     return std::sqrt(0.5 * (p + std::sqrt(p * p + 16 * q)));
 }
 
-double theta_spacing_limit(const String& s, double dt, double theta) {  // 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4
-    const double p = s.tension / s.linear_density * dt * dt, q = s.bending_stiffness / s.linear_density * dt * dt;
+// 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4
+double theta_spacing_limit(const String& s, double dt, double theta) {
+    const double p = s.tension / s.linear_density * dt * dt,
+                 q = s.bending_stiffness / s.linear_density * dt * dt;
     const double room = 2 * theta - 1;
     return std::sqrt(0.5 * (p + std::sqrt(p * p + 16 * room * q)) / room);
 }
@@ -142,8 +156,10 @@ double tuned_theta(const String& s, double dt, double dx) {
     return 5.0 / 6 + s.tension / s.linear_density * dt * dt / (6 * dx * dx);
 }
 
-double theta_spacing_limit(const String& s, double dt) {  // the same at the tuned theta: 1 >= c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4
-    const double p = s.tension / s.linear_density * dt * dt, q = s.bending_stiffness / s.linear_density * dt * dt;
+// the same at the tuned theta: 1 >= c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4
+double theta_spacing_limit(const String& s, double dt) {
+    const double p = s.tension / s.linear_density * dt * dt,
+                 q = s.bending_stiffness / s.linear_density * dt * dt;
     return std::sqrt(0.5 * (p + std::sqrt(p * p + 24 * q)));
 }
 
@@ -154,22 +170,28 @@ constexpr double most_intervals = 1 << 17;  // the sum of an initial shape grows
 Grid grid_of(const Descriptor& d, const String& s, double intervals) {
     if (!(intervals >= 5) || intervals != std::floor(intervals) || intervals > most_intervals)
         throw Refusal(std::string(d.name) + ": the grid has " + std::to_string(intervals) +
-                      " intervals, expected a whole number from 5 to " + std::to_string(static_cast<long>(most_intervals)));
+                      " intervals, expected a whole number from 5 to " +
+                      std::to_string(static_cast<long>(most_intervals)));
     return {static_cast<int>(intervals), s.length / intervals};
 }
 
 double spacing_margin(const String& s, const Settings& settings, double limit) {
     const double intervals = number_option(settings, grid_option, 0);
-    return intervals > 0 ? s.length / intervals / limit - 1 : std::numeric_limits<double>::quiet_NaN();
+    return intervals > 0 ? s.length / intervals / limit - 1
+                         : std::numeric_limits<double>::quiet_NaN();
 }
 
 Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, double limit) {
     const double finest = s.length / limit, most = std::floor(finest * (1 + 1e-12));
-    const double over = number_option(settings, over_limit_option, 0), asked = number_option(settings, grid_option, 0);
-    if (over != 0 && !(over > 1)) throw Refusal("option over_limit: found " + std::to_string(over) + ", expected a factor above 1");
+    const double over = number_option(settings, over_limit_option, 0),
+                 asked = number_option(settings, grid_option, 0);
+    if (over != 0 && !(over > 1))
+        throw Refusal("option over_limit: found " + std::to_string(over) +
+                      ", expected a factor above 1");
     if (asked > std::max(most, over * finest))
-        throw Refusal(std::string(d.name) + ": " + std::to_string(asked) + " intervals are over the stability limit, " +
-                      std::to_string(most) + " at " + std::to_string(settings.sample_rate) +
+        throw Refusal(std::string(d.name) + ": " + std::to_string(asked) +
+                      " intervals are over the stability limit, " + std::to_string(most) + " at " +
+                      std::to_string(settings.sample_rate) +
                       " Hz; option over_limit goes there on purpose");
     return grid_of(d, s, asked != 0 ? asked : over != 0 ? std::ceil(finest * over) : most);
 }
@@ -192,10 +214,12 @@ double relative_compliance(const GridString& g, const String& s, const LumpedBar
 std::vector<double> initial_shape(const String& s, const Grid& g) {
     std::vector<double> u(g.intervals + 1, 0.0);
     if (!s.initial) return u;
-    if (const auto* mode = std::get_if<ModeInitial>(&*s.initial); mode && mode->number >= g.intervals)
-        throw Refusal("the initial shape is mode " + std::to_string(mode->number) + " and the grid carries " +
-                      std::to_string(g.intervals - 1));
-    const auto a = initial_displacement(modes_of(s, g.intervals - 1), s);  // as many as the grid can carry
+    if (const auto* mode = std::get_if<ModeInitial>(&*s.initial);
+        mode && mode->number >= g.intervals)
+        throw Refusal("the initial shape is mode " + std::to_string(mode->number) +
+                      " and the grid carries " + std::to_string(g.intervals - 1));
+    // as many as the grid can carry
+    const auto a = initial_displacement(modes_of(s, g.intervals - 1), s);
     std::vector<double> sine(2 * g.intervals);
     for (int k = 0; k < 2 * g.intervals; ++k) sine[k] = std::sin(pi * k / g.intervals);
     for (int l = 1; l < g.intervals; ++l)
@@ -204,7 +228,8 @@ std::vector<double> initial_shape(const String& s, const Grid& g) {
     return u;
 }
 
-// What the grid takes from the string's compliance (contact/compliance.hpp); its steps take none under a steady force.
+// What the grid takes from the string's compliance (contact/compliance.hpp); its steps take none
+// under a steady force.
 void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s) {
     const Sites sites = sites_of(scene, footprints_of(s));
     const BandedFactor stiffness(g.grid, 0, -g.c2, g.kappa2);
@@ -216,23 +241,28 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
     }
     std::vector<Stencil> reader;
     for (const Reading& r : sites.readings)
-        reader.push_back(static_cast<int>(reader.size()) < sites.points() ? footprint_stencil(g.grid, r.at.position, r.at.width)
-                         : r.nut_force                                    ? nut_force_stencil(g.grid, s)
-                                                                          : displacement_stencil(g.grid, r.at.position));
-    g.points.series = missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1, g.points.dt,
-                                     [&](int r, int f) { return reader[r].read(shape[f].data()); });
+        reader.push_back(static_cast<int>(reader.size()) < sites.points()
+                             ? footprint_stencil(g.grid, r.at.position, r.at.width)
+                         : r.nut_force ? nut_force_stencil(g.grid, s)
+                                       : displacement_stencil(g.grid, r.at.position));
+    g.points.series =
+        missing_matrix(d.name, s, sites, scene.taps.size(), g.grid.intervals - 1, g.points.dt,
+                       [&](int r, int f) { return reader[r].read(shape[f].data()); });
 }
 
 void put_on_body(GridString& g) {  // schemes/body/body_step.hpp
     g.on_body = true;
-    for (int l = 1; l < g.grid.intervals; ++l) g.mu.weight.push_back(g.mass * (1 - static_cast<double>(l) / g.grid.intervals));
+    for (int l = 1; l < g.grid.intervals; ++l)
+        g.mu.weight.push_back(g.mass * (1 - static_cast<double>(l) / g.grid.intervals));
 }
 }  // namespace
 
-GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings, const Grid& grid, const LossFit& loss) {
+GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Settings& settings,
+                   const Grid& grid, const LossFit& loss) {
     const double dt = 1 / settings.sample_rate;
     const bool matched = matched_without_loss(descriptor, scene, settings);
-    const String s = matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
+    const String s =
+        matched ? with_profile_points(scene.strings.front(), settings) : scene.strings.front();
     GridString g;
     g.grid = grid;
     g.mass = s.linear_density * grid.dx;
@@ -243,7 +273,8 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.points = points_of(s, dt);
     const auto lump = [&](const Footprint& f) {
         g.stencils.push_back(footprint_stencil(grid, f.position, f.width));
-        g.narrowest = g.narrowest == 0 ? f.width / grid.dx : std::min(g.narrowest, f.width / grid.dx);
+        g.narrowest =
+            g.narrowest == 0 ? f.width / grid.dx : std::min(g.narrowest, f.width / grid.dx);
     };
     for (const Place& place : add_contacts(g.points, s, grid.intervals)) {
         if (place.node != 0) g.stencils.push_back({place.node, {1.0}});
@@ -251,17 +282,20 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     }
     if (g.stencils.size() > most_contacts)
         throw Refusal("the grid has " + std::to_string(g.stencils.size()) +
-                      " points on the barriers, whose compliances on each other are kept; " + std::to_string(most_contacts) +
+                      " points on the barriers, whose compliances on each other are kept; " +
+                      std::to_string(most_contacts) +
                       " at most: a lower rate or option grid makes fewer");
     if (s.barriers.size() == 1)
-        if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front())) g.compliance = relative_compliance(g, s, *b);
+        if (const auto* b = std::get_if<LumpedBarrier>(&s.barriers.front()))
+            g.compliance = relative_compliance(g, s, *b);
     if (s.thread) {
         lump({s.thread->position, s.thread->width});
         g.points.positions.push_back(s.thread->position);
     }
     if (s.pluck) g.pluck_stencil = footprint_stencil(grid, s.pluck->position, s.pluck->width);
     for (const Tap& tap : scene.taps) {
-        const bool of_a_point = tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
+        const bool of_a_point =
+            tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
         GridTap t{tap.quantity, {}};
         if (of_a_point) t.stencil = displacement_stencil(grid, tap.position);
         if (tap.quantity == Quantity::nut_force) t.stencil = nut_force_stencil(grid, s);
@@ -272,18 +306,18 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     return g;
 }
 
-double GridString::pluck_at(double t) const {
-    return points.pluck ? force(*points.pluck, t) : 0;
-}
+double GridString::pluck_at(double t) const { return points.pluck ? force(*points.pluck, t) : 0; }
 
 // ---- Von Neumann relations.
 
 namespace {
 struct Symbols {
-    double lambda, stiffness, loss;  // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
+    // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
+    double lambda, stiffness, loss;
 };
 Symbols symbols(const GridString& g, int mode) {
-    const double sine = std::sin(0.5 * pi * mode / g.grid.intervals) / (0.5 * g.grid.dx), lambda = sine * sine;
+    const double sine = std::sin(0.5 * pi * mode / g.grid.intervals) / (0.5 * g.grid.dx),
+                 lambda = sine * sine;
     return {lambda, (g.c2 + g.kappa2 * lambda) * lambda, 2 * g.loss.at(lambda)};
 }
 }  // namespace
@@ -291,24 +325,32 @@ Symbols symbols(const GridString& g, int mode) {
 // (M + dt R/2) z^2 - (2M - dt^2 K) z + (M - dt R/2) = 0, for |z| and arg z
 FreeMode three_point_mode(const GridString& g, double dt, double m, double m4, int mode) {
     const Symbols y = symbols(g, mode);
-    const double M = 1 - (m - m4 * y.lambda) * y.lambda, over = M + 0.5 * dt * y.loss, under = M - 0.5 * dt * y.loss;
+    const double M = 1 - (m - m4 * y.lambda) * y.lambda, over = M + 0.5 * dt * y.loss,
+                 under = M - 0.5 * dt * y.loss;
     const double cosine = M - 0.5 * dt * dt * y.stiffness;  // both times |z|
-    const double square = dt * dt * (y.stiffness * M - 0.25 * (dt * dt * y.stiffness * y.stiffness + y.loss * y.loss));
-    return {std::atan2(std::sqrt(std::max(0.0, square)), cosine) / dt, -0.5 * std::log(under / over) / dt};
+    const double square =
+        dt * dt *
+        (y.stiffness * M - 0.25 * (dt * dt * y.stiffness * y.stiffness + y.loss * y.loss));
+    return {std::atan2(std::sqrt(std::max(0.0, square)), cosine) / dt,
+            -0.5 * std::log(under / over) / dt};
 }
 
-// z = (1 + p)/(1 - p), p = p_r + i p_i the scaled pole of y'' + R y' + K y = 0; without loss omega = 2/dt atan(sqrt(K) dt/2)
+// z = (1 + p)/(1 - p), p = p_r + i p_i the scaled pole of y'' + R y' + K y = 0; without loss omega
+// = 2/dt atan(sqrt(K) dt/2)
 FreeMode midpoint_mode(const GridString& g, double dt, int mode) {
     const Symbols y = symbols(g, mode);
-    const double real = -0.25 * dt * y.loss, imaginary = std::sqrt(std::max(0.0, 0.25 * dt * dt * y.stiffness - real * real));
+    const double real = -0.25 * dt * y.loss,
+                 imaginary = std::sqrt(std::max(0.0, 0.25 * dt * dt * y.stiffness - real * real));
     const double omega = std::atan2(imaginary, 1 + real) + std::atan2(imaginary, 1 - real);
-    const double size = std::log(((1 + real) * (1 + real) + imaginary * imaginary) / ((1 - real) * (1 - real) + imaginary * imaginary));
+    const double size = std::log(((1 + real) * (1 + real) + imaginary * imaginary) /
+                                 ((1 - real) * (1 - real) + imaginary * imaginary));
     return {omega / dt, -0.5 * size / dt};
 }
 
 // ---- The band matrix.
 
-BandedFactor::BandedFactor(const Grid& g, double a0, double a2, double a4) : n_(g.intervals - 1), wide_(a4 != 0) {
+BandedFactor::BandedFactor(const Grid& g, double a0, double a2, double a4)
+    : n_(g.intervals - 1), wide_(a4 != 0) {
     const double p = a2 / (g.dx * g.dx), q = a4 / (g.dx * g.dx * g.dx * g.dx);
     std::vector<double> D(n_);
     for (auto* v : {&one_, &two_, &inverse_}) v->assign(n_ + 1, 0.0);
@@ -324,7 +366,8 @@ BandedFactor::BandedFactor(const Grid& g, double a0, double a2, double a4) : n_(
             one_[i] = below / D[i - 1];
             diagonal -= one_[i] * one_[i] * D[i - 1];
         }
-        if (!(diagonal > 0)) throw Refusal("the implicit operator is not positive definite at this rate and grid");
+        if (!(diagonal > 0))
+            throw Refusal("the implicit operator is not positive definite at this rate and grid");
         D[i] = diagonal;
         inverse_[i] = 1 / diagonal;
     }
@@ -334,9 +377,11 @@ void BandedFactor::solve(double* u) const noexcept {
     double* x = u + 1;
     const double *l1 = one_.data(), *l2 = two_.data(), *d = inverse_.data();
     if (wide_) {
-        for (int i = 1; i < n_; ++i) x[i] = (x[i] - l2[i] * x[i - 2]) - l1[i] * x[i - 1];  // l2[1] = l2[n] = 0: the ends are not seen
+        // l2[1] = l2[n] = 0: the ends are not seen
+        for (int i = 1; i < n_; ++i) x[i] = (x[i] - l2[i] * x[i - 2]) - l1[i] * x[i - 1];
         for (int i = 0; i < n_; ++i) x[i] *= d[i];
-        for (int i = n_ - 2; i >= 0; --i) x[i] = (x[i] - l2[i + 2] * x[i + 2]) - l1[i + 1] * x[i + 1];
+        for (int i = n_ - 2; i >= 0; --i)
+            x[i] = (x[i] - l2[i + 2] * x[i + 2]) - l1[i + 1] * x[i + 1];
     } else {
         for (int i = 1; i < n_; ++i) x[i] -= l1[i] * x[i - 1];
         for (int i = 0; i < n_; ++i) x[i] *= d[i];

@@ -1,15 +1,20 @@
-// What the finite difference schemes share: one string on the grid x_l = l dx, l = 0..N, dx = L/N, with simply supported ends.
+// What the finite difference schemes share: one string on the grid x_l = l dx, l = 0..N, dx = L/N,
+// with simply supported ends.
 //
-// Sources: Bilbao, Torin & Chatziioannou 2015 (grid, stability limit, energy), Bilbao 2009 chapter 7 (theta scheme), Chatziioannou & van
-// Walstijn 2015 (two-step midpoint), van Walstijn et al. 2016 eqs 5-6 (footprints). D2 is the second difference with u_0 = u_N = 0 and
-// D4 = D2 D2, so that sin(i pi l/N) is an eigenvector of both: D2 -> -lambda_i, lambda_i = 4/dx^2 sin^2(i pi/2N).
-// Footprints are projected on the grid's hat functions; the weights that spread a force also read the displacement, which is what closes
-// the energy balance. A point (width 0) is the hat function itself. Profiles are lumped: a node carries the stiffness density times dx.
-// The loss is 2 sigma0 u_t - 2 sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a general one. All
-// three are non-negative: no wavenumber of the grid gains energy.
-// With compliance=matched what the grid takes from the string's compliance stands in series with the points, and profiles are touched at
-// points of their own (option `points`): at its nodes a grid yields more than the true string.
-// Left out: contact loss with compliance=matched, measured modes, polarisation; a moving body by the midpoint scheme.
+// Sources: Bilbao, Torin & Chatziioannou 2015 (grid, stability limit, energy), Bilbao 2009 chapter
+// 7 (theta scheme), Chatziioannou & van Walstijn 2015 (two-step midpoint), van Walstijn et al. 2016
+// eqs 5-6 (footprints). D2 is the second difference with u_0 = u_N = 0 and D4 = D2 D2, so that
+// sin(i pi l/N) is an eigenvector of both: D2 -> -lambda_i, lambda_i = 4/dx^2 sin^2(i pi/2N).
+// Footprints are projected on the grid's hat functions; the weights that spread a force also read
+// the displacement, which is what closes the energy balance. A point (width 0) is the hat function
+// itself. Profiles are lumped: a node carries the stiffness density times dx. The loss is 2 sigma0
+// u_t - 2 sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a
+// general one. All three are non-negative: no wavenumber of the grid gains energy.
+// With compliance=matched what the grid takes from the string's compliance stands in series with
+// the points, and profiles are touched at points of their own (option `points`): at its nodes a
+// grid yields more than the true string.
+// Left out: contact loss with compliance=matched, measured modes, polarisation; a moving body by
+// the midpoint scheme.
 #pragma once
 
 #include <optional>
@@ -29,11 +34,13 @@ struct Stencil {  // sum_j weight[j] u[first + j]
 
     double read(const double* u) const {
         double sum = 0;
-        for (std::size_t j = 0; j < weight.size(); ++j) sum += weight[j] * u[first + static_cast<int>(j)];
+        for (std::size_t j = 0; j < weight.size(); ++j)
+            sum += weight[j] * u[first + static_cast<int>(j)];
         return sum;
     }
     void add(double scale, double* u) const {
-        for (std::size_t j = 0; j < weight.size(); ++j) u[first + static_cast<int>(j)] += scale * weight[j];
+        for (std::size_t j = 0; j < weight.size(); ++j)
+            u[first + static_cast<int>(j)] += scale * weight[j];
     }
 };
 
@@ -41,9 +48,12 @@ struct Grid {
     int intervals = 0;  // N
     double dx = 0;      // [m]
 };
-Stencil footprint_stencil(const Grid&, double position, double width);  // the cosine footprint against every hat function
-Stencil displacement_stencil(const Grid&, double position);             // cubic through four nodes, odd about the ends
-Stencil nut_force_stencil(const Grid&, const String&);                  // -T y' + EI y''' at L, both of fourth order, odd about L
+// the cosine footprint against every hat function
+Stencil footprint_stencil(const Grid&, double position, double width);
+// cubic through four nodes, odd about the ends
+Stencil displacement_stencil(const Grid&, double position);
+// -T y' + EI y''' at L, both of fourth order, odd about L
+Stencil nut_force_stencil(const Grid&, const String&);
 
 // ---- Losses.
 
@@ -53,9 +63,11 @@ struct LossFit {        // sigma(beta) ~ sigma0 + sigma1 beta^2 + sigma2 beta^4
     double sigma2 = 0;  // [m^4/s]
     double misfit = 0;  // worst relative error over the modes below 20 kHz
 
-    double at(double square) const { return sigma0 + (sigma1 + sigma2 * square) * square; }  // [1/s], of beta^2 [1/m^2]
+    // [1/s], of beta^2 [1/m^2]
+    double at(double square) const { return sigma0 + (sigma1 + sigma2 * square) * square; }
 };
-// Least squares of the relative error over the modes below 20 kHz, each octave of them weighing the same; no coefficient negative.
+// Least squares of the relative error over the modes below 20 kHz, each octave of them weighing the
+// same; no coefficient negative.
 LossFit fit_losses(const String&);
 
 // ---- Stability limits, dt [s], dx [m].
@@ -65,18 +77,23 @@ double theta_spacing_limit(const String&, double dt);                     // wit
 double theta_spacing_limit(const String&, double dt, double theta);       // theta > 1/2
 double tuned_theta(const String&, double dt, double dx);
 
-// ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit` times finer than the limit on purpose;
-// with both, `grid`, which may then be up to `over_limit` times finer than the limit.
-// Settings::modes asks for modes, which a grid does not have; the grid comes from the rate, and fact `grid_intervals` reports it.
-inline constexpr Option grid_option{
-    "grid", "",
-    "intervals of the grid, a whole number from 5 on; absent: the finest that is stable, or where any is the "
-    "finest of the explicit scheme without loss"};
-inline constexpr Option over_limit_option{"over_limit", "",
-                                          "factor above 1: lets the grid be finer than is stable by as much; absent: it may not be"};
+// ---- The grid a scheme takes: option `grid`, or the finest that the limit allows, or `over_limit`
+// times finer than the limit on purpose; with both, `grid`, which may then be up to `over_limit`
+// times finer than the limit.
+// Settings::modes asks for modes, which a grid does not have; the grid comes from the rate, and
+// fact `grid_intervals` reports it.
+inline constexpr Option grid_option{"grid", "",
+                                    "intervals of the grid, a whole number from 5 on; absent: the "
+                                    "finest that is stable, or where any is the "
+                                    "finest of the explicit scheme without loss"};
+inline constexpr Option over_limit_option{
+    "over_limit", "",
+    "factor above 1: lets the grid be finer than is stable by as much; absent: it may not be"};
 Grid grid_for(const Descriptor&, const String&, const Settings&, double spacing_limit);
-double spacing_margin(const String&, const Settings&, double spacing_limit);  // dx over the limit, less 1; NaN without option `grid`
-Grid grid_of(const Descriptor&, const String&, double intervals);             // Refusal unless a whole number, 5 or more
+// dx over the limit, less 1; NaN without option `grid`
+double spacing_margin(const String&, const Settings&, double spacing_limit);
+// Refusal unless a whole number, 5 or more
+Grid grid_of(const Descriptor&, const String&, double intervals);
 
 // ---- A string of the scene on its grid.
 
@@ -93,8 +110,11 @@ struct GridString {
     StringPoints points;            // theta: the scheme's to fill in
     std::vector<Stencil> stencils;  // where obstacles read and push, of each point
     Stencil pluck_stencil;
-    double compliance = 0;  // of the first contact under a steady force, relative to the scene's string; 0 unless it is lumped
-    double narrowest = 0;   // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
+    // of the first contact under a steady force, relative to the scene's string; 0 unless it is
+    // lumped
+    double compliance = 0;
+    // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
+    double narrowest = 0;
     std::vector<GridTap> taps;
     bool on_body = false;  // that moves
     Stencil mu;            // and the inertia of a node against its acceleration [kg]
@@ -108,11 +128,13 @@ FreeMode midpoint_mode(const GridString&, double dt, int mode);
 GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&, const LossFit&);
 
 // What every scheme on a grid represents.
-constexpr Features grid_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
-                                   Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
-                                   Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
-                                   Feature::pluck | any_rigid;
-inline constexpr Approximation grid_approximates[] = {{Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
+constexpr Features grid_features =
+    Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
+    Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
+    Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
+    Feature::pluck | any_rigid;
+inline constexpr Approximation grid_approximates[] = {
+    {Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 
 // ---- The symmetric band matrix a0 I + a2 D2 + a4 D4 over the interior nodes, factored L D L'.
 
@@ -120,8 +142,10 @@ class BandedFactor {
 public:
     BandedFactor() = default;
     BandedFactor(const Grid&, double a0, double a2, double a4);  // Refusal unless positive definite
-    void solve(double* u) const noexcept;                        // u_1..u_{N-1} in place, between finite u_0 and u_N
-    Stencil solve(const Stencil&) const;                         // the response to a stencil, cut where it has fallen below rounding
+    // u_1..u_{N-1} in place, between finite u_0 and u_N
+    void solve(double* u) const noexcept;
+    // the response to a stencil, cut where it has fallen below rounding
+    Stencil solve(const Stencil&) const;
 
 private:
     int n_ = 0;

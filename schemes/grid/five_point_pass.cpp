@@ -14,12 +14,13 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <bool loss_in_space>
-void pass(const FivePointWeights& w, int intervals, double* HWY_RESTRICT next, const double* HWY_RESTRICT now,
-          const double* HWY_RESTRICT before, double* HWY_RESTRICT kept) {
+void pass(const FivePointWeights& w, int intervals, double* HWY_RESTRICT next,
+          const double* HWY_RESTRICT now, const double* HWY_RESTRICT before,
+          double* HWY_RESTRICT kept) {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const auto a0 = hn::Set(d, w.a0), a1 = hn::Set(d, w.a1), a2 = hn::Set(d, w.a2), b0 = hn::Set(d, w.b0), b1 = hn::Set(d, w.b1),
-               b2 = hn::Set(d, w.b2);
+    const auto a0 = hn::Set(d, w.a0), a1 = hn::Set(d, w.a1), a2 = hn::Set(d, w.a2),
+               b0 = hn::Set(d, w.b0), b1 = hn::Set(d, w.b1), b2 = hn::Set(d, w.b2);
     for (int l = 1; l < intervals; l += lanes) {
         const auto p = hn::Add(neighbour<-1>(now + l), neighbour<1>(now + l));
         const auto q = hn::Add(neighbour<-2>(now + l), neighbour<2>(now + l));
@@ -31,12 +32,11 @@ void pass(const FivePointWeights& w, int intervals, double* HWY_RESTRICT next, c
         }
         hn::StoreU(sum, d, next + l);
     }
-    hn::StoreU(hn::Zero(d), d, next + intervals);  // the end, and what the last vector wrote beyond it
+    // the end, and what the last vector wrote beyond it
+    hn::StoreU(hn::Zero(d), d, next + intervals);
 }
 
-FivePointPass choose(bool loss_in_space) {
-    return loss_in_space ? pass<true> : pass<false>;
-}
+FivePointPass choose(bool loss_in_space) { return loss_in_space ? pass<true> : pass<false>; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari

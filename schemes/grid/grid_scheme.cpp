@@ -2,7 +2,9 @@
 
 namespace jvari {
 
-std::vector<double> compliances(const std::vector<Stencil>& places, const std::vector<Stencil>& responses, double gain, const Grid& grid) {
+std::vector<double> compliances(const std::vector<Stencil>& places,
+                                const std::vector<Stencil>& responses, double gain,
+                                const Grid& grid) {
     const std::size_t all = places.size();
     std::vector<double> theta(all * all), line(grid.intervals + 1);
     for (std::size_t b = 0; b < all; ++b) {

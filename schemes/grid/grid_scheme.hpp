@@ -1,4 +1,5 @@
-// What strings on a grid sum and tell, each by its own steps: three_point_string.hpp, midpoint_string.hpp.
+// What strings on a grid sum and tell, each by its own steps: three_point_string.hpp,
+// midpoint_string.hpp.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,8 @@
 
 namespace jvari {
 
-constexpr long steps_on_grid_between_questions = 16;  // (Block::stopped): a step of a dense contact takes milliseconds
+// (Block::stopped): a step of a dense contact takes milliseconds
+constexpr long steps_on_grid_between_questions = 16;
 
 // Of what lies on a grid, odd about both ends: <d, d>, <d, -D2 d>, <d, D4 d>.
 struct Squares {
@@ -30,15 +32,17 @@ Squares squares(const Grid& g, At at) noexcept {
     return sum;
 }
 
-// What a unit of force at each place moves every place: places x places, symmetric to the last bit. responses: what the scheme's solve
-// makes of each place, gain: times that.
-std::vector<double> compliances(const std::vector<Stencil>& places, const std::vector<Stencil>& responses, double gain, const Grid&);
+// What a unit of force at each place moves every place: places x places, symmetric to the last bit.
+// responses: what the scheme's solve makes of each place, gain: times that.
+std::vector<double> compliances(const std::vector<Stencil>& places,
+                                const std::vector<Stencil>& responses, double gain, const Grid&);
 
 // Facts that every string on a grid reports.
 std::vector<Fact> grid_facts(const GridString&);
 
-// A run has diverged where the kinetic energy passes this many times what the string was given (initial energy and work of the pluck): a
-// stable scheme near its limit may hold a multiple of it in its highest mode, an unstable one passes any multiple.
+// A run has diverged where the kinetic energy passes this many times what the string was given
+// (initial energy and work of the pluck): a stable scheme near its limit may hold a multiple of it
+// in its highest mode, an unstable one passes any multiple.
 constexpr double divergence_factor = 1e4;
 constexpr long divergence_check = 64;  // [steps]
 

@@ -28,11 +28,11 @@ HWY_INLINE void mirror(double* HWY_RESTRICT x, int N, int reach) {
     }
 }
 
-// out_l = c_0 x_l + sum_k c_k (x_{l - k step} + x_{l + k step}) of `vectors` vectors of l. Where a vector holds several steps they read the
-// same neighbours, in memory once.
+// out_l = c_0 x_l + sum_k c_k (x_{l - k step} + x_{l + k step}) of `vectors` vectors of l. Where a
+// vector holds several steps they read the same neighbours, in memory once.
 template <int pairs, int step, int vectors, int... j>
-HWY_INLINE void sum_at(int l, const double* HWY_RESTRICT c, const double* HWY_RESTRICT x, double* HWY_RESTRICT out,
-                       std::integer_sequence<int, j...>) {
+HWY_INLINE void sum_at(int l, const double* HWY_RESTRICT c, const double* HWY_RESTRICT x,
+                       double* HWY_RESTRICT out, std::integer_sequence<int, j...>) {
     const D d;
     constexpr int lanes = hn::MaxLanes(D()), apart = lanes / step;
     const hn::Vec<D> near[] = {neighbour<(j - pairs) * step>(x + l)...};
@@ -50,16 +50,21 @@ HWY_INLINE void sum_at(int l, const double* HWY_RESTRICT c, const double* HWY_RE
     }
 }
 template <int pairs, int step>
-HWY_INLINE void convolve(const double* HWY_RESTRICT c, int N, const double* HWY_RESTRICT x, double* HWY_RESTRICT out) {
+HWY_INLINE void convolve(const double* HWY_RESTRICT c, int N, const double* HWY_RESTRICT x,
+                         double* HWY_RESTRICT out) {
     constexpr int lanes = hn::MaxLanes(D()), vectors = lanes == 2 * step ? 2 : 1;
     int l = 1;
     for (; l + (vectors - 1) * lanes < N; l += vectors * lanes)
-        sum_at<pairs, step, vectors>(l, c, x, out, std::make_integer_sequence<int, 2 * pairs + 1 + (vectors - 1) * lanes / step>());
-    if (l < N) sum_at<pairs, step, 1>(l, c, x, out, std::make_integer_sequence<int, 2 * pairs + 1>());
+        sum_at<pairs, step, vectors>(
+            l, c, x, out,
+            std::make_integer_sequence<int, 2 * pairs + 1 + (vectors - 1) * lanes / step>());
+    if (l < N)
+        sum_at<pairs, step, 1>(l, c, x, out, std::make_integer_sequence<int, 2 * pairs + 1>());
 }
 
 template <int pairs>
-void solve(const double* close, const double* far, int terms, int N, double* x, double* between, double* u) {
+void solve(const double* close, const double* far, int terms, int N, double* x, double* between,
+           double* u) {
     mirror(x, N, pairs);
     convolve<pairs, 1>(close, N, x, between);
     mirror(between, N, 4 * (terms > 9 ? 15 : terms - 1));
@@ -88,9 +93,7 @@ void midpoint(int N, double* HWY_RESTRICT y, double* HWY_RESTRICT q, const doubl
     }
     hn::StoreU(hn::Zero(d), d, q + N);
 }
-MidpointPass choose_midpoint() {
-    return midpoint;
-}
+MidpointPass choose_midpoint() { return midpoint; }
 
 void increment(int N, double* HWY_RESTRICT u, const double* HWY_RESTRICT before) {
     const D d;
@@ -98,14 +101,10 @@ void increment(int N, double* HWY_RESTRICT u, const double* HWY_RESTRICT before)
         hn::StoreU(hn::Add(hn::LoadU(d, u + l), hn::LoadU(d, before + l)), d, u + l);
     hn::StoreU(hn::Zero(d), d, u + N);
 }
-IncrementPass choose_increment() {
-    return increment;
-}
+IncrementPass choose_increment() { return increment; }
 
 using Sums = void (*)(const double*, const double*, int, int, double*, double*, double*);
-Sums choose(int near) {
-    return near <= 3 ? solve<3> : solve<6>;
-}
+Sums choose(int near) { return near <= 3 ? solve<3> : solve<6>; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
@@ -116,16 +115,10 @@ namespace jvari {
 HWY_EXPORT(choose);
 HWY_EXPORT(choose_midpoint);
 HWY_EXPORT(choose_increment);
-MidpointPass midpoint_pass() {
-    return HWY_DYNAMIC_DISPATCH(choose_midpoint)();
-}
-IncrementPass increment_pass() {
-    return HWY_DYNAMIC_DISPATCH(choose_increment)();
-}
+MidpointPass midpoint_pass() { return HWY_DYNAMIC_DISPATCH(choose_midpoint)(); }
+IncrementPass increment_pass() { return HWY_DYNAMIC_DISPATCH(choose_increment)(); }
 
-GridSolve::Sums GridSolve::sums(int pairs) {
-    return HWY_DYNAMIC_DISPATCH(choose)(pairs);
-}
+GridSolve::Sums GridSolve::sums(int pairs) { return HWY_DYNAMIC_DISPATCH(choose)(pairs); }
 
 namespace {
 using Real = long double;
@@ -144,15 +137,18 @@ std::vector<Real> times(const std::vector<Real>& x, const Band& a, int step) {
     std::vector<Real> y(reach + 2 * step + 1, 0.0L);
     const auto at = [&](int k) { return std::abs(k) <= reach ? x[std::abs(k)] : 0; };
     for (int k = 0; k < static_cast<int>(y.size()); ++k)
-        y[k] = a.c0 * at(k) - a.c1 * (at(k - step) + at(k + step)) + a.c2 * (at(k - 2 * step) + at(k + 2 * step));
+        y[k] = a.c0 * at(k) - a.c1 * (at(k - step) + at(k + step)) +
+               a.c2 * (at(k - 2 * step) + at(k + 2 * step));
     return y;
 }
 }  // namespace
 
-GridSolve::GridSolve(const Grid& g, double a0, double a2, double a4) : intervals_(g.intervals), factor_(g, a0, a2, a4) {
+GridSolve::GridSolve(const Grid& g, double a0, double a2, double a4)
+    : intervals_(g.intervals), factor_(g, a0, a2, a4) {
     from_ = AlignedVector(2 * offset + intervals_ + 1);
     between_ = AlignedVector(2 * offset + intervals_ + 1);
-    const Real h2 = static_cast<Real>(g.dx) * g.dx, p = a2 / h2, q = a4 / (h2 * h2), diagonal = a0 - 2 * p + 6 * q;
+    const Real h2 = static_cast<Real>(g.dx) * g.dx, p = a2 / h2, q = a4 / (h2 * h2),
+               diagonal = a0 - 2 * p + 6 * q;
     Band a{1, (p - 4 * q) / diagonal, q / diagonal};
     std::vector<Real> close{1 / diagonal}, far{1};
     for (int step = 1; step <= 2; step *= 2) {
@@ -166,10 +162,13 @@ GridSolve::GridSolve(const Grid& g, double a0, double a2, double a4) : intervals
         a = a.next();
     }
     Real rest = 0;
-    while (far.size() > 1 && rest + 2 * std::abs(far.back()) < std::ldexp(Real(1), -58)) rest += 2 * std::abs(far.back()), far.pop_back();
-    const int terms = static_cast<int>(far.size()), reach = 4 * (terms > 9 ? most : terms) + 8;  // whole vectors
+    while (far.size() > 1 && rest + 2 * std::abs(far.back()) < std::ldexp(Real(1), -58))
+        rest += 2 * std::abs(far.back()), far.pop_back();
+    // whole vectors
+    const int terms = static_cast<int>(far.size()), reach = 4 * (terms > 9 ? most : terms) + 8;
     if (terms > most || reach >= intervals_) return;
-    for (std::size_t k = 0; k < close.size() && k < near_.size(); ++k) near_[k] = static_cast<double>(close[k]);
+    for (std::size_t k = 0; k < close.size() && k < near_.size(); ++k)
+        near_[k] = static_cast<double>(close[k]);
     std::copy(far.begin(), far.end(), far_.begin());
     terms_ = terms;
     sums_ = sums(a4 != 0 ? near : near / 2);

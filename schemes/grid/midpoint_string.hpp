@@ -1,4 +1,5 @@
-// A string on a grid stepped by the two-step midpoint rule: finite_difference_hamiltonian.cpp has its equations and source.
+// A string on a grid stepped by the two-step midpoint rule: finite_difference_hamiltonian.cpp has
+// its equations and source.
 #pragma once
 
 #include <cmath>
@@ -17,12 +18,14 @@ public:
     static constexpr int levels = 1;
     static constexpr long steps_between_looks = steps_on_grid_between_questions;
 
-    MidpointString(const GridString& string, double dt) : g_(string), dt_(dt), xi_(dt * dt / (2 * g_.mass)) {
+    MidpointString(const GridString& string, double dt)
+        : g_(string), dt_(dt), xi_(dt * dt / (2 * g_.mass)) {
         const double quarter = 0.25 * dt * dt, h2 = g_.grid.dx * g_.grid.dx;
-        solve_ =
-            GridSolve(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt, quarter * g_.kappa2 + g_.loss.sigma2 * dt);
+        solve_ = GridSolve(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt,
+                           quarter * g_.kappa2 + g_.loss.sigma2 * dt);
         double slope = quarter * g_.c2 / h2, curve = quarter * g_.kappa2 / (h2 * h2);
-        const double unit = std::ldexp(1.0, std::ilogb(2 * slope + 6 * curve) - 52);  // all multiples of it are doubles up to a0
+        // all multiples of it are doubles up to a0
+        const double unit = std::ldexp(1.0, std::ilogb(2 * slope + 6 * curve) - 52);
         slope = unit * std::nearbyint(slope / unit);
         curve = unit * std::nearbyint(curve / unit);
         pull_ = {-2 * (2 * slope + 6 * curve), 2 * (slope + 4 * curve), -2 * curve, 2, 0, 0};
@@ -30,7 +33,8 @@ public:
         for (const Stencil& s : g_.stencils) responses_.push_back(solve_.response(s));
         g_.points.theta = compliances(g_.stencils, responses_, xi_, g_.grid);
         for (auto* v : {&older_, &free_}) v->assign(g_.stencils.size(), 0.0);
-        for (auto* b : {&y_store_, &q_store_, &s_store_}) *b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);
+        for (auto* b : {&y_store_, &q_store_, &s_store_})
+            *b = AlignedVector(offset + g_.grid.intervals + five_point_overhang);
         reset();
     }
 
@@ -75,7 +79,8 @@ public:
         if (probed) spent.dissipated = dt_ * loss();
         move_(g_.grid.intervals, y_, q_, s_);
         ++step_;
-        if (step_ % divergence_check == 0 && !(kinetic() <= divergence_factor * budget_ + 1e-30)) diverged_ = true;
+        if (step_ % divergence_check == 0 && !(kinetic() <= divergence_factor * budget_ + 1e-30))
+            diverged_ = true;
         return spent;
     }
     bool failed() const { return diverged_; }
@@ -110,7 +115,8 @@ private:
     }
     double loss() const noexcept {  // power [W]: <v, R v>, v = s/dt
         const Squares d = squares(g_.grid, [s = s_](int l) { return s[l]; });
-        return 2 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
+        return 2 * g_.mass / (dt_ * dt_) *
+               (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
     }
 
     GridString g_;

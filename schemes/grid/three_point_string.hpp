@@ -1,17 +1,22 @@
 // A string on a grid stepped by a three-point scheme,
 //
-//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),     K = -c^2 D2 + kappa^2 D4, M = I + m D2 + m4 D4
+//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),     K = -c^2 D2 + kappa^2
+//     D4, M = I + m D2 + m4 D4
 //
 // R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4,
-// with contacts and thread over the span 2 dt (contact/obstacle.hpp). Update solves for u+: explicit where m = sigma1 dt and m4 = -sigma2
-// dt (Bilbao, Torin & Chatziioannou 2015: the backward difference in the loss),
+// with contacts and thread over the span 2 dt (contact/obstacle.hpp). Update solves for u+:
+// explicit where m = sigma1 dt and m4 = -sigma2 dt (Bilbao, Torin & Chatziioannou 2015: the
+// backward difference in the loss),
 // banded where m = (1 - theta) dx^2/2 (Bilbao 2009, theta scheme).
 //
-// At row n it holds u^{n-1}, u^n, u^{n+1}; velocity is the central difference (u^{n+1} - u^{n-1})/2dt, and the energy of the half step
-// n + 1/2 is mass/2 <d, M d>/dt^2 + mass/2 <u^{n+1}, K u^n>, d = u^{n+1} - u^n.
-// Start from rest: u^1 = u^0 + dt^2/2 (acceleration), contacts and thread taken between u^0 and u^1, so that the start is stable however
-// stiff they are, of second order, and without losses exactly the scheme's own cosine.
-// On a body that moves (schemes/body) the points of all strings are solved for together, and its acceleration is one more force.
+// At row n it holds u^{n-1}, u^n, u^{n+1}; velocity is the central difference (u^{n+1} -
+// u^{n-1})/2dt, and the energy of the half step n + 1/2 is mass/2 <d, M d>/dt^2 + mass/2 <u^{n+1},
+// K u^n>, d = u^{n+1} - u^n.
+// Start from rest: u^1 = u^0 + dt^2/2 (acceleration), contacts and thread taken between u^0 and
+// u^1, so that the start is stable however stiff they are, of second order, and without losses
+// exactly the scheme's own cosine.
+// On a body that moves (schemes/body) the points of all strings are solved for together, and its
+// acceleration is one more force.
 #pragma once
 
 #include <cmath>
@@ -28,17 +33,26 @@
 
 namespace jvari {
 
-constexpr int node_offset = 7;  // of node 0 in its array: node 1 on a 64-byte boundary, node -1 inside
+// of node 0 in its array: node 1 on a 64-byte boundary, node -1 inside
+constexpr int node_offset = 7;
 
-template <class Update>  // operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a unit of dt^2/(mu
-                         // dx) on g adds to u+
+// operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a
+// unit of dt^2/(mu dx) on g adds to u+
+template <class Update>
 class ThreePointString {
 public:
     static constexpr int levels = 2;
     static constexpr long steps_between_looks = steps_on_grid_between_questions;
 
-    ThreePointString(const GridString& string, double dt, double m, double m4, Update update, std::vector<Fact> facts = {})
-        : g_(string), dt_(dt), m_(m), m4_(m4), gain_(dt * dt / g_.mass), update_(std::move(update)), own_(std::move(facts)) {
+    ThreePointString(const GridString& string, double dt, double m, double m4, Update update,
+                     std::vector<Fact> facts = {})
+        : g_(string),
+          dt_(dt),
+          m_(m),
+          m4_(m4),
+          gain_(dt * dt / g_.mass),
+          update_(std::move(update)),
+          own_(std::move(facts)) {
         std::vector<Stencil> places = g_.stencils;
         for (const Stencil& s : g_.stencils) responses_.push_back(update_.response(s));
         if (g_.points.pluck) pluck_response_ = update_.response(g_.pluck_stencil);
@@ -50,7 +64,8 @@ public:
         }
         g_.points.theta = compliances(places, responses, gain_, g_.grid);
         for (auto* v : {&older_, &now_, &free_}) v->assign(g_.stencils.size(), 0.0);
-        for (auto& b : buffer_) b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
+        for (auto& b : buffer_)
+            b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
         reset();
     }
 
@@ -90,7 +105,8 @@ public:
         if (g_.on_body) mu_response_.add(-0.5 * gain_ * a, next);
         std::copy_n(next - 1, g_.grid.intervals + 2, before - 1);  // at rest: u^{-1} = u^1
     }
-    void expect(double energy) noexcept { budget_ = std::abs(energy); }  // what it has at the start [J]
+    // what it has at the start [J]
+    void expect(double energy) noexcept { budget_ = std::abs(energy); }
 
     void approach(bool) noexcept {
         double* spare = level_[0];
@@ -108,7 +124,8 @@ public:
             now_[p] = g_.stencils[p].read(now);
             free_[p] = g_.stencils[p].read(next) - older_[p];
         }
-        if (g_.on_body) inertia_ = (g_.mu.read(next) - 2 * g_.mu.read(now) + g_.mu.read(before)) / (dt_ * dt_);
+        if (g_.on_body)
+            inertia_ = (g_.mu.read(next) - 2 * g_.mu.read(now) + g_.mu.read(before)) / (dt_ * dt_);
     }
     Spent pass(const double* force, double a, bool probed) noexcept {
         const double* before = level_[0];
@@ -118,17 +135,21 @@ public:
         if (g_.on_body) mu_response_.add(-gain_ * a, next);
         Spent spent;
         if (F_e_ != 0) {
-            spent.supplied = 0.5 * F_e_ * (g_.pluck_stencil.read(next) - g_.pluck_stencil.read(before));
+            spent.supplied =
+                0.5 * F_e_ * (g_.pluck_stencil.read(next) - g_.pluck_stencil.read(before));
             budget_ += std::max(spent.supplied, 0.0);
         }
         if (probed) spent.dissipated = dt_ * loss();
-        if (step_ % divergence_check == 0 && !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30)) diverged_ = true;
+        if (step_ % divergence_check == 0 &&
+            !(kinetic(0, 0) <= divergence_factor * budget_ + 1e-30))
+            diverged_ = true;
         return spent;
     }
     bool failed() const { return diverged_; }
 
     void reading(int level, double* out) const noexcept {
-        for (std::size_t p = 0; p < g_.stencils.size(); ++p) out[p] = g_.stencils[p].read(level_[1 + level]);
+        for (std::size_t p = 0; p < g_.stencils.size(); ++p)
+            out[p] = g_.stencils[p].read(level_[1 + level]);
     }
     double stored() noexcept {
         double *now = level_[1], *next = level_[2];
@@ -137,7 +158,8 @@ public:
         double slope = 0, curve = 0;
         for (int l = 0; l < g_.grid.intervals; ++l) {
             slope += (next[l + 1] - next[l]) * (now[l + 1] - now[l]);
-            curve += (next[l + 1] - 2 * next[l] + next[l - 1]) * (now[l + 1] - 2 * now[l] + now[l - 1]);
+            curve +=
+                (next[l + 1] - 2 * next[l] + next[l - 1]) * (now[l + 1] - 2 * now[l] + now[l - 1]);
         }
         const double h2 = g_.grid.dx * g_.grid.dx;
         return kinetic(m_, m4_) + 0.5 * g_.mass * (g_.c2 * slope + g_.kappa2 / h2 * curve) / h2;
@@ -145,7 +167,8 @@ public:
     double tap(int k, const double* mean) const noexcept {
         const GridTap& t = g_.taps[k];
         if (t.stencil.weight.empty()) return heard_force(t.quantity, g_.points, mean);
-        if (t.quantity == Quantity::velocity) return (t.stencil.read(level_[2]) - t.stencil.read(level_[0])) / (2 * dt_);
+        if (t.quantity == Quantity::velocity)
+            return (t.stencil.read(level_[2]) - t.stencil.read(level_[0])) / (2 * dt_);
         return t.stencil.read(level_[1]);
     }
     int dofs() const { return 2 * (g_.grid.intervals - 1); }
@@ -156,7 +179,8 @@ public:
     }
     std::vector<FreeMode> free_modes() const {
         std::vector<FreeMode> all;
-        for (int i = 1; i < g_.grid.intervals; ++i) all.push_back(three_point_mode(g_, dt_, m_, m4_, i));
+        for (int i = 1; i < g_.grid.intervals; ++i)
+            all.push_back(three_point_mode(g_, dt_, m_, m4_, i));
         return all;
     }
 
@@ -164,17 +188,24 @@ public:
 
     double inertia() const { return inertia_; }
     double pluck() const { return F_e_; }
-    double share() const {  // most that the ends' inertia takes of a node's, sum over the sine modes of mu_j^2/(M - dt^2 K/4) [kg]
+    // most that the ends' inertia takes of a node's, sum over the sine modes of mu_j^2/(M - dt^2
+    // K/4) [kg]
+    double share() const {
         const int N = g_.grid.intervals;
         double sum = 0;
         for (int j = 1; j < N; ++j) {
-            const double half = 0.5 * std::numbers::pi * j / N, s = 2 * std::sin(half) / g_.grid.dx, square = s * s;
-            const double left = 1 - (m_ - m4_ * square) * square - 0.25 * dt_ * dt_ * (g_.c2 + g_.kappa2 * square) * square;
+            const double half = 0.5 * std::numbers::pi * j / N, s = 2 * std::sin(half) / g_.grid.dx,
+                         square = s * s;
+            const double left = 1 - (m_ - m4_ * square) * square -
+                                0.25 * dt_ * dt_ * (g_.c2 + g_.kappa2 * square) * square;
             sum += 0.5 * g_.mass / (N * std::tan(half) * std::tan(half) * left);
         }
         return sum;
     }
-    double momentum() const noexcept { return (g_.mu.read(level_[2]) - g_.mu.read(level_[1])) / dt_; }  // of the half step
+    // of the half step
+    double momentum() const noexcept {
+        return (g_.mu.read(level_[2]) - g_.mu.read(level_[1])) / dt_;
+    }
 
 private:
     void mirror(double* u) const noexcept {  // odd about both ends
@@ -196,7 +227,8 @@ private:
     double loss() const noexcept {  // power [W]: <v, R v>, v = (u+ - u-)/2dt
         const double *before = level_[0], *next = level_[2];
         const Squares d = squares(g_.grid, [=](int l) { return next[l] - before[l]; });
-        return 0.5 * g_.mass / (dt_ * dt_) * (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
+        return 0.5 * g_.mass / (dt_ * dt_) *
+               (g_.loss.sigma0 * d.own + g_.loss.sigma1 * d.slope + g_.loss.sigma2 * d.curve);
     }
 
     GridString g_;
@@ -214,28 +246,34 @@ private:
     bool diverged_ = false;
 };
 
-// A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one string) -> unique_ptr<String>.
+// A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one
+// string) -> unique_ptr<String>.
 template <class String, class Rule, class Make>
-std::unique_ptr<Scheme> on_three_point_support(const Descriptor& scheme, const Scene& scene, const Settings& settings, Make make) {
-    return on_its_support<String, Rule>(scheme, scene, settings, make,
-                                        [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
+std::unique_ptr<Scheme> on_three_point_support(const Descriptor& scheme, const Scene& scene,
+                                               const Settings& settings, Make make) {
+    return on_its_support<String, Rule>(scheme, scene, settings, make, [&] {
+        return ThreePointBody(scene.body->modes, 1 / settings.sample_rate);
+    });
 }
 
-// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. Of the increment u+ - u- instead: (2M - dt^2 K) u - 2M u-, which
-// is what is left after (M + dt R/2) u-.
+// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. Of the increment u+ - u-
+// instead: (2M - dt^2 K) u - 2M u-, which is what is left after (M + dt R/2) u-.
 class FivePoint {
 public:
     enum class Of { next, increment };
-    FivePoint(const GridString& g, double dt, double m, double m4, double divisor, Of of = Of::next) : intervals_(g.grid.intervals) {
+    FivePoint(const GridString& g, double dt, double m, double m4, double divisor, Of of = Of::next)
+        : intervals_(g.grid.intervals) {
         kept_ = AlignedVector(node_offset + intervals_ + five_point_overhang);
-        const double h2 = g.grid.dx * g.grid.dx, s = g.c2 * dt * dt / h2, q = g.kappa2 * dt * dt / (h2 * h2);
+        const double h2 = g.grid.dx * g.grid.dx, s = g.c2 * dt * dt / h2,
+                     q = g.kappa2 * dt * dt / (h2 * h2);
         const double n = m / h2, n4 = m4 / (h2 * h2);
         const LossFit& loss = g.loss;
         w_.a0 = (2 - 4 * n + 12 * n4 - 2 * s - 6 * q) / divisor;
         w_.a1 = (2 * n - 8 * n4 + s + 4 * q) / divisor;
         w_.a2 = (2 * n4 - q) / divisor;
         // M - dt R/2, or 2M
-        const double p0 = of == Of::next ? 1 - loss.sigma0 * dt : 2, p = of == Of::next ? n + loss.sigma1 * dt / h2 : 2 * n,
+        const double p0 = of == Of::next ? 1 - loss.sigma0 * dt : 2,
+                     p = of == Of::next ? n + loss.sigma1 * dt / h2 : 2 * n,
                      p4 = of == Of::next ? n4 - loss.sigma2 * dt / (h2 * h2) : 2 * n4;
         w_.b0 = -(p0 - 2 * p + 6 * p4) / divisor;
         w_.b1 = -(p - 4 * p4) / divisor;

@@ -1,21 +1,26 @@
-// Source: docs/compliance-matching.md; C_scheme is a sum over modes, since each scheme here steps them one by one.
+// Source: docs/compliance-matching.md; C_scheme is a sum over modes, since each scheme here steps
+// them one by one.
 #include "schemes/modal/modal_compliance.hpp"
 
 namespace jvari {
 
-MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& scene, const Modes& modes, double dt,
-                                   std::span<const double> own) {
+MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& scene,
+                                   const Modes& modes, double dt, std::span<const double> own) {
     const String& s = scene.strings.front();
     const Sites sites = sites_of(scene);
     std::vector<std::vector<double>> g, w;
-    for (const Footprint& f : sites.forces) g.push_back(footprint_weights(modes, f.position, f.width));
+    for (const Footprint& f : sites.forces)
+        g.push_back(footprint_weights(modes, f.position, f.width));
     for (const Reading& r : sites.readings)
-        w.push_back(r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at.position, r.at.width));
-    return missing_matrix(descriptor.name, s, sites, scene.taps.size(), modes.count(), dt, [&](int r, int f) {
-        double sum = 0;
-        for (int i = 0; i < modes.count(); ++i) sum += w[r][i] * g[f][i] * own[i];
-        return sum;
-    });
+        w.push_back(r.nut_force ? nut_force_weights(modes, s)
+                                : footprint_weights(modes, r.at.position, r.at.width));
+    return missing_matrix(descriptor.name, s, sites, scene.taps.size(), modes.count(), dt,
+                          [&](int r, int f) {
+                              double sum = 0;
+                              for (int i = 0; i < modes.count(); ++i)
+                                  sum += w[r][i] * g[f][i] * own[i];
+                              return sum;
+                          });
 }
 
 double relative_compliance(const Modes& modes, const String& s, std::span<const double> own) {

@@ -1,19 +1,23 @@
-// A control: the contact force of the instant, F_b^n = V'(eta^n) (contact/explicit_rule.hpp), on the string of three_point_modes.hpp. Only
-// the contact is the control: the string is exact and the thread implicit. No energy balance is promised; stored energy is the true one, so
-// that what the scheme gains or loses is to be seen in the columns.
+// A control: the contact force of the instant, F_b^n = V'(eta^n) (contact/explicit_rule.hpp), on
+// the string of three_point_modes.hpp. Only the contact is the control: the string is exact and the
+// thread implicit. No energy balance is promised; stored energy is the true one, so that what the
+// scheme gains or loses is to be seen in the columns.
 //
-// Its limit is the stiffness of one lasting contact of exponent 1 at which the highest root passes z = -1. There y^{n+1} = -y^n. With G =
-// sum g_p e_q/den (three_point_modes.hpp), den = 1 + C + C~, contact b and thread c, which takes the mean of the outer levels, stand where
+// Its limit is the stiffness of one lasting contact of exponent 1 at which the highest root passes
+// z = -1. There y^{n+1} = -y^n. With G = sum g_p e_q/den (three_point_modes.hpp), den = 1 + C + C~,
+// contact b and thread c, which takes the mean of the outer levels, stand where
 //
 //     1/k_b > G_bb - k_c G_bc^2/(1 + k_c G_cc)
 //
-// It is necessary and not sufficient: impacts gain energy below it too (C3 released without losses: still where the limit is 1.4 k, no
-// longer where it is 11 k). Of another exponent the contact is as stiff as V'' where it is deepest. That is nowhere deeper than where V
-// holds all that the string had at its start, so that stiffness bounds the critical step from below (Feng 2026, arXiv 2604.02533, of one
-// mass): in lasting contact the scheme is stable on this side of the line, and may be so beyond it. Of a pluck, whose work is not known
-// before, nothing is said.
+// It is necessary and not sufficient: impacts gain energy below it too (C3 released without losses:
+// still where the limit is 1.4 k, no longer where it is 11 k). Of another exponent the contact is
+// as stiff as V'' where it is deepest. That is nowhere deeper than where V holds all that the
+// string had at its start, so that stiffness bounds the critical step from below (Feng 2026, arXiv
+// 2604.02533, of one mass): in lasting contact the scheme is stable on this side of the line, and
+// may be so beyond it. Of a pluck, whose work is not known before, nothing is said.
 //
-// Leaves out: a stability limit of several contacts, rigid barriers, compliance=matched, polarisation, a body that moves.
+// Leaves out: a stability limit of several contacts, rigid barriers, compliance=matched,
+// polarisation, a body that moves.
 #include <cmath>
 #include <limits>
 
@@ -34,12 +38,14 @@ constexpr Option options[] = {profile_points_option};
 class PenalisedModes : public ThreePointModes {
 public:
     using ThreePointModes::ThreePointModes;
-    double margin() const {  // of the contact's yield over the least that is stable, less 1; NaN unless there is one contact
+    // of the contact's yield over the least that is stable, less 1; NaN unless there is one contact
+    double margin() const {
         return points().contacts.count() == 1 ? 1 / stiffest() / least_yield() - 1 : nan;
     }
     std::vector<Fact> facts() const {
         std::vector<Fact> f = ThreePointModes::facts();
-        if (points().contacts.count() == 1) f.push_back({facts::stable_stiffness_limit, 1 / least_yield()});
+        if (points().contacts.count() == 1)
+            f.push_back({facts::stable_stiffness_limit, 1 / least_yield()});
         return f;
     }
 
@@ -48,7 +54,8 @@ private:
         const auto G = [this](int a, int b) {
             double sum = 0;
             for (int j = 0; j < p_.modes.count(); ++j)
-                sum += p_.update.gain_of(j) * p_.update.ports[a].weights[j] * p_.update.ports[b].weights[j] /
+                sum += p_.update.gain_of(j) * p_.update.ports[a].weights[j] *
+                       p_.update.ports[b].weights[j] /
                        (2 * (2 - p_.three_point.loss[j]) - p_.three_point.kappa[j]);
             return sum;
         };
@@ -56,7 +63,8 @@ private:
         const double k = points().threads.front().stiffness, G_bc = G(0, 1);
         return G(0, 0) - k * G_bc * G_bc / (1 + k * G(1, 1));
     }
-    double stiffest() const {  // that the contact can be in this run [N/m]; NaN where that is not known
+    // that the contact can be in this run [N/m]; NaN where that is not known
+    double stiffest() const {
         const ContactLaw& law = points().contacts.laws[0];
         if (law.alpha == 1) return law.k;
         if (points().pluck) return nan;
@@ -69,25 +77,27 @@ private:
     }
 };
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return driven<ExplicitRule>(std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
+    return driven<ExplicitRule>(
+        std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings)), descriptor,
+        settings);
 }
 
 double margin_of(const Scene& scene, const Settings& settings) try {
     return PenalisedModes(problem_of_modes(modal_explicit_penalty, scene, settings)).margin();
-} catch (const Refusal&) {
-    return nan;
-}
+} catch (const Refusal&) { return nan; }
 }  // namespace
 
-extern const Descriptor modal_explicit_penalty = {.name = "modal_explicit_penalty",
-                                                  .source = "exact modes, contact force of the last step (conditionally stable control)",
-                                                  .represents = modal_features_of_points,
-                                                  .balance = Balance::none,
-                                                  .clock = Clock::stepped,
-                                                  .make = made,
-                                                  .options = options,
-                                                  .approximates = modal_approximates_elastic,
-                                                  .limit = {"penalty_limit", margin_of}};
+extern const Descriptor modal_explicit_penalty = {
+    .name = "modal_explicit_penalty",
+    .source = "exact modes, contact force of the last step (conditionally stable control)",
+    .represents = modal_features_of_points,
+    .balance = Balance::none,
+    .clock = Clock::stepped,
+    .make = made,
+    .options = options,
+    .approximates = modal_approximates_elastic,
+    .limit = {"penalty_limit", margin_of}};
 
 }  // namespace jvari

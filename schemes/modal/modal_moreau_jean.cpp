@@ -1,9 +1,12 @@
-// A string in its modes over rigid barriers by Moreau-Jean time stepping: Issanchou, Acary, Perignon, Touze & Le Carrou 2018 ("A
-// modal-based approach to the nonlinear vibration of strings against a unilateral obstacle"; Siconos). Their theta scheme with the modal
-// theta and damping by which free motion is exact is the recursion of three_point_modes.hpp, its gain dt^2/W = kappa/(m omega0^2), kappa =
-// 1 + C~ - C, by which every mode yields to a steady force as it should. Contacts by contact/moreau_jean_rule.hpp. The energy shown is the
-// scheme's own, with W for m; it tends to the true one. Option `compliance` = own (default, the paper's scheme) | matched: what cut and
-// step take from the string's compliance in series. Leaves out: contact loss, as the barriers are rigid; polarisation; a body that moves.
+// A string in its modes over rigid barriers by Moreau-Jean time stepping: Issanchou, Acary,
+// Perignon, Touze & Le Carrou 2018 ("A modal-based approach to the nonlinear vibration of strings
+// against a unilateral obstacle"; Siconos). Their theta scheme with the modal theta and damping by
+// which free motion is exact is the recursion of three_point_modes.hpp, its gain dt^2/W = kappa/(m
+// omega0^2), kappa = 1 + C~ - C, by which every mode yields to a steady force as it should.
+// Contacts by contact/moreau_jean_rule.hpp. The energy shown is the scheme's own, with W for m; it
+// tends to the true one. Option `compliance` = own (default, the paper's scheme) | matched: what
+// cut and step take from the string's compliance in series. Leaves out: contact loss, as the
+// barriers are rigid; polarisation; a body that moves.
 #include "schemes/contact/moreau_jean_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/modal/three_point_modes.hpp"
@@ -16,21 +19,24 @@ double static_gain(double omega0, double sigma, double dt) {  // over dt^2/m
     return exact_step(omega0, sigma, dt).num / (omega0 * omega0 * dt * dt);
 }
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    return driven<MoreauJeanRule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings, static_gain)), descriptor,
-                                  settings);
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
+    return driven<MoreauJeanRule>(std::make_unique<ThreePointModes>(
+                                      problem_of_modes(descriptor, scene, settings, static_gain)),
+                                  descriptor, settings);
 }
 constexpr Option options[] = {compliance_option, profile_points_option, restitution_option};
 }  // namespace
 
-extern const Descriptor modal_moreau_jean = {.name = "modal_moreau_jean",
-                                             .source = "Issanchou, Acary et al. 2018: rigid contact with a coefficient of restitution",
-                                             .represents = (modal_features_of_points - Feature::contact_loss) | any_rigid,
-                                             .balance = Balance::none,
-                                             .clock = Clock::stepped,
-                                             .make = made,
-                                             .options = options,
-                                             .approximates = MoreauJeanRule::approximates,
-                                             .stand_in_rank = 0};
+extern const Descriptor modal_moreau_jean = {
+    .name = "modal_moreau_jean",
+    .source = "Issanchou, Acary et al. 2018: rigid contact with a coefficient of restitution",
+    .represents = (modal_features_of_points - Feature::contact_loss) | any_rigid,
+    .balance = Balance::none,
+    .clock = Clock::stepped,
+    .make = made,
+    .options = options,
+    .approximates = MoreauJeanRule::approximates,
+    .stand_in_rank = 0};
 
 }  // namespace jvari

@@ -1,7 +1,9 @@
-// Modal schemes with quadratised (linearly implicit) contact: the strings of two_point_modes.hpp (van Walstijn et al. 2016, eqs 38-52) and
-// three_point_modes.hpp (Issanchou et al. 2016) with quadratised_rule.hpp. Energy columns hold the scheme's own energy, with psi^2/2 for
-// the contact; the facts tell how far that is from the true one. Option `compliance` = own (default) | matched: what cut and step take from
-// the string's compliance stands in series with barrier and thread. Leaves out: contact loss with compliance=matched; polarisation.
+// Modal schemes with quadratised (linearly implicit) contact: the strings of two_point_modes.hpp
+// (van Walstijn et al. 2016, eqs 38-52) and three_point_modes.hpp (Issanchou et al. 2016) with
+// quadratised_rule.hpp. Energy columns hold the scheme's own energy, with psi^2/2 for the contact;
+// the facts tell how far that is from the true one. Option `compliance` = own (default) | matched:
+// what cut and step take from the string's compliance stands in series with barrier and thread.
+// Leaves out: contact loss with compliance=matched; polarisation.
 #include "schemes/contact/quadratised_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"
@@ -20,32 +22,42 @@ Made made(const Descriptor& descriptor, const Scene& scene, const Settings& sett
     matched_without_loss(descriptor, scene, settings);
     using Rule = QuadratisedRule<variant>;
     if constexpr (levels == 2)
-        return driven<Rule>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor, settings);
-    else return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
+        return driven<Rule>(
+            std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point),
+            descriptor, settings);
+    else
+        return driven<Rule>(
+            std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
+            descriptor, settings);
 }
 
 constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
-constexpr Option variant_option{"variant",
-                                "released",
-                                "raw leaves psi where the step puts it, and may pull; released lets go where it would pull",
-                                {"raw", "released"}};
-constexpr Option options[] = {levels_option, variant_option, compliance_option, profile_points_option};
+constexpr Option variant_option{
+    "variant",
+    "released",
+    "raw leaves psi where the step puts it, and may pull; released lets go where it would pull",
+    {"raw", "released"}};
+constexpr Option options[] = {levels_option, variant_option, compliance_option,
+                              profile_points_option};
 
 Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     using enum Quadratisation;
-    const bool three = choice_option(settings, levels_option) == "3", pulls = choice_option(settings, variant_option) == "raw";
-    const Make make = three ? (pulls ? made<3, raw> : made<3, released>) : (pulls ? made<2, raw> : made<2, released>);
+    const bool three = choice_option(settings, levels_option) == "3",
+               pulls = choice_option(settings, variant_option) == "raw";
+    const Make make = three ? (pulls ? made<3, raw> : made<3, released>)
+                            : (pulls ? made<2, raw> : made<2, released>);
     return make(descriptor, scene, settings);
 }
 }  // namespace
 
-extern const Descriptor modal_quadratised = {.name = "modal_quadratised",
-                                             .source = "Ducceschi et al. 2021, psi released in full where it would pull",
-                                             .represents = modal_features_of_points,
-                                             .balance = Balance::exact,
-                                             .clock = Clock::stepped,
-                                             .make = made_as_chosen,
-                                             .options = options,
-                                             .approximates = modal_approximates_elastic};
+extern const Descriptor modal_quadratised = {
+    .name = "modal_quadratised",
+    .source = "Ducceschi et al. 2021, psi released in full where it would pull",
+    .represents = modal_features_of_points,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made_as_chosen,
+    .options = options,
+    .approximates = modal_approximates_elastic};
 
 }  // namespace jvari

@@ -15,8 +15,10 @@ void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample
     for (int i = 0; i < modes.count(); ++i) {
         const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
         if (square >= pi * pi * sample_rate * sample_rate)
-            throw Refusal(std::string(d.name) + ": mode " + std::to_string(i + 1) + " at " + std::to_string(std::sqrt(square) / (2 * pi)) +
-                          " Hz is not below half the sample rate of " + std::to_string(sample_rate) +
+            throw Refusal(std::string(d.name) + ": mode " + std::to_string(i + 1) + " at " +
+                          std::to_string(std::sqrt(square) / (2 * pi)) +
+                          " Hz is not below half the sample rate of " +
+                          std::to_string(sample_rate) +
                           " Hz, where it would alias; ask for fewer modes or a higher rate");
     }
 }
@@ -31,11 +33,15 @@ std::vector<double> tap_weights(const Tap& tap, const Modes& modes, const String
 }
 
 PluckSteps pluck_steps(const Pluck& pluck, double dt) {
-    const double first = std::floor(pluck.start / dt), last = std::ceil((pluck.start + pluck.duration) / dt);
-    constexpr double longest = 1 << 28, latest = 0.5 * static_cast<double>(std::numeric_limits<long>::max());  // [steps]
+    const double first = std::floor(pluck.start / dt),
+                 last = std::ceil((pluck.start + pluck.duration) / dt);
+    // [steps]
+    constexpr double longest = 1 << 28,
+                     latest = 0.5 * static_cast<double>(std::numeric_limits<long>::max());
     if (!(last < latest && last - first < longest))
-        throw Refusal("the pluck, from " + std::to_string(pluck.start) + " s on, for " + std::to_string(pluck.duration) +
-                      " s, is too long or too late at " + std::to_string(1 / dt) + " Hz: its force is kept for every step, of which " +
+        throw Refusal("the pluck, from " + std::to_string(pluck.start) + " s on, for " +
+                      std::to_string(pluck.duration) + " s, is too long or too late at " +
+                      std::to_string(1 / dt) + " Hz: its force is kept for every step, of which " +
                       std::to_string(1 << 28) + " fit");
     return {static_cast<long>(first), static_cast<long>(last - first)};
 }

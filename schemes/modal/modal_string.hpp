@@ -1,4 +1,5 @@
-// What the schemes of a string in its modes share. Arrays over the modes are padded with zero modes to whole vectors.
+// What the schemes of a string in its modes share. Arrays over the modes are padded with zero modes
+// to whole vectors.
 #pragma once
 
 #include <vector>
@@ -9,18 +10,23 @@
 
 namespace jvari {
 
-constexpr double modal_overflow = 1e140;  // [m] not finite, or so far off that the energy columns no longer are
-constexpr int modal_padding = 16;         // whole vectors of any machine, in pairs
+// [m] not finite, or so far off that the energy columns no longer are
+constexpr double modal_overflow = 1e140;
+constexpr int modal_padding = 16;  // whole vectors of any machine, in pairs
 
 // What a scheme of one string in its modes represents.
-constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
-                                    Feature::measured_modes | Feature::lumped_barrier | Feature::power_law_contact | Feature::thread |
-                                    Feature::initial_shape | Feature::pluck;
-constexpr Features modal_features_of_points =
-    modal_features | Features(Feature::profile_barrier) | Features(Feature::several_barriers) | Features(Feature::contact_loss);
-inline constexpr Approximation modal_approximates[] = {{Feature::profile_barrier, facts::contact_points},
-                                                       {Feature::rigid_profile, facts::contact_points}};
-inline constexpr std::span<const Approximation> modal_approximates_elastic = std::span(modal_approximates).first(1);
+constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping |
+                                    Feature::frequency_dependent_damping | Feature::measured_modes |
+                                    Feature::lumped_barrier | Feature::power_law_contact |
+                                    Feature::thread | Feature::initial_shape | Feature::pluck;
+constexpr Features modal_features_of_points = modal_features | Features(Feature::profile_barrier) |
+                                              Features(Feature::several_barriers) |
+                                              Features(Feature::contact_loss);
+inline constexpr Approximation modal_approximates[] = {
+    {Feature::profile_barrier, facts::contact_points},
+    {Feature::rigid_profile, facts::contact_points}};
+inline constexpr std::span<const Approximation> modal_approximates_elastic =
+    std::span(modal_approximates).first(1);
 
 // The steps of dt that a pluck acts in. Refusal where it lasts longer than its table can.
 struct PluckSteps {
@@ -28,14 +34,17 @@ struct PluckSteps {
 };
 PluckSteps pluck_steps(const Pluck&, double dt);
 
-bool touches_once_without_loss(const String&);  // one lumped barrier at most: what the kernels of one contact take
+// one lumped barrier at most: what the kernels of one contact take
+bool touches_once_without_loss(const String&);
 
-// What a tap of displacement, velocity or nut force reads of the modes' displacements or velocities; none of contact forces.
+// What a tap of displacement, velocity or nut force reads of the modes' displacements or
+// velocities; none of contact forces.
 std::vector<double> tap_weights(const Tap&, const Modes&, const String&);
 
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 
-double modal_dot(const AlignedVector& w, const AlignedVector& x);  // sum w x of padded arrays (kernels/modal_two_point_kernel.cpp)
+// sum w x of padded arrays (kernels/modal_two_point_kernel.cpp)
+double modal_dot(const AlignedVector& w, const AlignedVector& x);
 
 }  // namespace jvari

@@ -1,15 +1,20 @@
-// A string whose tension grows as it stretches (Kirchhoff 1883, Carrier 1945): T + EA l/(2L), l = int y'^2 dx = L/2 sum beta_i^2 q_i^2, by
-// the potential V = EA l^2/(8L). Between the points it steps as the string of three_point_modes.hpp, whose coefficients are exact at the
-// tension T. The stretching is one force lambda along a direction d of the modes, linear in each step (Bilbao 2009, ch. 8):
+// A string whose tension grows as it stretches (Kirchhoff 1883, Carrier 1945): T + EA l/(2L), l =
+// int y'^2 dx = L/2 sum beta_i^2 q_i^2, by the potential V = EA l^2/(8L). Between the points it
+// steps as the string of three_point_modes.hpp, whose coefficients are exact at the tension T. The
+// stretching is one force lambda along a direction d of the modes, linear in each step (Bilbao
+// 2009, ch. 8):
 //
-//     lambda = -(A + kappa r),   r = d.(q+ - q-),   d = beta^2 q,   A = EA L/8 d.q-,   kappa = EA L/16
+//     lambda = -(A + kappa r),   r = d.(q+ - q-),   d = beta^2 q,   A = EA L/8 d.q-,   kappa = EA
+//                                L/16
 //
-// A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). By a gain dt^2/m that would be 2x/sin 2x times as
-// much, x = omega dt/2. The gain of an impulse, dt R sin(omega dt)/(m omega), is right to first order in dT at any rate, and the energy
-// balances with W = dt^2/gain for the mass.
+// A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). By a gain
+// dt^2/m that would be 2x/sin 2x times as much, x = omega dt/2. The gain of an impulse, dt R
+// sin(omega dt)/(m omega), is right to first order in dT at any rate, and the energy balances with
+// W = dt^2/gain for the mass.
 //
-// lambda is eliminated before the contacts are solved for, so they see a string that yields less: Theta - kappa D D'/(1 + kappa d.e), D_p =
-// d.e_p. Energy is kept to rounding with EA L/32 (d.q+)^2 in it. Second order.
+// lambda is eliminated before the contacts are solved for, so they see a string that yields less:
+// Theta - kappa D D'/(1 + kappa d.e), D_p = d.e_p. Energy is kept to rounding with EA L/32 (d.q+)^2
+// in it. Second order.
 // Leaves out: thread, contact loss, profiles, compliance=matched, polarisation, a body that moves.
 #include <cmath>
 #include <numbers>
@@ -36,17 +41,22 @@ struct Stretching {
         return -(A + kappa * r) / (1 + kappa * own);
     }
     void apply(const std::vector<double>& theta, double share, double* free_of_points) noexcept {
-        const double alone = -(A + kappa * free) / (1 + kappa * own), less = kappa / (1 + kappa * own);
+        const double alone = -(A + kappa * free) / (1 + kappa * own),
+                     less = kappa / (1 + kappa * own);
         for (std::size_t p = 0; p < on.size(); ++p) {
             free_of_points[p] += on[p] * alone;
-            for (std::size_t q = 0; q < on.size(); ++q) theta_[p * on.size() + q] = share * theta[p * on.size() + q] - less * on[p] * on[q];
+            for (std::size_t q = 0; q < on.size(); ++q)
+                theta_[p * on.size() + q] = share * theta[p * on.size() + q] - less * on[p] * on[q];
         }
     }
 };
 // Over dt^2/m: dt R sin(omega dt)/(m omega).
 double impulse_gain(double omega0, double sigma, double dt) {
-    const double square = omega_squared_damped(omega0, sigma), omega = std::sqrt(std::abs(square)), h = omega * dt;
-    return std::exp(-sigma * dt) * (square > 0 ? std::sin(h) / h : square < 0 ? std::sinh(h) / h : 1);
+    const double square = omega_squared_damped(omega0, sigma), omega = std::sqrt(std::abs(square)),
+                 h = omega * dt;
+    return std::exp(-sigma * dt) * (square > 0   ? std::sin(h) / h
+                                    : square < 0 ? std::sinh(h) / h
+                                                 : 1);
 }
 
 double square_of_beta(int i, double length) {
@@ -60,11 +70,14 @@ public:
     static constexpr long steps_between_looks = 64;
 
     explicit StretchingString(ThreePointProblem problem)
-        : p_(std::move(problem)), one_(p_.points), kappa_(p_.string().axial_stiffness * p_.points.length / 16) {
+        : p_(std::move(problem)),
+          one_(p_.points),
+          kappa_(p_.string().axial_stiffness * p_.points.length / 16) {
         const int n = p_.modes.count();
         for (auto* v : {&y_, &last_, &coming_, &d_, &e_}) v->assign(n, 0.0);
         for (auto* v : {&older_, &now_, &free_}) v->assign(p_.points.count(), 0.0);
-        for (const Tap& tap : p_.scene.taps) taps_.emplace_back(tap.quantity, tap_weights(tap, p_.modes, p_.string()));
+        for (const Tap& tap : p_.scene.taps)
+            taps_.emplace_back(tap.quantity, tap_weights(tap, p_.modes, p_.string()));
     }
     const StringPoints& points() const { return p_.points; }
     ThreadStart thread_start() const { return ThreadStart::plain; }
@@ -77,7 +90,8 @@ public:
         std::fill(last_.begin(), last_.end(), 0.0);
         for (std::size_t i = 0; i < y_.size(); ++i) coming_[i] = p_.three_point.start[i] * y_[i];
         prepare(0.5);
-        one_.kappa *= 2;  // the outer levels are one: lambda = -2 kappa (d.q + r), r of the half step
+        // the outer levels are one: lambda = -2 kappa (d.q + r), r of the half step
+        one_.kappa *= 2;
         settle(0.5);
     }
     void start(const double* force, double) noexcept { put(force, 0.5); }
@@ -103,7 +117,8 @@ public:
     }
     bool failed() const { return !(std::abs(sum_) < modal_overflow); }
     void reading(int level, double* out) const noexcept {
-        for (int p = 0; p < p_.points.count(); ++p) out[p] = dot(port(p), y_) + (level == 1 ? dot(port(p), coming_) : 0);
+        for (int p = 0; p < p_.points.count(); ++p)
+            out[p] = dot(port(p), y_) + (level == 1 ? dot(port(p), coming_) : 0);
     }
     double stored() const noexcept {
         double H = 0, s = 0;
@@ -124,7 +139,8 @@ public:
     std::vector<Fact> facts() const { return p_.facts; }
     std::vector<FreeMode> free_modes() const {
         std::vector<FreeMode> all;
-        for (int j = 0; j < p_.modes.count(); ++j) all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        for (int j = 0; j < p_.modes.count(); ++j)
+            all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
         return all;
     }
 
@@ -136,10 +152,13 @@ private:
         for (std::size_t i = 0; i < b.size(); ++i) sum += a[i] * b[i];
         return sum;
     }
-    // The direction at y, and what it and the points do without their forces. share: of its force that the step applies.
+    // The direction at y, and what it and the points do without their forces. share: of its force
+    // that the step applies.
     void prepare(double share) noexcept {
-        F_e_ = p_.points.pluck ? jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt) : 0;
-        for (std::size_t i = 0; F_e_ != 0 && i < y_.size(); ++i) coming_[i] += share * gain(i) * F_e_ * port(p_.update.ports.size() - 1)[i];
+        F_e_ = p_.points.pluck ? jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt)
+                               : 0;
+        for (std::size_t i = 0; F_e_ != 0 && i < y_.size(); ++i)
+            coming_[i] += share * gain(i) * F_e_ * port(p_.update.ports.size() - 1)[i];
         for (std::size_t i = 0; i < y_.size(); ++i) {
             d_[i] = square_of_beta(static_cast<int>(i), p_.points.length) * y_[i];
             e_[i] = share * gain(i) * d_[i];
@@ -164,29 +183,35 @@ private:
         const double lambda = one_.force(force);
         for (std::size_t i = 0; i < y_.size(); ++i) coming_[i] += lambda * e_[i];
         for (int p = 0; p < p_.points.count(); ++p)
-            for (std::size_t i = 0; force[p] != 0 && i < y_.size(); ++i) coming_[i] += share * gain(i) * force[p] * port(p)[i];
+            for (std::size_t i = 0; force[p] != 0 && i < y_.size(); ++i)
+                coming_[i] += share * gain(i) * force[p] * port(p)[i];
     }
 
     ThreePointProblem p_;
     Stretching one_;
     double kappa_;  // EA L/16
     std::vector<std::pair<Quantity, std::vector<double>>> taps_;
-    std::vector<double> y_, last_, coming_, d_, e_;  // y^n, y^n - y^{n-1}, y^{n+1} - y^n; beta^2 y, and what a force of 1 along it moves
+    // y^n, y^n - y^{n-1}, y^{n+1} - y^n; beta^2 y, and what a force of 1 along it moves
+    std::vector<double> y_, last_, coming_, d_, e_;
     std::vector<double> older_, now_, free_;
     double F_e_ = 0, sum_ = 0;
     long step_ = 0;
 };
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     return std::make_unique<Driver<StretchingString, GradientRule>>(
-        std::make_unique<StretchingString>(problem_of_modes(descriptor, scene, settings, impulse_gain)), steps_per_row(settings));
+        std::make_unique<StretchingString>(
+            problem_of_modes(descriptor, scene, settings, impulse_gain)),
+        steps_per_row(settings));
 }
 }  // namespace
 
 extern const Descriptor modal_tension = {
     .name = "modal_tension",
     .source = "Bilbao 2009, ch. 8: linear in each step, with the impulse gain of each mode",
-    .represents = (modal_features - Feature::thread) | Features(Feature::several_barriers) | Feature::tension_modulation,
+    .represents = (modal_features - Feature::thread) | Features(Feature::several_barriers) |
+                  Feature::tension_modulation,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = made,

@@ -1,5 +1,6 @@
-// The string of three_point_modes.hpp by the discrete gradient: the recursion of modal_spatial_newton (Issanchou et al. 2016, eqs 14-16),
-// whose contacts act by the weights of their footprints instead of at the nodes of a grid. Leaves out: contact loss with
+// The string of three_point_modes.hpp by the discrete gradient: the recursion of
+// modal_spatial_newton (Issanchou et al. 2016, eqs 14-16), whose contacts act by the weights of
+// their footprints instead of at the nodes of a grid. Leaves out: contact loss with
 // compliance=matched; polarisation; a body that moves.
 #include "schemes/driver/driver.hpp"
 #include "schemes/driver/pairings.hpp"
@@ -11,26 +12,31 @@ namespace jvari {
 
 namespace {
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
-    return driven<Rule>(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)), descriptor, settings);
+    return driven<Rule>(
+        std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
+        descriptor, settings);
 }
 }  // namespace
 
 extern const Descriptor modal_three_point, modal_quadratised, modal_explicit_penalty;
-const Descriptor modal_three_point = {.name = "modal_three_point",
-                                      .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
-                                      .represents = modal_features_of_points | any_rigid,
-                                      .balance = Balance::exact,
-                                      .clock = Clock::stepped,
-                                      .make = made<GradientRule>,
-                                      .options = matched_options,
-                                      .approximates = modal_approximates,
-                                      .stand_in_rank = 0};
+const Descriptor modal_three_point = {
+    .name = "modal_three_point",
+    .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
+    .represents = modal_features_of_points | any_rigid,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made<GradientRule>,
+    .options = matched_options,
+    .approximates = modal_approximates,
+    .stand_in_rank = 0};
 
 extern const StringRow modal_three_point_row;
-const StringRow modal_three_point_row = {&modal_three_point,
-                                         {JVARI_RULES(JVARI_MAKER)},
-                                         {{"quadratised", &modal_quadratised, "levels=3"}, {"penalty", &modal_explicit_penalty}}};
+const StringRow modal_three_point_row = {
+    &modal_three_point,
+    {JVARI_RULES(JVARI_MAKER)},
+    {{"quadratised", &modal_quadratised, "levels=3"}, {"penalty", &modal_explicit_penalty}}};
 
 }  // namespace jvari

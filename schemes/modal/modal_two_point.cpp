@@ -1,13 +1,17 @@
-// The modal two-point scheme: van Walstijn, Bridges & Mehes 2016, eqs 16-52 (the update in the form of two_point_modes.hpp).
+// The modal two-point scheme: van Walstijn, Bridges & Mehes 2016, eqs 16-52 (the update in the form
+// of two_point_modes.hpp).
 //
-// Exact modal frequencies and decay by the coefficients of eq 33; the thread eliminated by eqs 45-47; one barrier, whose force is the
-// two-point discrete gradient of eq 30. Starts from rest with q = 0 as in the paper: with losses that is not quite the true rest, a freely
-// decaying mode begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact to rounding.
-// Option `compliance` = own (default, the paper's scheme) | matched: what truncation and step take from the string's compliance stands in
-// series with barrier and thread (contact/compliance.hpp), and its part is added to displacement and nut force.
-// `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced: stable, and dispersive.
-// These are the kernels of one contact. Profiles, several barriers, contact loss and a moving body: the same string as two_point_modes.hpp,
-// by the driver. Leaves out: contact loss and a moving body with compliance=matched; polarisation.
+// Exact modal frequencies and decay by the coefficients of eq 33; the thread eliminated by eqs
+// 45-47; one barrier, whose force is the two-point discrete gradient of eq 30. Starts from rest
+// with q = 0 as in the paper: with losses that is not quite the true rest, a freely decaying mode
+// begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact
+// to rounding. Option `compliance` = own (default, the paper's scheme) | matched: what truncation
+// and step take from the string's compliance stands in series with barrier and thread
+// (contact/compliance.hpp), and its part is added to displacement and nut force.
+// `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced:
+// stable, and dispersive. These are the kernels of one contact. Profiles, several barriers, contact
+// loss and a moving body: the same string as two_point_modes.hpp, by the driver. Leaves out:
+// contact loss and a moving body with compliance=matched; polarisation.
 #include "scenes/excitation.hpp"
 #include "schemes/body/body_modes.hpp"
 #include "schemes/body/instrument.hpp"
@@ -28,7 +32,8 @@ TwoPointCoefficients trapezoidal(double omega0, double sigma, double dt) {  // a
 // The string of two_point_modes.hpp with one contact at most, whose rows a kernel makes whole.
 class ModalTwoPoint final : public Scheme {
 public:
-    ModalTwoPoint(std::unique_ptr<TwoPointModes> string, int steps_per_row) : string_(std::move(string)) {
+    ModalTwoPoint(std::unique_ptr<TwoPointModes> string, int steps_per_row)
+        : string_(std::move(string)) {
         const StringPoints& p = points();
         const std::size_t n = p.count();
         m_.steps_per_row = steps_per_row;
@@ -61,12 +66,15 @@ public:
             m_.pluck = pluck.mean.data();
             m_.pluck_first = pluck.first;
             m_.pluck_steps = static_cast<long>(pluck.mean.size());
-            for (long k = 0; p.series && k <= m_.pluck_steps; ++k) pluck_now_.push_back(force(*p.pluck, (m_.pluck_first + k) * p.dt));
+            for (long k = 0; p.series && k <= m_.pluck_steps; ++k)
+                pluck_now_.push_back(force(*p.pluck, (m_.pluck_first + k) * p.dt));
             m_.pluck_now = pluck_now_.data();
         }
         for (std::size_t k = 0; k < string_->taps().size(); ++k) add_tap(k, string_->taps()[k]);
         m_.taps = taps_;
-        const ContactKind kind = !barrier_ ? ContactKind::none : m_.barrier.alpha == 1 ? ContactKind::linear : ContactKind::power;
+        const ContactKind kind = !barrier_               ? ContactKind::none
+                                 : m_.barrier.alpha == 1 ? ContactKind::linear
+                                                         : ContactKind::power;
         row_ = two_point_row(kind, thread_, p.series ? Compliance::matched : Compliance::own);
         ModalTwoPoint::reset();
     }
@@ -76,7 +84,8 @@ public:
         static_cast<TwoPointStream&>(m_) = string_->stream();
         m_.step = 0;
         m_.series.clear();
-        m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.iterations = m_.iterations_most = m_.depth = 0;
+        m_.impulse_b = m_.impulse_c = m_.supplied = m_.dissipated = m_.iterations =
+            m_.iterations_most = m_.depth = 0;
         m_.range = {};
         m_.status = {};
     }
@@ -101,7 +110,8 @@ public:
         f.push_back({facts::deepest_penetration, m_.depth});
         if (points().series) f.push_back({facts::series_compliance, m_.series.C_bb});
         if (m_.barrier.alpha == 1) return f;
-        f.push_back({facts::contact_iterations_mean, m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
+        f.push_back({facts::contact_iterations_mean,
+                     m_.step > 0 ? m_.iterations / static_cast<double>(m_.step) : 0});
         f.push_back({facts::contact_iterations_most, m_.iterations_most});
         return f;
     }
@@ -113,8 +123,8 @@ private:
         return n >= 0 && n < static_cast<long>(pluck_now_.size()) ? pluck_now_[n] : 0;
     }
 
-    // Stored energy (49). While a pluck acts, what its force alone and together with others stores in C is left out,
-    // and its work counted to match.
+    // Stored energy (49). While a pluck acts, what its force alone and together with others stores
+    // in C is left out, and its work counted to match.
     double stored() const noexcept {
         const double F_e = pluck_now(), y_b = m_.y_b + m_.series.D_b + m_.series.C_be * F_e,
                      y_c = m_.y_c + m_.series.D_c + m_.series.C_ce * F_e;
@@ -125,8 +135,10 @@ private:
     }
     void add_tap(std::size_t k, const TwoPointModes::TapOfModes& of) {
         const StringPoints& p = points();
-        TwoPointTap tap{of.on_y.empty() ? nullptr : of.on_y.data(), of.on_u.empty() ? nullptr : of.on_u.data()};
-        const double none[2] = {}, b[2] = {1, 0}, c[2] = {barrier_ ? 0.0 : 1.0, 1};  // 1 N of the contact, of the thread
+        TwoPointTap tap{of.on_y.empty() ? nullptr : of.on_y.data(),
+                        of.on_u.empty() ? nullptr : of.on_u.data()};
+        // 1 N of the contact, of the thread
+        const double none[2] = {}, b[2] = {1, 0}, c[2] = {barrier_ ? 0.0 : 1.0, 1};
         if (barrier_) tap.on_b = heard_force(of.quantity, p, b);
         if (thread_) tap.on_c = heard_force(of.quantity, p, c);
         if (barrier_ && p.series) tap.on_P_b = p.series->on_tap(k, b, 0);
@@ -137,40 +149,52 @@ private:
 
     std::unique_ptr<TwoPointModes> string_;
     const bool barrier_ = points().contacts.count() == 1, thread_ = !points().threads.empty();
-    std::vector<double> pluck_now_;  // at the instants of the pluck's steps; where something is in series [N]
+    // at the instants of the pluck's steps; where something is in series [N]
+    std::vector<double> pluck_now_;
     std::vector<TwoPointTap> taps_;
     TwoPoint m_;
     TwoPointRow row_ = nullptr;
 };
 
 template <TwoPointLaw law>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     const Features needed = needed_by(scene);
-    if (!needed.has(Feature::moving_body) && !needed.any(any_rigid) && touches_once_without_loss(scene.strings.front()))
-        return std::make_unique<ModalTwoPoint>(std::make_unique<TwoPointModes>(descriptor, scene, settings, law), steps_per_row(settings));
+    if (!needed.has(Feature::moving_body) && !needed.any(any_rigid) &&
+        touches_once_without_loss(scene.strings.front()))
+        return std::make_unique<ModalTwoPoint>(
+            std::make_unique<TwoPointModes>(descriptor, scene, settings, law),
+            steps_per_row(settings));
     matched_without_loss(descriptor, scene, settings);
     return on_its_support<TwoPointModes, GradientRule>(
-        descriptor, scene, settings, [&](const Scene& one) { return std::make_unique<TwoPointModes>(descriptor, one, settings, law); },
+        descriptor, scene, settings,
+        [&](const Scene& one) {
+            return std::make_unique<TwoPointModes>(descriptor, one, settings, law);
+        },
         [&] { return TwoPointBody(scene.body->modes, 1 / settings.sample_rate, law); });
 }
 
 template <class Rule>
-std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made_by(const Descriptor& descriptor, const Scene& scene,
+                                const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
-    return driven<Rule>(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor, settings);
+    return driven<Rule>(
+        std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point), descriptor,
+        settings);
 }
 
 }  // namespace
 
-extern const Descriptor modal_two_point = {.name = "modal_two_point",
-                                           .source = "van Walstijn et al. 2016, eqs 16-52",
-                                           .represents = modal_features_of_points | Feature::moving_body | any_rigid,
-                                           .balance = Balance::exact,
-                                           .clock = Clock::stepped,
-                                           .make = made<exact_two_point>,
-                                           .options = matched_options,
-                                           .approximates = modal_approximates,
-                                           .stand_in_rank = 2};
+extern const Descriptor modal_two_point = {
+    .name = "modal_two_point",
+    .source = "van Walstijn et al. 2016, eqs 16-52",
+    .represents = modal_features_of_points | Feature::moving_body | any_rigid,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = made<exact_two_point>,
+    .options = matched_options,
+    .approximates = modal_approximates,
+    .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
     .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
@@ -184,6 +208,7 @@ extern const Descriptor modal_two_point_trapezoidal = {
 #define JVARI_MAKER_BY(name, Rule, source) made_by<Rule>,
 extern const Descriptor modal_quadratised;
 extern const StringRow modal_two_point_row;
-const StringRow modal_two_point_row = {&modal_two_point, {JVARI_RULES(JVARI_MAKER_BY)}, {{"quadratised", &modal_quadratised}}};
+const StringRow modal_two_point_row = {
+    &modal_two_point, {JVARI_RULES(JVARI_MAKER_BY)}, {{"quadratised", &modal_quadratised}}};
 
 }  // namespace jvari

@@ -1,4 +1,5 @@
-// Source: Issanchou et al. 2016, eqs 14, 17-18. The differences that cancel (1 + C~ - C for a low mode) are written as products.
+// Source: Issanchou et al. 2016, eqs 14, 17-18. The differences that cancel (1 + C~ - C for a low
+// mode) are written as products.
 #include "schemes/modal/three_point.hpp"
 
 #include <cmath>
@@ -12,7 +13,8 @@ ThreePoint three_point(const Modes& modes, double dt, double told) {
     ThreePoint c;
     c.gain = dt * dt / modes.mass;
     for (int j = 0; j < modes.count(); ++j) {
-        const double sigma = modes.sigma[j], omega0 = modes.omega0[j], decay = std::exp(-sigma * dt), fallen = std::expm1(-sigma * dt);
+        const double sigma = modes.sigma[j], omega0 = modes.omega0[j],
+                     decay = std::exp(-sigma * dt), fallen = std::expm1(-sigma * dt);
         const double square = omega_squared_damped(omega0, sigma);
         c.Ct.push_back(std::exp(-2 * sigma * dt));
         const ModeStep step = exact_step(omega0, sigma, dt);
@@ -20,12 +22,15 @@ ThreePoint three_point(const Modes& modes, double dt, double told) {
         c.kappa.push_back(step.num);  // 1 + C~ - C
         double rate;                  // omega/sin(omega dt), its limit or its hyperbolic form
         if (square > 0) {
-            const double omega = std::sqrt(square), half = std::sin(0.5 * omega * dt), sine = std::sin(omega * dt);
+            const double omega = std::sqrt(square), half = std::sin(0.5 * omega * dt),
+                         sine = std::sin(omega * dt);
             c.start.push_back(fallen + decay * (sigma / omega * sine - 2 * half * half));
             rate = omega / sine;
             if (omega * dt > std::numbers::pi) ++c.above_nyquist;
         } else if (square < 0) {
-            const double s = std::sqrt(-square), slow = omega0 * omega0 / (sigma + s), fast = sigma + s;  // slow = sigma - s
+            // slow = sigma - s
+            const double s = std::sqrt(-square), slow = omega0 * omega0 / (sigma + s),
+                         fast = sigma + s;
             const double slowly = std::expm1(-slow * dt), quickly = std::expm1(-fast * dt);
             c.start.push_back((fast * slowly - slow * quickly) / (2 * s));
             rate = s / std::sinh(s * dt);

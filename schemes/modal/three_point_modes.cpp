@@ -7,7 +7,8 @@ namespace jvari {
 
 template class ThreePointModesBy<ThreePointPass>;
 
-void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings& settings, ModalGain gain) {
+void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings& settings,
+              ModalGain gain) {
     const String& s = p.string();
     const bool linear = p.points.contacts.count() == 0 && !s.thread;
     p.initial = initial_displacement(p.modes, s);
@@ -26,27 +27,32 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
     }
     if (p.on_body) u.ports.push_back({end_inertia(p.modes, s), 0});
     u.reads = static_cast<int>(u.ports.size());
-    if (s.pluck) u.ports.push_back({footprint_weights(p.modes, s.pluck->position, s.pluck->width), 0});
+    if (s.pluck)
+        u.ports.push_back({footprint_weights(p.modes, s.pluck->position, s.pluck->width), 0});
     for (std::size_t a = 0; a < u.ports.size(); ++a) {
         p.theta.emplace_back();
         for (int b = 0; b < u.reads; ++b) {
             const Port &one = u.ports[std::min<int>(a, b)], &other = u.ports[std::max<int>(a, b)];
-            const bool apart = one.node != 0 && other.node != 0 && one.node != other.node;  // nodes are orthogonal
+            // nodes are orthogonal
+            const bool apart = one.node != 0 && other.node != 0 && one.node != other.node;
             double sum = 0;
-            for (int j = 0; !apart && j < p.modes.count(); ++j) sum += u.gain_of(j) * one.weights[j] * other.weights[j];
+            for (int j = 0; !apart && j < p.modes.count(); ++j)
+                sum += u.gain_of(j) * one.weights[j] * other.weights[j];
             p.theta[a].push_back(sum);
             if (static_cast<int>(a) < u.reads) p.points.theta.push_back(sum);
         }
     }
     std::vector<double> own;
-    for (int j = 0; j < p.modes.count(); ++j) own.push_back(u.gain_of(j) / u.kappa[j]);  // under a steady force (14)
+    // under a steady force (14)
+    for (int j = 0; j < p.modes.count(); ++j) own.push_back(u.gain_of(j) / u.kappa[j]);
     if (choice_option(settings, compliance_option) == "matched")
         p.points.series = modal_missing_matrix(descriptor, p.scene, p.modes, p.dt, own);
     else if (s.barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(s.barriers.front()))
         p.facts.push_back({facts::static_compliance, relative_compliance(p.modes, s, own)});
 }
 
-ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& scene, const Settings& settings, ModalGain gain) {
+ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& scene,
+                                   const Settings& settings, ModalGain gain) {
     ThreePointProblem p;
     p.scene = scene;
     p.scene.strings.front() = with_profile_points(scene.strings.front(), settings);
@@ -56,7 +62,8 @@ ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& sc
     p.points = points_of(p.string(), p.dt);
     p.update.intervals = p.modes.count() + 1;
     for (const Place& place : add_contacts(p.points, p.string()))
-        p.update.ports.push_back({footprint_weights(p.modes, place.at.position, place.at.width), 0});
+        p.update.ports.push_back(
+            {footprint_weights(p.modes, place.at.position, place.at.width), 0});
     complete(p, descriptor, settings, gain);
     return p;
 }

@@ -1,16 +1,22 @@
-// A string in its modes by three-point steps: Issanchou et al. 2016, eqs 14 and 20-21, in increments d^n = q^n - q^{n-1}:
+// A string in its modes by three-point steps: Issanchou et al. 2016, eqs 14 and 20-21, in
+// increments d^n = q^n - q^{n-1}:
 //
-//     d^{n+1} = C~ d^n - kappa q^n + sum_p e_p F_p,   q^{n+1} = q^n + d^{n+1},   e_p = gain g_p;   r_p = y_p^{n+1} - y_p^{n-1}
+//     d^{n+1} = C~ d^n - kappa q^n + sum_p e_p F_p,   q^{n+1} = q^n + d^{n+1},   e_p = gain g_p;
+//     r_p = y_p^{n+1} - y_p^{n-1}
 //
-// which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates, kappa = 1 + C~ - C. Theta_pq = g_p.e_q. gain = dt^2/m
-// unless a scheme says else; W, the inertia that its energy shows, is the modal mass then. Points are places on the string, read and pushed
-// by weights on the modes, or nodes of a grid with as many interior nodes as modes, which are orthogonal to each other.
+// which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates, kappa = 1 +
+// C~ - C. Theta_pq = g_p.e_q. gain = dt^2/m unless a scheme says else; W, the inertia that its
+// energy shows, is the modal mass then. Points are places on the string, read and pushed by weights
+// on the modes, or nodes of a grid with as many interior nodes as modes, which are orthogonal to
+// each other.
 //
-// Stored energy is that of eq 21 with C1 = (1 + C~)/2, C2 = kappa/dt^2, C3 = loss/dt: sum W [(1 + C~)/2 d^2 + kappa q (q + d)]/(2 dt^2), d
-// = d^{n+1}; lost in a step: sum W loss (d^{n+1} + d^n)^2/(4 dt^2). Order: free motion is exact. Forced motion is second order without
-// losses and first order with them: eq 14 puts dt^2/m F on a mode where a damped one wants e^{-sigma dt} of it (a factor per mode would
-// couple the nodes, so the paper's form is kept). Start: the free motion from rest, and every force on the first half step with half its
-// weight. Velocity is that of the free motion through levels n-1, n, n+1 corrected for F^n for the modes that tell it and a centred
+// Stored energy is that of eq 21 with C1 = (1 + C~)/2, C2 = kappa/dt^2, C3 = loss/dt: sum W [(1 +
+// C~)/2 d^2 + kappa q (q + d)]/(2 dt^2), d = d^{n+1}; lost in a step: sum W loss (d^{n+1} +
+// d^n)^2/(4 dt^2). Order: free motion is exact. Forced motion is second order without losses and
+// first order with them: eq 14 puts dt^2/m F on a mode where a damped one wants e^{-sigma dt} of it
+// (a factor per mode would couple the nodes, so the paper's form is kept). Start: the free motion
+// from rest, and every force on the first half step with half its weight. Velocity is that of the
+// free motion through levels n-1, n, n+1 corrected for F^n for the modes that tell it and a centred
 // difference for the rest (three_point.hpp).
 //
 // Form steps the modes: kernels/three_point_pass.hpp, or another of the same members.
@@ -28,7 +34,8 @@
 
 namespace jvari {
 
-// Of a mode, over dt^2/m. nullptr: 1. A gain that differs from mode to mode balances with W = dt^2/gain in place of m.
+// Of a mode, over dt^2/m. nullptr: 1. A gain that differs from mode to mode balances with W =
+// dt^2/gain in place of m.
 using ModalGain = double (*)(double omega0, double sigma, double dt);
 
 // What one scene and setting come to before a form is chosen.
@@ -39,16 +46,18 @@ struct ThreePointProblem {
     std::vector<double> initial;  // modal displacement at t = 0 [m]
     ThreePoint three_point;
     std::vector<double> W;  // [kg]
-    LinearUpdate update;    // ports: contacts, thread, moving body, which all are read, and the pluck
+    // ports: contacts, thread, moving body, which all are read, and the pluck
+    LinearUpdate update;
     StringPoints points;
     std::vector<std::vector<double>> theta;  // of each port on every read [m/N]
     std::vector<Fact> facts;                 // beside those of the string
     bool on_body = false;
     const String& string() const { return scene.strings.front(); }
 };
-// The modes as they are, their points by the weights of their footprints, a profile by points of its own.
-// Refuses modes above half the rate.
-ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&, ModalGain = nullptr);
+// The modes as they are, their points by the weights of their footprints, a profile by points of
+// its own. Refuses modes above half the rate.
+ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&,
+                                   ModalGain = nullptr);
 // p with points and update.ports for its contacts: the rest of both, and what follows from them.
 void complete(ThreePointProblem& p, const Descriptor&, const Settings&, ModalGain = nullptr);
 
@@ -56,30 +65,38 @@ template <class Form>
 class ThreePointModesBy {
 public:
     static constexpr int levels = 2;
-    static constexpr long steps_between_looks = 64;  // a step of many coupled points takes tens of microseconds
+    // a step of many coupled points takes tens of microseconds
+    static constexpr long steps_between_looks = 64;
 
-    explicit ThreePointModesBy(ThreePointProblem problem) : p_(std::move(problem)), form_(p_.update) {
+    explicit ThreePointModesBy(ThreePointProblem problem)
+        : p_(std::move(problem)), form_(p_.update) {
         for (const Tap& tap : p_.scene.taps) readings_.push_back(reading_of(tap));
         const std::size_t reads = p_.update.reads;
         for (auto* v : {&older_, &now_, &coming_, &read_, &free_}) v->assign(reads, 0.0);
         for (auto* v : {&force_, &earlier_force_}) v->assign(p_.update.ports.size(), 0.0);
-        for (auto* v : {&modal_now_, &modal_last_, &modal_coming_}) v->assign(p_.modes.count(), 0.0);
+        for (auto* v : {&modal_now_, &modal_last_, &modal_coming_})
+            v->assign(p_.modes.count(), 0.0);
         pluck_port_ = p_.points.pluck ? static_cast<int>(reads) : -1;
         for (std::size_t z = 0; z < reads; ++z)
-            for (std::size_t c = 0; c < reads; ++c) coupled_ = coupled_ || (z != c && p_.theta[c][z] != 0);
+            for (std::size_t c = 0; c < reads; ++c)
+                coupled_ = coupled_ || (z != c && p_.theta[c][z] != 0);
         reset();
     }
 
     const StringPoints& points() const { return p_.points; }
-    ThreadStart thread_start() const { return p_.points.series ? ThreadStart::plain : ThreadStart::taut; }
+    ThreadStart thread_start() const {
+        return p_.points.series ? ThreadStart::plain : ThreadStart::taut;
+    }
     ReadingsBeforeStep readings() const { return {older_.data(), now_.data(), free_.data()}; }
 
     void reset() noexcept {
         modal_now_ = p_.initial;
-        for (int j = 0; j < p_.modes.count(); ++j) modal_coming_[j] = p_.three_point.start[j] * modal_now_[j];
+        for (int j = 0; j < p_.modes.count(); ++j)
+            modal_coming_[j] = p_.three_point.start[j] * modal_now_[j];
         form_.start(modal_now_.data(), modal_coming_.data());
         form_.read(read_.data());
-        for (int z = 0; z < p_.update.reads; ++z) now_[z] = older_[z] = inner(p_.update.ports[z].weights, modal_now_);
+        for (int z = 0; z < p_.update.reads; ++z)
+            now_[z] = older_[z] = inner(p_.update.ports[z].weights, modal_now_);
         step_ = 0;
         std::fill(force_.begin(), force_.end(), 0.0);
         if (pluck_port_ >= 0) push_by_pluck();
@@ -97,14 +114,17 @@ public:
         ++step_;
         if (pluck_port_ >= 0) push_by_pluck();
         from(older_);
-        if (p_.on_body) inertia_ = (read_.back() - 2 * now_.back() + older_.back()) / (p_.dt * p_.dt);
+        if (p_.on_body)
+            inertia_ = (read_.back() - 2 * now_.back() + older_.back()) / (p_.dt * p_.dt);
     }
     Spent pass(const double* force, double a, bool probed) noexcept {
         put(force, a);
         return probed ? account() : Spent{};
     }
     bool failed() const { return failed_; }
-    void reading(int level, double* out) const noexcept { std::copy_n((level == 0 ? now_ : coming_).begin(), p_.points.count(), out); }
+    void reading(int level, double* out) const noexcept {
+        std::copy_n((level == 0 ? now_ : coming_).begin(), p_.points.count(), out);
+    }
 
     double stored() noexcept {  // H^{n+1/2}  (21)
         form_.to_modal(form_.levels.displacement, modal_now_.data());
@@ -119,11 +139,14 @@ public:
     double tap(int k, const double* mean) const noexcept {
         const TapReading& r = readings_[k];
         if (r.displacement.empty()) return heard_force(r.quantity, p_.points, mean);
-        if (r.quantity != Quantity::velocity) return modal_dot(r.displacement, form_.levels.displacement);
+        if (r.quantity != Quantity::velocity)
+            return modal_dot(r.displacement, form_.levels.displacement);
         if (step_ == 0) return 0;
-        double v = modal_dot(r.displacement, form_.levels.displacement) + modal_dot(r.increment, form_.levels.increment);
+        double v = modal_dot(r.displacement, form_.levels.displacement) +
+                   modal_dot(r.increment, form_.levels.increment);
         if (differenced_) v += modal_dot(r.kept, form_.levels.kept);
-        for (std::size_t z = 0; z < r.force.size(); ++z) v += r.force[z] * force_[z] + r.earlier_force[z] * earlier_force_[z];
+        for (std::size_t z = 0; z < r.force.size(); ++z)
+            v += r.force[z] * force_[z] + r.earlier_force[z] * earlier_force_[z];
         return v;
     }
 
@@ -131,7 +154,8 @@ public:
     std::vector<Fact> facts() const { return p_.facts; }
     std::vector<FreeMode> free_modes() const {
         std::vector<FreeMode> all;
-        for (int j = 0; j < p_.modes.count(); ++j) all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
+        for (int j = 0; j < p_.modes.count(); ++j)
+            all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
         return all;
     }
 
@@ -143,7 +167,9 @@ public:
         const auto& mu = p_.update.ports[p_.points.count()].weights;
         double sum = 0;
         for (int j = 0; j < p_.modes.count(); ++j)  // of the mass that H shows (21)
-            sum += mu[j] * mu[j] / (p_.modes.mass * (1 - 0.5 * p_.three_point.loss[j] - 0.25 * p_.three_point.kappa[j]));
+            sum += mu[j] * mu[j] /
+                   (p_.modes.mass *
+                    (1 - 0.5 * p_.three_point.loss[j] - 0.25 * p_.three_point.kappa[j]));
         return sum;
     }
     double momentum() noexcept {  // sum mu_j v_j of the half step
@@ -162,7 +188,8 @@ private:
         for (std::size_t j = 0; j < a.size(); ++j) sum += a[j] * b[j];
         return sum;
     }
-    double applied() const { return step_ == 0 ? 0.5 : 1; }  // of its force that a step applies: half in the first half step only
+    // of its force that a step applies: half in the first half step only
+    double applied() const { return step_ == 0 ? 0.5 : 1; }
 
     void keep() noexcept {  // before the last step of a row
         if (!differenced_) return;
@@ -173,7 +200,8 @@ private:
     void push_by_pluck() noexcept {
         const double F_e = jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt);
         force_[pluck_port_] = F_e;
-        for (std::size_t z = 0; F_e != 0 && z < read_.size(); ++z) read_[z] += applied() * p_.theta[pluck_port_][z] * F_e;
+        for (std::size_t z = 0; F_e != 0 && z < read_.size(); ++z)
+            read_[z] += applied() * p_.theta[pluck_port_][z] * F_e;
     }
     void from(const std::vector<double>& older) noexcept {
         double all = 0;
@@ -183,7 +211,8 @@ private:
         }
         failed_ = !(std::abs(all) < modal_overflow);
     }
-    void put(const double* force, double a) noexcept {  // the forces of the step, and what they make of its newer level
+    // the forces of the step, and what they make of its newer level
+    void put(const double* force, double a) noexcept {
         const double share = applied();
         const std::size_t points = p_.points.count(), reads = read_.size();
         std::copy_n(force, points, force_.begin());
@@ -200,7 +229,8 @@ private:
         for (std::size_t z = 0; z < p_.update.ports.size(); ++z)
             if (force_[z] != 0)
                 for (int j = 0; j < p_.modes.count(); ++j)
-                    modal_coming_[j] += applied() * force_[z] * p_.update.gain_of(j) * p_.update.ports[z].weights[j];
+                    modal_coming_[j] += applied() * force_[z] * p_.update.gain_of(j) *
+                                        p_.update.ports[z].weights[j];
     }
     Spent account() noexcept {  // what step n supplied and dissipated
         modal_last_.swap(modal_coming_);
@@ -213,7 +243,8 @@ private:
         spent.dissipated /= 4 * p_.dt * p_.dt;  // (20)
         if (const double F_e = pluck(); F_e != 0) {
             const auto& g = p_.update.ports[pluck_port_].weights;
-            for (int j = 0; j < p_.modes.count(); ++j) spent.supplied += g[j] * (modal_coming_[j] + modal_last_[j]);
+            for (int j = 0; j < p_.modes.count(); ++j)
+                spent.supplied += g[j] * (modal_coming_[j] + modal_last_[j]);
             spent.supplied *= 0.5 * F_e;
         }
         return spent;
@@ -230,7 +261,9 @@ private:
         std::vector<double> y(n), d(n), kept(n), now(n), earlier(n);
         for (int j = 0; j < n; ++j) {
             const double G = p_.three_point.velocity[j], half = 0.5 * w[j] / p_.dt;
-            y[j] = G > 0 ? w[j] * (G * (p_.three_point.kappa[j] + p_.three_point.loss[j]) - p_.modes.sigma[j]) : 0;
+            y[j] = G > 0 ? w[j] * (G * (p_.three_point.kappa[j] + p_.three_point.loss[j]) -
+                                   p_.modes.sigma[j])
+                         : 0;
             d[j] = G > 0 ? 2 * G * w[j] : half;
             kept[j] = G > 0 ? 0 : half;
             now[j] = p_.update.gain_of(j) * (G > 0 ? G * w[j] : half);
@@ -259,11 +292,15 @@ private:
     bool failed_ = false;
     int pluck_port_ = -1;
     long step_ = 0;
-    std::vector<double> older_, now_, coming_;                   // levels n-1, n, n+1 of the reads [m]
-    std::vector<double> read_, free_;                            // level n+1 without the points' forces, and from level n-1 to there
-    std::vector<double> force_, earlier_force_;                  // F^n and, for velocity taps, F^{n-1} of each port [N]
-    double inertia_ = 0;                                         // sum mu v'' without forces [N]
-    std::vector<double> modal_now_, modal_last_, modal_coming_;  // y^n, y^n - y^{n-1}, y^{n+1} - y^n
+    // levels n-1, n, n+1 of the reads [m]
+    std::vector<double> older_, now_, coming_;
+    // level n+1 without the points' forces, and from level n-1 to there
+    std::vector<double> read_, free_;
+    // F^n and, for velocity taps, F^{n-1} of each port [N]
+    std::vector<double> force_, earlier_force_;
+    double inertia_ = 0;  // sum mu v'' without forces [N]
+    // y^n, y^n - y^{n-1}, y^{n+1} - y^n
+    std::vector<double> modal_now_, modal_last_, modal_coming_;
 };
 
 extern template class ThreePointModesBy<ThreePointPass>;

@@ -14,13 +14,15 @@ namespace jvari {
 namespace {
 using Column = TwoPointColumn;
 
-// Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y = tanh(s dt/2) on the discrete mode
-// z = exp(s dt), where the true motion has s dt/2.
+// Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y =
+// tanh(s dt/2) on the discrete mode z = exp(s dt), where the true motion has s dt/2.
 double lead_at_start(double omega0, double sigma, double A, double B) {
     if (omega0 <= sigma) return 0;
-    const double J = 1 + A + B, real = (1 - A) / J, square = (1 + A - B) / J - real * real;  // z of (35)
+    // z of (35)
+    const double J = 1 + A + B, real = (1 - A) / J, square = (1 + A - B) / J - real * real;
     if (square <= 0) return 0;
-    const std::complex<double> z(real, std::sqrt(square)), t = (z - 1.0) / (z + 1.0), s = std::log(z);
+    const std::complex<double> z(real, std::sqrt(square)), t = (z - 1.0) / (z + 1.0),
+                                                           s = std::log(z);
     return std::abs(std::atan2(t.real(), t.imag()) - std::atan2(s.real(), s.imag()));
 }
 
@@ -37,7 +39,8 @@ TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {
     return {m.A(), m.B()};
 }
 
-TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, const Settings& settings, TwoPointLaw law)
+TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
+                             const Settings& settings, TwoPointLaw law)
     : dt_(1 / settings.sample_rate) {
     Scene scene = given;
     const String s = scene.strings.front() = with_profile_points(scene.strings.front(), settings);
@@ -57,8 +60,10 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         B.push_back(Bi);
         c[i] = 4 * Ai / J;
         loss[i] = 2 * Bi / J;
-        // Frequency and decay fix A and B, not the mass. Matched, sqrt(k m) of mass m and stiffness 4 m A/dt^2 is the true mode's.
-        const double mass = modes.mass * (matched ? 0.5 * dt_ * modes.omega0[i] / std::sqrt(Ai) : 1);
+        // Frequency and decay fix A and B, not the mass. Matched, sqrt(k m) of mass m and stiffness
+        // 4 m A/dt^2 is the true mode's.
+        const double mass =
+            modes.mass * (matched ? 0.5 * dt_ * modes.omega0[i] / std::sqrt(Ai) : 1);
         scale.push_back(std::sqrt(J / (dt_ * dt_ / (2 * mass))));
         y0_[i] = shape[i] * scale[i];
         u0_[i] = -2 * Ai / J * y0_[i];               // (42) with q = 0
@@ -80,7 +85,8 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
     p_ = points_of(s, dt_);
     add_lumped(p_, s);
     for (const Footprint& f : sites_of(scene).forces)
-        if (g_.size() < p_.positions.size()) g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
+        if (g_.size() < p_.positions.size())
+            g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
     if (s.pluck) {
         g_e_ = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
         m_.g_e = g_e_.data();
@@ -88,7 +94,8 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given, c
         const PluckSteps steps = pluck_steps(*s.pluck, dt_);
         pluck_.first = steps.first;
         for (long n = steps.first; n < steps.first + steps.count; ++n)
-            pluck_.mean.push_back(0.5 * (force(*s.pluck, n * dt_) + force(*s.pluck, (n + 1) * dt_)));
+            pluck_.mean.push_back(0.5 *
+                                  (force(*s.pluck, n * dt_) + force(*s.pluck, (n + 1) * dt_)));
     }
     std::vector<const AlignedVector*> all;
     for (const AlignedVector& g : g_) all.push_back(&g);
@@ -141,7 +148,8 @@ void TwoPointModes::reset() noexcept {
     sum_ = 0;
     m_.y_b = m_.u_b = m_.y_c = m_.u_c = 0;
     if (!unplucked_) return;
-    if (p_.contacts.count() == 1) m_.y_b = modal_dot(g_.front(), y0_), m_.u_b = modal_dot(g_.front(), u0_);
+    if (p_.contacts.count() == 1)
+        m_.y_b = modal_dot(g_.front(), y0_), m_.u_b = modal_dot(g_.front(), u0_);
     if (!p_.threads.empty()) m_.y_c = modal_dot(g_.back(), y0_), m_.u_c = modal_dot(g_.back(), u0_);
 }
 
@@ -185,12 +193,15 @@ Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
     ++step_;
     if (unplucked_) {
         const std::size_t c = p_.contacts.laws.size();
-        (F_e_ != 0 ? plucked_ : unplucked_)(m_, c == 1 ? force[0] : 0, p_.threads.empty() ? 0 : force[c], F_e_);
+        (F_e_ != 0 ? plucked_ : unplucked_)(m_, c == 1 ? force[0] : 0,
+                                            p_.threads.empty() ? 0 : force[c], F_e_);
         return spent;
     }
     for (int from = 0; from < m_.modes; from += two_point_line) {
-        double *y = m_.stream + two_point_at(Column::y, from), *u = m_.stream + two_point_at(Column::u, from);
-        const double *c = m_.stream + two_point_at(Column::c, from), *loss = m_.stream + two_point_at(Column::loss, from);
+        double *y = m_.stream + two_point_at(Column::y, from),
+               *u = m_.stream + two_point_at(Column::u, from);
+        const double *c = m_.stream + two_point_at(Column::c, from),
+                     *loss = m_.stream + two_point_at(Column::loss, from);
         const double* f = push_.data() + from;
         for (int k = 0; k < two_point_line; ++k) {
             const double s = u[k] + f[k];  // (41)
@@ -215,7 +226,8 @@ double TwoPointModes::stored() const noexcept {
 }
 
 double TwoPointModes::inertia() const {
-    const double a = two_point_dot(body_.on_y.data(), m_, Column::y) + two_point_dot(body_.on_u.data(), m_, Column::u);
+    const double a = two_point_dot(body_.on_y.data(), m_, Column::y) +
+                     two_point_dot(body_.on_u.data(), m_, Column::u);
     return 2 / (dt_ * dt_) * (a + body_.theta_e * F_e_);
 }
 
@@ -233,7 +245,8 @@ double TwoPointModes::tap(int k, const double* mean) const noexcept {
 }
 
 std::vector<Fact> TwoPointModes::facts() const {
-    return compliance_ > 0 ? std::vector<Fact>{{facts::static_compliance, compliance_}} : std::vector<Fact>{};
+    return compliance_ > 0 ? std::vector<Fact>{{facts::static_compliance, compliance_}}
+                           : std::vector<Fact>{};
 }
 
 }  // namespace jvari

@@ -1,12 +1,14 @@
-// A string in its modes by two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 38-43, and 49, 51, 52 for its energy.
-// In modes scaled by sqrt(J/xi)
+// A string in its modes by two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 38-43, and 49,
+// 51, 52 for its energy. In modes scaled by sqrt(J/xi)
 //
-//     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;   r_p = g_p.s, Theta_pq = g_p.g_q
+//     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;   r_p = g_p.s,
+//                              Theta_pq = g_p.g_q
 //
-// which is one fused pass over the modes for one contact and a thread (kernels/modal_two_point_kernel.hpp). Here J = 1 + A + B, c = 4 A/J,
-// loss = 2 B/J, xi = dt^2/2m, and A, B of eq 33 (exact) or 32. With compliance=matched m is the mass by which the mode has its true
-// impedance (docs/compliance-matching.md). The momentum is q = J u/2 + A y = J (u/2 + c y/4). On a body that moves (schemes/body) its
-// acceleration is one more force.
+// which is one fused pass over the modes for one contact and a thread
+// (kernels/modal_two_point_kernel.hpp). Here J = 1 + A + B, c = 4 A/J, loss = 2 B/J, xi = dt^2/2m,
+// and A, B of eq 33 (exact) or 32. With compliance=matched m is the mass by which the mode has its
+// true impedance (docs/compliance-matching.md). The momentum is q = J u/2 + A y = J (u/2 + c y/4).
+// On a body that moves (schemes/body) its acceleration is one more force.
 #pragma once
 
 #include "schemes/driver/string_step.hpp"
@@ -24,7 +26,8 @@ TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt);  /
 class TwoPointModes {
 public:
     static constexpr int levels = 1;
-    static constexpr long steps_between_looks = 64;  // a step of many coupled points takes tens of microseconds
+    // a step of many coupled points takes tens of microseconds
+    static constexpr long steps_between_looks = 64;
 
     TwoPointModes(const Descriptor&, const Scene&, const Settings&, TwoPointLaw);
 
@@ -62,14 +65,17 @@ public:
     double start_phase_offset() const { return offset_; }  // [rad]
 
 private:
-    struct AtBody {                    // what a body that moves reads of the string, and pushes: empty without one
-        AlignedVector mu, on_y, on_u;  // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
-        double theta_e = 0;            // of the pluck [s^2]
+    // what a body that moves reads of the string, and pushes: empty without one
+    struct AtBody {
+        // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
+        AlignedVector mu, on_y, on_u;
+        double theta_e = 0;  // of the pluck [s^2]
     };
     void put(TwoPointColumn, const AlignedVector&);
     void push(const double* force, double a) noexcept;
     double momentum_of(int i) const {  // q_i/J_i
-        return 0.5 * at(TwoPointColumn::u, i) + 0.25 * at(TwoPointColumn::c, i) * at(TwoPointColumn::y, i);
+        return 0.5 * at(TwoPointColumn::u, i) +
+               0.25 * at(TwoPointColumn::c, i) * at(TwoPointColumn::y, i);
     }
     double at(TwoPointColumn column, int i) const { return stream_[two_point_at(column, i)]; }
 
@@ -81,14 +87,17 @@ private:
     AlignedVector g_e_;             // the pluck's
     PluckForce pluck_;
     AtBody body_;
-    TwoPointPass unplucked_ = nullptr, plucked_ = nullptr;  // fused, of one contact and a thread at most, on no body
+    // fused, of one contact and a thread at most, on no body
+    TwoPointPass unplucked_ = nullptr, plucked_ = nullptr;
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;
     std::vector<double> older_, free_;
-    double compliance_ = 0;  // of one contact under a steady force, relative to the true one of the same modes; else 0
+    // of one contact under a steady force, relative to the true one of the same modes; else 0
+    double compliance_ = 0;
     double offset_ = 0;
     long step_ = 0;
-    double F_e_ = 0, sum_ = 0;  // of the step: the pluck's force [N]; the points' readings added up [m]
+    // of the step: the pluck's force [N]; the points' readings added up [m]
+    double F_e_ = 0, sum_ = 0;
 };
 
 }  // namespace jvari

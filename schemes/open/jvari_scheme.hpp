@@ -1,9 +1,11 @@
 // jvari_scheme.h for C++: a class as a scheme. It needs no library of jvari, and any compiler.
 //
 //     struct Mine {
-//         explicit Mine(const jvari_problem&);      // may throw a std::exception: the scene is refused with its sentence
+//         explicit Mine(const jvari_problem&);      // may throw a std::exception: the scene is
+//         refused with its sentence
 //         void reset();
-//         int advance(const jvari_rows&);           // JVARI_OK, or a jvari_outcome and rows.failed_step
+//         int advance(const jvari_rows&);           // JVARI_OK, or a jvari_outcome and
+//         rows.failed_step
 //         int64_t dofs() const;
 //     };
 //     JVARI_SCHEME(Mine, "mine", "A. Author 2026, eqs 3-9", "damping, thread, pluck", "none")
@@ -25,29 +27,35 @@ void* make(const jvari_scheme*, const jvari_problem* problem, jvari_made* made) 
     } catch (const std::exception& e) {
         std::snprintf(made->why, sizeof made->why, "%s", e.what());
     } catch (...) {
-        std::snprintf(made->why, sizeof made->why, "the scheme throws something that is no std::exception while it is made");
+        std::snprintf(made->why, sizeof made->why,
+                      "the scheme throws something that is no std::exception while it is made");
         made->failed = 1;
     }
     return nullptr;
 }
 template <class Made>
-jvari_scheme scheme(const char* name, const char* source, const char* represents, const char* balance) {
+jvari_scheme scheme(const char* name, const char* source, const char* represents,
+                    const char* balance) {
     jvari_scheme s{};
     s.size = sizeof s;
     s.name = name, s.source = source, s.represents = represents, s.balance = balance;
     s.make = make<Made>;
     s.reset = [](void* self) { static_cast<Made*>(self)->reset(); };
-    s.advance = [](void* self, jvari_rows* rows) { return static_cast<int>(static_cast<Made*>(self)->advance(*rows)); };
+    s.advance = [](void* self, jvari_rows* rows) {
+        return static_cast<int>(static_cast<Made*>(self)->advance(*rows));
+    };
     s.release = [](void* self) { delete static_cast<Made*>(self); };
     return s;
 }
 
 }  // namespace jvari_open
 
-#define JVARI_SCHEME(Made, name, source, represents, balance)                                                 \
-    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                                         \
-        static const jvari_scheme one = jvari_open::scheme<Made>(name, source, represents, balance);          \
-        static const jvari_scheme* const all[] = {&one};                                                      \
-        static const jvari_plugin plugin = {sizeof plugin, JVARI_SCHEME_VERSION, all, 1, __VERSION__, "", 1}; \
-        return &plugin;                                                                                       \
+#define JVARI_SCHEME(Made, name, source, represents, balance)                 \
+    extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {         \
+        static const jvari_scheme one =                                       \
+            jvari_open::scheme<Made>(name, source, represents, balance);      \
+        static const jvari_scheme* const all[] = {&one};                      \
+        static const jvari_plugin plugin = {                                  \
+            sizeof plugin, JVARI_SCHEME_VERSION, all, 1, __VERSION__, "", 1}; \
+        return &plugin;                                                       \
     }

@@ -1,4 +1,5 @@
-// Source: van Walstijn et al. 2016, eqs 5-8 and 14-22; the compliances are those of contact/compliance.hpp.
+// Source: van Walstijn et al. 2016, eqs 5-8 and 14-22; the compliances are those of
+// contact/compliance.hpp.
 #include "schemes/open/problem.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace jvari {
 namespace {
 std::vector<double> pluck_samples(const Pluck& pluck, const jvari_problem& p) {
     const double steps = static_cast<double>((p.rows - 1) * p.steps_per_row) + 1;
-    const double last = std::min(std::ceil((pluck.start + pluck.duration) * p.sample_rate) + 1, steps);
+    const double last =
+        std::min(std::ceil((pluck.start + pluck.duration) * p.sample_rate) + 1, steps);
     std::vector<double> samples;
     for (double n = 0; n < last; ++n) samples.push_back(force(pluck, n / p.sample_rate));
     return samples;
@@ -58,22 +60,27 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
     p_.size = sizeof p_;
     p_.name = texts_.emplace_back(scene.name).c_str();
     p_.scene = texts_.emplace_back(write_scene(scene)).c_str();
-    p_.sample_rate = settings.sample_rate, p_.tap_rate = settings.tap_rate, p_.duration = scene.duration;
+    p_.sample_rate = settings.sample_rate, p_.tap_rate = settings.tap_rate,
+    p_.duration = scene.duration;
     p_.rows = rows_of(scene, settings), p_.steps_per_row = steps_per_row(settings);
     p_.modes = modes.count(), p_.modes_asked = settings.modes;
-    p_.contacts = static_cast<std::int64_t>(s.barriers.size()), p_.taps = static_cast<std::int64_t>(scene.taps.size());
-    p_.length = s.length, p_.linear_density = s.linear_density, p_.tension = s.tension, p_.bending_stiffness = s.bending_stiffness;
+    p_.contacts = static_cast<std::int64_t>(s.barriers.size()),
+    p_.taps = static_cast<std::int64_t>(scene.taps.size());
+    p_.length = s.length, p_.linear_density = s.linear_density, p_.tension = s.tension,
+    p_.bending_stiffness = s.bending_stiffness;
     p_.modal_mass = modes.mass;
     p_.beta = keep(modes.beta), p_.omega0 = keep(modes.omega0), p_.sigma = keep(modes.sigma);
     p_.start = keep(initial_displacement(modes, s));
 
     std::vector<Footprint> points = footprints_of(s);
     std::vector<double> weights;
-    for (const Footprint& f : points) append(weights, footprint_weights(modes, f.position, f.width));
+    for (const Footprint& f : points)
+        append(weights, footprint_weights(modes, f.position, f.width));
     p_.contact_weights = keep(weights);
     p_.contact_position = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.position; }));
     p_.contact_width = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.width; }));
-    p_.contact_stiffness = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.stiffness.k; }));
+    p_.contact_stiffness =
+        keep(of_contacts(s, [](const LumpedBarrier& b) { return b.stiffness.k; }));
     p_.contact_exponent = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.exponent; }));
     p_.contact_height = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.height; }));
     p_.contact_loss = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.contact_loss; }));
@@ -82,7 +89,8 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
         p_.threads = 1;
         p_.thread_position = s.thread->position, p_.thread_width = s.thread->width;
         p_.thread_weights = keep(footprint_weights(modes, s.thread->position, s.thread->width));
-        p_.thread_stiffness = s.thread->stiffness, p_.thread_damping = s.thread->damping, p_.thread_height = s.thread->height;
+        p_.thread_stiffness = s.thread->stiffness, p_.thread_damping = s.thread->damping,
+        p_.thread_height = s.thread->height;
         points.push_back({s.thread->position, s.thread->width});
     }
     if (s.pluck) {
@@ -102,38 +110,47 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
     std::vector<std::string> names, quantities;
     std::vector<double> positions, tap_weights, compliance, tap_compliance, radiation;
     for (const Footprint& at : points) {
-        for (const Footprint& pushed : points) compliance.push_back(static_deflection(s, at, pushed));
+        for (const Footprint& pushed : points)
+            compliance.push_back(static_deflection(s, at, pushed));
         radiation.push_back(radiation_resistance(s, at, modes.count()));
     }
     for (const Tap& tap : scene.taps) {
-        names.push_back(tap.name), quantities.emplace_back(name_of(tap.quantity)), positions.push_back(tap.position);
+        names.push_back(tap.name), quantities.emplace_back(name_of(tap.quantity)),
+            positions.push_back(tap.position);
         append(tap_weights, weights_of(tap, modes, s));
         for (const Footprint& pushed : points)
-            tap_compliance.push_back(tap.quantity == Quantity::displacement ? static_deflection(s, {tap.position, 0}, pushed)
-                                     : tap.quantity == Quantity::nut_force  ? static_nut_force(s, pushed)
-                                                                            : 0);
+            tap_compliance.push_back(tap.quantity == Quantity::displacement
+                                         ? static_deflection(s, {tap.position, 0}, pushed)
+                                     : tap.quantity == Quantity::nut_force
+                                         ? static_nut_force(s, pushed)
+                                         : 0);
     }
-    p_.tap_names = keep(names), p_.tap_quantities = keep(quantities), p_.tap_position = keep(positions);
+    p_.tap_names = keep(names), p_.tap_quantities = keep(quantities),
+    p_.tap_position = keep(positions);
     p_.tap_weights = keep(tap_weights);
-    p_.compliance = keep(compliance), p_.tap_compliance = keep(tap_compliance), p_.radiation = keep(radiation);
+    p_.compliance = keep(compliance), p_.tap_compliance = keep(tap_compliance),
+    p_.radiation = keep(radiation);
 
     names.clear(), quantities.clear();
-    for (const auto& [name, value] : settings.options) names.push_back(name), quantities.push_back(value);
+    for (const auto& [name, value] : settings.options)
+        names.push_back(name), quantities.push_back(value);
     p_.options = static_cast<std::int64_t>(names.size());
     p_.option_names = keep(names), p_.option_values = keep(quantities);
 }
 
 void refuse_beyond_arrays(const Scene& scene) {
     const Features needed = needed_by(scene);
-    const char* beyond = scene.strings.size() != 1                 ? "several strings"
-                         : needed.has(Feature::moving_body)        ? "a moving body"
-                         : needed.has(Feature::polarisation)       ? "two polarisations"
-                         : needed.any(any_rigid)                   ? "a rigid barrier"
-                         : needed.has(Feature::tension_modulation) ? "a tension that grows as the string stretches"
-                                                                   : nullptr;
+    const char* beyond = scene.strings.size() != 1           ? "several strings"
+                         : needed.has(Feature::moving_body)  ? "a moving body"
+                         : needed.has(Feature::polarisation) ? "two polarisations"
+                         : needed.any(any_rigid)             ? "a rigid barrier"
+                         : needed.has(Feature::tension_modulation)
+                             ? "a tension that grows as the string stretches"
+                             : nullptr;
     if (beyond)
         throw Refusal("scene " + scene.name + " has " + beyond +
-                      ": the problem as arrays is of one string that moves in one plane between ends at rest, over barriers that give way");
+                      ": the problem as arrays is of one string that moves in one plane between "
+                      "ends at rest, over barriers that give way");
 }
 
 }  // namespace jvari

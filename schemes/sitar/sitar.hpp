@@ -1,20 +1,27 @@
-// What sitar_waveguide and sitar_fdm share: the string on a grid that a wave crosses one cell per step, its bridge and its ledger.
+// What sitar_waveguide and sitar_fdm share: the string on a grid that a wave crosses one cell per
+// step, its bridge and its ledger.
 //
-// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar", eqs 4 and 10-12.
+// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar",
+// eqs 4 and 10-12.
 //
-// Geometry. x = 0 is the bridge end: the profile covers the nodes 0 < m dx <= x_c and the string may not pass below it. x = L is the peg,
-// rigid. Node 0 is the termination itself and is not under the profile.
+// Geometry. x = 0 is the bridge end: the profile covers the nodes 0 < m dx <= x_c and the string
+// may not pass below it. x = L is the peg, rigid. Node 0 is the termination itself and is not under
+// the profile.
 //
-// Loss. The paper multiplies by a factor per period. Here every wave decays by step_loss = exp(-sigma dt) per step, sigma = -f0 ln(factor)
-// the scene's uniform decay rate. The distortionless string y_tt + 2 sigma y_t + sigma^2 y = c^2 y_xx; the scene's string lacks the sigma^2
-// term, which moves its partials by sigma^2/(2 omega^2). The start y_r = y_l = y/2 has the velocity -sigma y; the phase it costs is a fact.
+// Loss. The paper multiplies by a factor per period. Here every wave decays by step_loss =
+// exp(-sigma dt) per step, sigma = -f0 ln(factor) the scene's uniform decay rate. The
+// distortionless string y_tt + 2 sigma y_t + sigma^2 y = c^2 y_xx; the scene's string lacks the
+// sigma^2 term, which moves its partials by sigma^2/(2 omega^2). The start y_r = y_l = y/2 has the
+// velocity -sigma y; the phase it costs is a fact.
 //
-// Energy. A travelling wave f(x) carries T f'^2 per metre: stored = T/(4 dx) sum of squared differences over two cells. Over one cell the
-// sum would also count a wave that alternates from sample to sample; the rails can hold one of any size that is 0 at every node (y_r =
-// -y_l), and no tap hears it.
+// Energy. A travelling wave f(x) carries T f'^2 per metre: stored = T/(4 dx) sum of squared
+// differences over two cells. Over one cell the sum would also count a wave that alternates from
+// sample to sample; the rails can hold one of any size that is 0 at every node (y_r = -y_l), and no
+// tap hears it.
 //
-// Bridge force. With y the displacement that the rule leaves behind, the force on node m is what its equation of motion lacks:
-// dt F = Z [y(n+1, m) - loss y(n, m+1) - loss y(n, m-1) + loss^2 y(n-1, m)], Z = T/c the wave impedance, 0 where no rule acts (eq 9).
+// Bridge force. With y the displacement that the rule leaves behind, the force on node m is what
+// its equation of motion lacks: dt F = Z [y(n+1, m) - loss y(n, m+1) - loss y(n, m-1) + loss^2
+// y(n-1, m)], Z = T/c the wave impedance, 0 where no rule acts (eq 9).
 #pragma once
 
 #include <vector>
@@ -36,30 +43,37 @@ struct SitarString {
     std::vector<double> profile;  // its height at nodes 1, 2, ... [m]
     std::vector<Fact> facts;      // what is approximated knowingly
 
-    // Of the string on the grid: node to node in one step, so its modes are those of the ideal string of this many cells.
+    // Of the string on the grid: node to node in one step, so its modes are those of the ideal
+    // string of this many cells.
     std::vector<FreeMode> free_modes() const;
-    double impedance() const { return tension * dt / dx; }                            // Z [kg/s]
-    double wave_energy(double slopes) const { return 0.25 * tension / dx * slopes; }  // of a sum of squared differences [m^2] -> [J]
+    double impedance() const { return tension * dt / dx; }  // Z [kg/s]
+    // of a sum of squared differences [m^2] -> [J]
+    double wave_energy(double slopes) const { return 0.25 * tension / dx * slopes; }
 };
 
-// Everything but the grid (dx, cells) and what hangs on it. `stiffness` is what becomes of bending stiffness: "refuse", "ignore", or
-// another word where the scheme takes it into account.
-SitarString sitar_string(const Descriptor&, const Scene&, const Settings&, const std::string& stiffness);
+// Everything but the grid (dx, cells) and what hangs on it. `stiffness` is what becomes of bending
+// stiffness: "refuse", "ignore", or another word where the scheme takes it into account.
+SitarString sitar_string(const Descriptor&, const Scene&, const Settings&,
+                         const std::string& stiffness);
 
-// The barrier is rigid, and the string that these schemes move lacks the sigma^2 term of a damped one.
+// The barrier is rigid, and the string that these schemes move lacks the sigma^2 term of a damped
+// one.
 constexpr Approximation sitar_damping{Feature::damping, facts::start_phase_error},
-    sitar_profile{Feature::profile_barrier, facts::rigid_barrier}, sitar_power_law{Feature::power_law_contact, facts::rigid_barrier},
+    sitar_profile{Feature::profile_barrier, facts::rigid_barrier},
+    sitar_power_law{Feature::power_law_contact, facts::rigid_barrier},
     sitar_ignored_stiffness{Feature::bending_stiffness, facts::ignored_bending_stiffness};
 
 // The integer length of eq 4: L/dx = round(fs/(2 f0)); its error is a fact.
 void set_integer_length(SitarString&);
 void refuse_too_many_cells(double cells);  // of any length: more than memory or an int holds
 
-// The profile at the nodes, once the grid is known. Refuses a bridge away from x = 0, shorter than a cell, or above the string at t = 0
-// (`plucked`: the share of the initial shape that lies in the plane of the bridge).
+// The profile at the nodes, once the grid is known. Refuses a bridge away from x = 0, shorter than
+// a cell, or above the string at t = 0 (`plucked`: the share of the initial shape that lies in the
+// plane of the bridge).
 void lay_bridge(SitarString&, const String&, double plucked);
 
-// The shape at t = 0 [m], continued beyond both ends as the waves need it: odd about x = 0 and x = L.
+// The shape at t = 0 [m], continued beyond both ends as the waves need it: odd about x = 0 and x =
+// L.
 double initial_shape(const String&, double x);
 
 // The lattice of sitar_fdm by the rule of the reference (sitar_fdm.cpp).

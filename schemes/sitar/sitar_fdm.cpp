@@ -1,16 +1,23 @@
-// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar", eqs 6-12: the wave equation with dx = c
-// dt, y(n+1, m) = y(n, m+1) + y(n, m-1) - y(n-1, m)  (9), rigid ends, a bridge below which no node may pass.
+// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar",
+// eqs 6-12: the wave equation with dx = c dt, y(n+1, m) = y(n, m+1) + y(n, m-1) - y(n-1, m)  (9),
+// rigid ends, a bridge below which no node may pass.
 //
-// Loss: every wave decays by step_loss per step, so (9) becomes y+ = loss (y_{m+1} + y_{m-1}) - loss^2 y-: the same string as
-// sitar_waveguide's, sample by sample, where there is no bridge. Under the bridge they differ: here a node that would pass is moved up by
-// some d >= 0, an impulse Z d that leaves to both sides and never pulls; there the returning wave alone is set. With `old` for loss^2 y-,
+// Loss: every wave decays by step_loss per step, so (9) becomes y+ = loss (y_{m+1} + y_{m-1}) -
+// loss^2 y-: the same string as sitar_waveguide's, sample by sample, where there is no bridge.
+// Under the bridge they differ: here a node that would pass is moved up by some d >= 0, an impulse
+// Z d that leaves to both sides and never pulls; there the returning wave alone is set. With `old`
+// for loss^2 y-,
 //
-//   sitar_fdm (12)              y+ = profile, the node is put back on it                           loses energy
-//   characteristic_lattice (reference/)  y+ + old = max(2 profile, loss (y_{m+1} + y_{m-1}))       tends to the motion on a flat wall
+//   sitar_fdm (12)              y+ = profile, the node is put back on it
+//                               loses energy
+//   characteristic_lattice (reference/)  y+ + old = max(2 profile, loss (y_{m+1} + y_{m-1}))
+//                                        tends to the motion on a flat wall
 //
-// The latter is of Schatzman & Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math. Comp. 53, 1989.
+// The latter is of Schatzman & Bercovier, "Numerical approximation of a wave equation with
+// unilateral constraints", Math. Comp. 53, 1989.
 //
-// Left out: any stiffness of the contact, a fractional length, the second polarisation (the paper's FDM has one).
+// Left out: any stiffness of the contact, a fractional length, the second polarisation (the paper's
+// FDM has one).
 #include <algorithm>
 #include <cmath>
 
@@ -33,23 +40,32 @@ struct Grid {
 template <BridgeRule rule>
 class SitarFdm final : public Scheme {
 public:
-    explicit SitarFdm(Grid g) : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) { reset(); }
+    explicit SitarFdm(Grid g)
+        : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) {
+        reset();
+    }
     void reset() noexcept override {
         steps_ = 0;
         ledger_ = {};
         slopes_dissipated_ = 0;
-        for (int m = 0; m <= s_.cells; ++m) now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
+        for (int m = 0; m <= s_.cells; ++m)
+            now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
         before_.front() = before_.back() = 0;
-        for (int m = 1; m < s_.cells; ++m) before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);  // y_r = y_l = y/2
+        // y_r = y_l = y/2
+        for (int m = 1; m < s_.cells; ++m)
+            before_[m] = 0.5 / s_.step_loss * (now_[m - 1] + now_[m + 1]);
         slopes_ = slopes();
     }
     Status advance(const Block& out) noexcept override {
         const bool bridge = !s_.profile.empty();
         for (int row = 0; row < out.rows; ++row) {
             double finite = 0;
-            for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
+            for (int k = 0; k < out.taps; ++k)
+                finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
             if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
-            if (out.energy) write_energy(out, row, s_.wave_energy(slopes()), 0, s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
+            if (out.energy)
+                write_energy(out, row, s_.wave_energy(slopes()), 0,
+                             s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
             slopes_dissipated_ = 0;
             ledger_.next_row();
             for (int k = 0; k < g_.steps_per_row; ++k) {
@@ -73,7 +89,8 @@ private:
         const double loss = s_.step_loss, loss2 = loss * loss;
         double* __restrict next = before_.data();
         const double* __restrict y = now_.data();
-        for (int m = 1; m < s_.cells; ++m) next[m] = loss * (y[m + 1] + y[m - 1]) - loss2 * next[m];  // (9)
+        // (9)
+        for (int m = 1; m < s_.cells; ++m) next[m] = loss * (y[m + 1] + y[m - 1]) - loss2 * next[m];
         now_.swap(before_);
         slopes_dissipated_ += (1 - loss2) * slopes_;
         slopes_ *= loss2;
@@ -84,8 +101,10 @@ private:
         const double loss = s_.step_loss;
         double moved = 0, change = 0;
         for (int m = 1; m <= static_cast<int>(s_.profile.size()); ++m) {
-            const double left = loss * before_[m - 1], right = loss * before_[m + 1], y = now_[m], old = left + right - y;
-            const double profile = s_.profile[m - 1], d = rule == BridgeRule::clamping ? profile - y : 2 * profile - (y + old);
+            const double left = loss * before_[m - 1], right = loss * before_[m + 1], y = now_[m],
+                         old = left + right - y;
+            const double profile = s_.profile[m - 1],
+                         d = rule == BridgeRule::clamping ? profile - y : 2 * profile - (y + old);
             if (!(d > 0)) continue;
             change += 2 * d * (y - right + y - left + d);
             now_[m] = rule == BridgeRule::clamping ? profile : y + d;
@@ -96,25 +115,29 @@ private:
         ledger_.impulse += s_.impedance() * moved;
         ledger_.force.note(s_.impedance() * moved / s_.dt);
     }
-    // Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1) is one of y_r, with m and m + 1 exchanged
-    // one of y_l. With loss = 1 it is the energy that the leapfrog conserves, kinetic plus the product of slopes now and before.
+    // Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1)
+    // is one of y_r, with m and m + 1 exchanged one of y_l. With loss = 1 it is the energy that the
+    // leapfrog conserves, kinetic plus the product of slopes now and before.
     double slopes() const {
         double sum = 0;
         for (int m = 0; m < s_.cells; ++m) {
-            const double r = now_[m] - s_.step_loss * before_[m + 1], l = now_[m + 1] - s_.step_loss * before_[m];
+            const double r = now_[m] - s_.step_loss * before_[m + 1],
+                         l = now_[m + 1] - s_.step_loss * before_[m];
             sum += r * r + l * l;
         }
         return sum;
     }
     double velocity(int m) const {
         if (m == 0 || m == s_.cells) return 0;
-        return 0.5 / s_.dt * (now_[m + 1] + now_[m - 1] - 2 * s_.step_loss * before_[m]) - s_.sigma * now_[m];
+        return 0.5 / s_.dt * (now_[m + 1] + now_[m - 1] - 2 * s_.step_loss * before_[m]) -
+               s_.sigma * now_[m];
     }
     double read(const SitarTap& t) const {
         switch (t.quantity) {
             case Quantity::displacement: return between_nodes(t, [this](int m) { return now_[m]; });
             case Quantity::velocity: return between_nodes(t, [this](int m) { return velocity(m); });
-            case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];  // -T y' at the peg
+            // -T y' at the peg
+            case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];
             case Quantity::bridge_force: return ledger_.impulse / (s_.dt * g_.steps_per_row);
             case Quantity::driving_force: return -ledger_.impulse / (s_.dt * g_.steps_per_row);
             case Quantity::thread_force: return 0;
@@ -131,12 +154,15 @@ private:
     BridgeLedger ledger_;
 };
 
-constexpr Option stiffness_option{"stiffness", "refuse", "what becomes of bending stiffness", {"refuse", "ignore"}};
+constexpr Option stiffness_option{
+    "stiffness", "refuse", "what becomes of bending stiffness", {"refuse", "ignore"}};
 constexpr Option options[] = {stiffness_option};
-constexpr Approximation approximates[] = {sitar_damping, sitar_ignored_stiffness, sitar_profile, sitar_power_law};
+constexpr Approximation approximates[] = {sitar_damping, sitar_ignored_stiffness, sitar_profile,
+                                          sitar_power_law};
 
 template <BridgeRule rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     Grid g;
     g.steps_per_row = steps_per_row(settings);
     g.string = sitar_string(descriptor, scene, settings, choice_option(settings, stiffness_option));
@@ -149,20 +175,24 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
 
 }  // namespace
 
-std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, const Scene& scene,
+                                                  const Settings& settings) {
     return made<BridgeRule::characteristic>(descriptor, scene, settings);
 }
 
 extern const Descriptor sitar_fdm = {
     .name = "sitar_fdm",
     .source = "Deshmukh & Rayavarapu, eqs 6-12",
-    .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+    .represents = Feature::damping | Feature::bending_stiffness |
+                  Features(Feature::profile_barrier) | Feature::power_law_contact |
                   Features(Feature::initial_shape) | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
     .make = made<BridgeRule::clamping>,
     .options = options,
     .approximates = approximates,
-    .note = "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where stiffness=ignore says so."};
+    .note =
+        "The barrier is rigid and begins at x = 0; bending stiffness is ignored, and only where "
+        "stiffness=ignore says so."};
 
 }  // namespace jvari

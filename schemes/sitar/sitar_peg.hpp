@@ -1,8 +1,9 @@
-// The waveguide's peg where a period is no whole number of samples, or the string is stiff: allpasses between the two rails.
+// The waveguide's peg where a period is no whole number of samples, or the string is stiff:
+// allpasses between the two rails.
 //
-// Sources: fractional length, an allpass of first order with the exact delay at the first partial (Smith, "Physical audio signal
-// processing"); dispersion, a cascade of equal allpasses (Van Duyne & Smith 1994). Lumped at the peg: the partials are right, the shapes
-// near the peg are not.
+// Sources: fractional length, an allpass of first order with the exact delay at the first partial
+// (Smith, "Physical audio signal processing"); dispersion, a cascade of equal allpasses (Van Duyne
+// & Smith 1994). Lumped at the peg: the partials are right, the shapes near the peg are not.
 #pragma once
 
 #include <vector>
@@ -17,13 +18,15 @@ struct PegTuning {
     double delay = 0;       // of the filter at the first partial
 };
 
-PegTuning tune(double loop, double w, std::vector<double> sections);  // w: first partial [rad/sample]
+// w: first partial [rad/sample]
+PegTuning tune(double loop, double w, std::vector<double> sections);
 PegTuning tune_stiff(double loop, const std::vector<double>& omega, double dt);
 
 // The deviation of largest size of a partial from omega [rad/s], in cents.
 double worst_cents(const PegTuning&, const std::vector<double>& omega, double dt);
 
-// A sample and its two predecessors, for the energy: a wave's power is that of its difference over two steps (sitar.hpp).
+// A sample and its two predecessors, for the energy: a wave's power is that of its difference over
+// two steps (sitar.hpp).
 struct History {
     double now = 0, before = 0, earlier = 0;
 
@@ -32,10 +35,12 @@ struct History {
         before = now;
         now = x;
     }
-    double slope(double loss) const { return now - loss * loss * earlier; }  // with the loss on the way taken out
+    // with the loss on the way taken out
+    double slope(double loss) const { return now - loss * loss * earlier; }
 };
 
-// First-order allpass (a + 1/z)/(1 + a/z); a = 0 is a delay of one sample. Its state s holds the energy s^2/(1 - a^2) of what passes.
+// First-order allpass (a + 1/z)/(1 + a/z); a = 0 is a delay of one sample. Its state s holds the
+// energy s^2/(1 - a^2) of what passes.
 struct Allpass {
     double a = 0;
     History s;
@@ -48,14 +53,17 @@ struct Allpass {
     double slopes(double loss) const { return s.slope(loss) * s.slope(loss) / (1 - a * a); }
 };
 
-// What stands at the peg between the two rails of one plane, where the length is not a whole number of samples.
+// What stands at the peg between the two rails of one plane, where the length is not a whole number
+// of samples.
 struct PegFilter {
     std::vector<Allpass> sections;
     int half;
-    double gain;           // loss over the filter's delay
-    History in, peg, out;  // right-going wave as it comes in, at the peg, and as it leaves, before the gain
+    double gain;  // loss over the filter's delay
+    // right-going wave as it comes in, at the peg, and as it leaves, before the gain
+    History in, peg, out;
 
-    PegFilter(const PegTuning& tuning, double loss_on_the_way) : half(tuning.half), gain(loss_on_the_way) {
+    PegFilter(const PegTuning& tuning, double loss_on_the_way)
+        : half(tuning.half), gain(loss_on_the_way) {
         for (double a : tuning.a) sections.push_back({a, {}});
     }
     void clear() noexcept {

@@ -1,16 +1,20 @@
-// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar": two rails of fs/(2 f0) samples (eqs
-// 3-5), inverting ends, a bridge that sets the returning wave (eqs 10-12), two planes of vibration coupled at the bridge by a rotation (eq
-// 14). Added to the paper: a fractional length and a dispersion by allpass at the peg (Van Duyne & Smith 1994), energy columns,
-// losses along the way.
+// Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar":
+// two rails of fs/(2 f0) samples (eqs 3-5), inverting ends, a bridge that sets the returning wave
+// (eqs 10-12), two planes of vibration coupled at the bridge by a rotation (eq 14). Added to the
+// paper: a fractional length and a dispersion by allpass at the peg (Van Duyne & Smith 1994),
+// energy columns, losses along the way.
 //
-// Where y_r + y_l would pass the profile, y_r := profile - y_l. The rule has no potential: it gives and takes energy, and the ledger says
-// how much. To eq 9 a correction d of y_r at node m is an impulse Z d now and -Z d on node m - 1 one step later: no momentum in the end,
-// and a bridge force that may pull.
+// Where y_r + y_l would pass the profile, y_r := profile - y_l. The rule has no potential: it gives
+// and takes energy, and the ledger says how much. To eq 9 a correction d of y_r at node m is an
+// impulse Z d now and -Z d on node m - 1 one step later: no momentum in the end, and a bridge force
+// that may pull.
 //
-// Long, because a class template over the number of planes keeps its step, bridge, taps and ledger in one file. Where nothing stands on the
-// rails' way they move in runs (coast), and the time is theirs alone: half for one plane.
+// Long, because a class template over the number of planes keeps its step, bridge, taps and ledger
+// in one file. Where nothing stands on the rails' way they move in runs (coast), and the time is
+// theirs alone: half for one plane.
 //
-// Left out: any stiffness of the contact, losses that differ from partial to partial, where along the string the stiffness acts.
+// Left out: any stiffness of the contact, losses that differ from partial to partial, where along
+// the string the stiffness acts.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -40,13 +44,15 @@ struct Waves {
 template <int planes>
 class SitarWaveguide final : public Scheme {
 public:
-    explicit SitarWaveguide(Waves w) : w_(std::move(w)), s_(w_.string), size_(s_.cells + 1), rail_(2 * planes * size_) {
+    explicit SitarWaveguide(Waves w)
+        : w_(std::move(w)), s_(w_.string), size_(s_.cells + 1), rail_(2 * planes * size_) {
         for (int m = 0; m < size_; ++m) {
             loss_.push_back(std::exp(-s_.sigma * s_.dt * m));
             gain_.push_back(std::exp(s_.sigma * s_.dt * m));
         }
         pending_.resize(s_.profile.empty() ? 0 : 1);
-        if (!w_.peg.a.empty()) peg_.assign(planes, PegFilter(w_.peg, std::pow(s_.step_loss, w_.peg.delay)));
+        if (!w_.peg.a.empty())
+            peg_.assign(planes, PegFilter(w_.peg, std::pow(s_.step_loss, w_.peg.delay)));
         reset();
     }
     void reset() noexcept override {
@@ -59,14 +65,17 @@ public:
         const int M = s_.cells;
         for (int p = 0; p < planes; ++p)
             for (int m = 0; m <= M; ++m) {
-                const double half = 0.5 * w_.share[p] * initial_shape(w_.scene_string, m * s_.dx);  // y_r = y_l = y/2
+                // y_r = y_l = y/2
+                const double half = 0.5 * w_.share[p] * initial_shape(w_.scene_string, m * s_.dx);
                 right(p)[m] = gain_[m] * half;
                 left(p)[M - m] = gain_[M - m] * half;
             }
-        for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {  // the filters hold what has passed before t = 0
+        // the filters hold what has passed before t = 0
+        for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {
             peg_[p].clear();
             for (int k = 8 * M; k >= 0; --k) {
-                const double past = 0.5 * w_.share[p] * std::exp(s_.sigma * s_.dt * k) * initial_shape(w_.scene_string, (M + k) * s_.dx);
+                const double past = 0.5 * w_.share[p] * std::exp(s_.sigma * s_.dt * k) *
+                                    initial_shape(w_.scene_string, (M + k) * s_.dx);
                 peg_[p].pass(past);
             }
             left(p)[0] = -peg_[p].gain * peg_[p].out.now;
@@ -77,7 +86,8 @@ public:
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows; ++row) {
             double finite = 0;
-            for (int k = 0; k < out.taps; ++k) finite += out.tap[k * out.stride + row] = read(w_.taps[k]);
+            for (int k = 0; k < out.taps; ++k)
+                finite += out.tap[k * out.stride + row] = read(w_.taps[k]);
             if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
             if (out.energy)
                 write_energy(out, row, s_.wave_energy(rail_slopes() + peg_slopes()), 0,
@@ -96,7 +106,9 @@ public:
         }
         return {};
     }
-    int dofs() const override { return static_cast<int>(rail_.size() + pending_.size() + peg_.size() * w_.peg.a.size()); }
+    int dofs() const override {
+        return static_cast<int>(rail_.size() + pending_.size() + peg_.size() * w_.peg.a.size());
+    }
     std::vector<Fact> facts() const override {
         std::vector<Fact> facts = s_.facts;
         if (!s_.profile.empty()) ledger_.report(facts);
@@ -107,10 +119,13 @@ public:
     }
 
 private:
-    // Circular rails: the wave at `distance` cells from the end it left lies that many places behind the head, before the loss on the way.
+    // Circular rails: the wave at `distance` cells from the end it left lies that many places
+    // behind the head, before the loss on the way.
     double* right(int p) { return rail_.data() + 2 * p * size_; }
     double* left(int p) { return right(p) + size_; }
-    int behind(int distance) const { return head_ + distance < size_ ? head_ + distance : head_ + distance - size_; }
+    int behind(int distance) const {
+        return head_ + distance < size_ ? head_ + distance : head_ + distance - size_;
+    }
     double y_right(int p, int m) { return loss_[m] * right(p)[behind(m)]; }
     double y_left(int p, int m) { return loss_[s_.cells - m] * left(p)[behind(s_.cells - m)]; }
     double displacement(int p, int m) { return y_right(p, m) + y_left(p, m); }
@@ -121,27 +136,35 @@ private:
         l[0] = m == 0 ? after_bridge_end(p) : y_left(p, m - 1);
         r[1] = y_right(p, m + 1);
         l[1] = y_left(p, m + 1);
-        return 0.5 / s_.dt * ((l[1] - l[0]) - (r[1] - r[0])) - s_.sigma * displacement(p, m);  // y_t = c (y_l' - y_r')
+        // y_t = c (y_l' - y_r')
+        return 0.5 / s_.dt * ((l[1] - l[0]) - (r[1] - r[0])) - s_.sigma * displacement(p, m);
     }
-    // The waves one cell beyond the bridge end: the right-going one about to be reflected, the left-going one that has been.
+    // The waves one cell beyond the bridge end: the right-going one about to be reflected, the
+    // left-going one that has been.
     double before_bridge_end(int p = 0) {
         if constexpr (planes == 1) return -y_left(0, 1);
         else return -(w_.cosine * y_left(p, 1) + (p == 0 ? -w_.sine : w_.sine) * y_left(1 - p, 1));
     }
     double after_bridge_end(int p) {
         if constexpr (planes == 1) return -y_right(0, 1);
-        else return -(w_.cosine * y_right(p, 1) + (p == 0 ? w_.sine : -w_.sine) * y_right(1 - p, 1));
+        else
+            return -(w_.cosine * y_right(p, 1) + (p == 0 ? w_.sine : -w_.sine) * y_right(1 - p, 1));
     }
     double read(const SitarTap& t) {
         const int p = w_.tap_plane;
         switch (t.quantity) {
-            case Quantity::displacement: return between_nodes(t, [&](int m) { return displacement(p, m); });
+            case Quantity::displacement:
+                return between_nodes(t, [&](int m) { return displacement(p, m); });
             case Quantity::velocity: return between_nodes(t, [&](int m) { return velocity(p, m); });
             case Quantity::nut_force:  // -T y' at the peg
                 if (peg_.empty()) return s_.tension / s_.dx * displacement(p, s_.cells - 1);
-                return 2 * s_.tension / s_.dx * (peg_[p].peg.now - s_.step_loss * peg_[p].peg.before);  // y' = 2 y_r' there
-            case Quantity::bridge_force: return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-            case Quantity::driving_force: return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
+                // y' = 2 y_r' there
+                return 2 * s_.tension / s_.dx *
+                       (peg_[p].peg.now - s_.step_loss * peg_[p].peg.before);
+            case Quantity::bridge_force:
+                return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
+            case Quantity::driving_force:
+                return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
             case Quantity::thread_force: return 0;
         }
         return 0;
@@ -151,11 +174,14 @@ private:
         const int M = s_.cells;
         for (int p = 0; p < planes; ++p) {
             const double first = y_right(p, 1) - before_bridge_end(p);
-            const double next_in = peg_.empty() ? -y_left(p, M - 1) : s_.step_loss * peg_[p].in.before;  // beyond the peg
+            // beyond the peg
+            const double next_in =
+                peg_.empty() ? -y_left(p, M - 1) : s_.step_loss * peg_[p].in.before;
             const double last = next_in - y_right(p, M - 1);
             sum += first * first + last * last;
             for (int m = 1; m < M; ++m) {
-                const double r = y_right(p, m + 1) - y_right(p, m - 1), l = y_left(p, m + 1) - y_left(p, m - 1);
+                const double r = y_right(p, m + 1) - y_right(p, m - 1),
+                             l = y_left(p, m + 1) - y_left(p, m - 1);
                 sum += r * r + l * l;
             }
         }
@@ -166,8 +192,8 @@ private:
         for (const PegFilter& peg : peg_) sum += peg.slopes(s_.step_loss);
         return sum;
     }
-    // Both ends, for steps that end at place `to` of the rails, the last step there, and take what came from the other end at `from` and
-    // the places after it.
+    // Both ends, for steps that end at place `to` of the rails, the last step there, and take what
+    // came from the other end at `from` and the places after it.
     [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept {
         const double way = loss_[s_.cells], c = w_.cosine, s = w_.sine;
         double* __restrict R = right(0), * __restrict L = left(0);
@@ -180,7 +206,8 @@ private:
         } else {
             double* __restrict R1 = right(1), * __restrict L1 = left(1);
             for (int i = steps - 1; i >= 0; --i) {
-                const double peg0 = way * R[from + i], peg1 = way * R1[from + i], at0 = way * L[from + i], at1 = way * L1[from + i];
+                const double peg0 = way * R[from + i], peg1 = way * R1[from + i],
+                             at0 = way * L[from + i], at1 = way * L1[from + i];
                 L[to + i] = -peg0;
                 L1[to + i] = -peg1;
                 R[to + i] = -(c * at0 - s * at1);  // (14)
@@ -188,10 +215,12 @@ private:
             }
         }
     }
-    // Steps of rails that meet nothing on their way: none depends on another within the length of a rail.
+    // Steps of rails that meet nothing on their way: none depends on another within the length of a
+    // rail.
     void coast(int steps, const Block& out) noexcept {
         while (steps > 0) {
-            const int top = head_ == 0 ? size_ : head_, run = std::min({steps, std::max(1, top - 1), s_.cells - coasted_});
+            const int top = head_ == 0 ? size_ : head_,
+                      run = std::min({steps, std::max(1, top - 1), s_.cells - coasted_});
             head_ = top - run;
             reflect(head_, top > 1 ? head_ - 1 : size_ - 1, run);
             steps -= run;
@@ -220,7 +249,8 @@ private:
         slopes_ *= loss2;
         coasted_ = 0;
     }
-    // The rule at nodes 1, 2, ... of the vertical plane; what it does to the energy is in the differences beside the nodes it moves.
+    // The rule at nodes 1, 2, ... of the vertical plane; what it does to the energy is in the
+    // differences beside the nodes it moves.
     void meet_bridge() noexcept {
         const int nodes = static_cast<int>(s_.profile.size());
         double* const R = right(0);
@@ -232,13 +262,16 @@ private:
             pending_[0] = 0;
             return;
         }
-        double before[3] = {0, before_bridge_end(), R[head_]}, after[3] = {0, before[1], before[2]};  // at m - 2, m - 1, m - 0
+        // at m - 2, m - 1, m - 0
+        double before[3] = {0, before_bridge_end(), R[head_]}, after[3] = {0, before[1], before[2]};
         double slopes = 0, moved = 0, moved_first = 0;
         for (int m = 1; m <= nodes + 2; ++m) {
             const int here = behind(m);
             before[0] = before[1], before[1] = before[2], before[2] = loss_[m] * R[here];
             after[0] = after[1], after[1] = after[2], after[2] = before[2];
-            const double back = m <= nodes ? s_.profile[m - 1] - loss_[s_.cells - m] * L[behind(s_.cells - m)] : before[2];
+            const double back =
+                m <= nodes ? s_.profile[m - 1] - loss_[s_.cells - m] * L[behind(s_.cells - m)]
+                           : before[2];
             if (before[2] < back) {
                 after[2] = back;
                 R[here] = gain_[m] * back;
@@ -267,7 +300,9 @@ private:
     std::vector<double> rail_;         // per plane: right-going, left-going [m]
     std::vector<double> loss_, gain_;  // over m cells, and its inverse
     std::vector<PegFilter> peg_;       // one per plane, none for an integer length
-    std::vector<double> pending_;   // part of the rule's impulse that falls due at the next step, over Z [m]; one where there is a bridge
+    // part of the rule's impulse that falls due at the next step, over Z [m]; one where there is a
+    // bridge
+    std::vector<double> pending_;
     int coasted_ = 0;               // steps since settle()
     double slopes_ = 0;             // rail_slopes() as it should be
     double slopes_dissipated_ = 0;  // since the last row [m^2]
@@ -275,14 +310,16 @@ private:
     BridgeLedger ledger_;
 };
 
-// A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at the peg.
+// A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at
+// the peg.
 void set_filtered_length(Waves& w, const String& string, bool stiff) {
     SitarString& s = w.string;
     const double loop = 1 / (s.f0 * s.dt);
     Settings unasked;
     unasked.sample_rate = 1 / s.dt;
     refuse_too_many_cells(0.5 * loop);
-    if (loop < 9) throw Refusal("the string has fewer than 9 samples per period: raise the sample rate");
+    if (loop < 9)
+        throw Refusal("the string has fewer than 9 samples per period: raise the sample rate");
     String heard = string;  // the string whose partials the loop aims at
     heard.damping = NoDamping{};
     if (!stiff) heard.bending_stiffness = 0;
@@ -296,17 +333,27 @@ void set_filtered_length(Waves& w, const String& string, bool stiff) {
 }
 
 constexpr Option length_option{
-    "length", "integer", "samples per period: a whole number, or the rest in an allpass at the peg", {"integer", "fractional"}};
+    "length",
+    "integer",
+    "samples per period: a whole number, or the rest in an allpass at the peg",
+    {"integer", "fractional"}};
 constexpr Option stiffness_option{"stiffness",
                                   "refuse",
-                                  "what becomes of bending stiffness; its dispersion in an allpass at the peg needs length=fractional",
+                                  "what becomes of bending stiffness; its dispersion in an allpass "
+                                  "at the peg needs length=fractional",
                                   {"refuse", "dispersion", "ignore"}};
-constexpr Option taps_option{"taps", "vertical", "the plane of vibration that taps read", {"vertical", "horizontal"}};
+constexpr Option taps_option{
+    "taps", "vertical", "the plane of vibration that taps read", {"vertical", "horizontal"}};
 constexpr Option options[] = {length_option, stiffness_option, taps_option};
 constexpr Approximation approximates[] = {
-    sitar_damping, sitar_ignored_stiffness, {Feature::bending_stiffness, facts::worst_partial_error_cents}, sitar_profile, sitar_power_law};
+    sitar_damping,
+    sitar_ignored_stiffness,
+    {Feature::bending_stiffness, facts::worst_partial_error_cents},
+    sitar_profile,
+    sitar_power_law};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     const std::string length = choice_option(settings, length_option);
     const std::string stiffness = choice_option(settings, stiffness_option);
     const std::string plane = choice_option(settings, taps_option);
@@ -316,7 +363,9 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
     const String& string = scene.strings.front();
     const bool stiff = string.bending_stiffness != 0 && stiffness == "dispersion";
     if (stiff && length != "fractional")
-        throw Refusal("stiffness=dispersion delays by no whole number of samples: it needs length=fractional");
+        throw Refusal(
+            "stiffness=dispersion delays by no whole number of samples: it needs "
+            "length=fractional");
     if (length == "integer") set_integer_length(w.string);
     else set_filtered_length(w, string, stiff);
     if (string.polarisation) {
@@ -326,11 +375,13 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
         w.share[1] = std::sin(string.polarisation->pluck_angle);
     }
     if (plane == "horizontal") {
-        if (!string.polarisation) throw Refusal("taps=horizontal: the string moves in the vertical plane only");
+        if (!string.polarisation)
+            throw Refusal("taps=horizontal: the string moves in the vertical plane only");
         w.tap_plane = 1;
     }
     lay_bridge(w.string, string, w.share[0]);
-    if (static_cast<int>(w.string.profile.size()) > w.string.cells - 2) throw Refusal("the bridge leaves no free string before the peg");
+    if (static_cast<int>(w.string.profile.size()) > w.string.cells - 2)
+        throw Refusal("the bridge leaves no free string before the peg");
     w.taps = sitar_taps(scene, w.string);
     w.scene_string = string;
     if (string.polarisation) return std::make_unique<SitarWaveguide<2>>(std::move(w));
@@ -341,14 +392,17 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, c
 extern const Descriptor sitar_waveguide = {
     .name = "sitar_waveguide",
     .source = "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
-    .represents = Feature::damping | Feature::bending_stiffness | Features(Feature::profile_barrier) | Feature::power_law_contact |
+    .represents = Feature::damping | Feature::bending_stiffness |
+                  Features(Feature::profile_barrier) | Feature::power_law_contact |
                   Features(Feature::initial_shape) | Feature::polarisation | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
     .make = made,
     .options = options,
     .approximates = approximates,
-    .note = "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option stiffness says what becomes of it.",
+    .note =
+        "The barrier is rigid and begins at x = 0; with bending stiffness it runs where the option "
+        "stiffness says what becomes of it.",
 };
 
 }  // namespace jvari

@@ -1,17 +1,22 @@
-// Full-modal spatial Newton: exact three-point recursion per mode, conservative contact forces on the nodes x_i = iL/N of a grid with as
-// many interior nodes as modes. Source: Issanchou et al. 2016, eqs 13-16, 20-21, 24-28.
+// Full-modal spatial Newton: exact three-point recursion per mode, conservative contact forces on
+// the nodes x_i = iL/N of a grid with as many interior nodes as modes. Source: Issanchou et al.
+// 2016, eqs 13-16, 20-21, 24-28.
 //
-// Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the thread's force is the average of the
-// outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ - u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al.
-// 2016, eqs 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two polarisations.
-// On a body that moves (schemes/body) the points of all strings are solved for together,
+// Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the
+// thread's force is the average of the outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ -
+// u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al. 2016, eqs
+// 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two
+// polarisations. On a body that moves (schemes/body) the points of all strings are solved for
+// together,
 // coupled as they may be, and its acceleration is one more force.
 //
-// Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from the string's compliance stands in series
-// with contacts and thread (contact/compliance.hpp, contact/obstacle.hpp), which may then be coupled; profiles are touched at points of
-// their own (option `points`), and contact loss is left out. Refused where the scheme is too soft already.
+// Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from
+// the string's compliance stands in series with contacts and thread (contact/compliance.hpp,
+// contact/obstacle.hpp), which may then be coupled; profiles are touched at points of their own
+// (option `points`), and contact loss is left out. Refused where the scheme is too soft already.
 //
-// The string is that of modal/three_point_modes.hpp, its points the nodes. Rows, energy and start are those of driver.hpp.
+// The string is that of modal/three_point_modes.hpp, its points the nodes. Rows, energy and start
+// are those of driver.hpp.
 #include <cmath>
 
 #include "schemes/body/instrument.hpp"
@@ -23,30 +28,36 @@
 
 namespace jvari {
 
-ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& scene,
+                                  const Settings& settings) {
     ThreePointProblem p;
     p.scene = scene;
     p.dt = 1 / settings.sample_rate;
     p.on_body = needed_by(scene).has(Feature::moving_body);
     const bool matched = matched_without_loss(descriptor, scene, settings);
     if (matched) p.scene.strings.front() = with_profile_points(p.string(), settings);
-    const int intervals = p.update.intervals = matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
+    const int intervals = p.update.intervals =
+        matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
     p.points = points_of(p.string(), p.dt);
     place_contacts(p, matched || p.on_body);
     complete(p, descriptor, settings);
     p.facts.insert(p.facts.begin(),
-                   {{facts::interior_nodes, double(p.update.modes())}, {facts::modes_above_nyquist, double(p.three_point.above_nyquist)}});
+                   {{facts::interior_nodes, double(p.update.modes())},
+                    {facts::modes_above_nyquist, double(p.three_point.above_nyquist)}});
     return p;
 }
 
 namespace {
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
     return on_its_support<ThreePointModes, Rule>(
         descriptor, scene, settings,
-        [&](const Scene& one) { return std::make_unique<ThreePointModes>(spatial_problem(descriptor, one, settings)); },
+        [&](const Scene& one) {
+            return std::make_unique<ThreePointModes>(spatial_problem(descriptor, one, settings));
+        },
         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 
@@ -60,7 +71,9 @@ extern const Descriptor modal_spatial_newton = {
     .clock = Clock::stepped,
     .make = made<GradientRule>,
     .options = matched_options,
-    .note = "But on a moving body several contact points only where each is a node of the grid, and a thread only with one contact point.",
+    .note =
+        "But on a moving body several contact points only where each is a node of the grid, and a "
+        "thread only with one contact point.",
     .stand_in_rank = 3};
 
 extern const StringRow modal_spatial_newton_row;

@@ -1,4 +1,5 @@
-// Source: Issanchou et al. 2016, section 3.2 (a force density at a node); van Walstijn et al. 2016, eq 20 (weights of a footprint).
+// Source: Issanchou et al. 2016, section 3.2 (a force density at a node); van Walstijn et al. 2016,
+// eq 20 (weights of a footprint).
 #include "schemes/spatial/spatial_ports.hpp"
 
 #include <algorithm>
@@ -13,16 +14,20 @@ namespace jvari {
 namespace {
 constexpr double most_weights = 1 << 27;  // of nodes on modes: a gigabyte
 
-double sine(long numerator, long intervals) {  // sin(pi numerator/intervals), its argument reduced in integers
+// sin(pi numerator/intervals), its argument reduced in integers
+double sine(long numerator, long intervals) {
     long turn = numerator % (2 * intervals);
     const double sign = turn >= intervals ? -1 : 1;
     turn %= intervals;
-    return sign * std::sin(std::numbers::pi * double(std::min(turn, intervals - turn)) / double(intervals));
+    return sign * std::sin(std::numbers::pi * double(std::min(turn, intervals - turn)) /
+                           double(intervals));
 }
 
 int node_at(double position, double length, int intervals) {  // 0: between nodes
     const double i = position / length * intervals, node = std::round(i);
-    return std::abs(i - node) <= near_node * intervals && node >= 1 && node < intervals ? static_cast<int>(node) : 0;
+    return std::abs(i - node) <= near_node * intervals && node >= 1 && node < intervals
+               ? static_cast<int>(node)
+               : 0;
 }
 
 }  // namespace
@@ -34,13 +39,16 @@ std::vector<double> node_weights(int intervals, int node) {
 }
 
 int intervals_for(const String& s, const Settings& settings) {
-    if (settings.modes > 0) return std::min(settings.modes, most_modes + 1) + 1;  // modes_of refuses the one too many
+    // modes_of refuses the one too many
+    if (settings.modes > 0) return std::min(settings.modes, most_modes + 1) + 1;
     const int least = modes_of(s, settings).count() + 1;
     int intervals = least;
     for (const Barrier& barrier : s.barriers)
         if (const auto* profile = std::get_if<ProfileBarrier>(&barrier))
-            intervals =
-                std::max(intervals, static_cast<int>(std::min(std::ceil(8 * s.length / (profile->to - profile->from)), most_modes + 2.0)));
+            intervals = std::max(
+                intervals,
+                static_cast<int>(std::min(std::ceil(8 * s.length / (profile->to - profile->from)),
+                                          most_modes + 2.0)));
     const auto on_nodes = [&](int n) {
         return std::all_of(s.barriers.begin(), s.barriers.end(), [&](const Barrier& barrier) {
             const auto* b = std::get_if<LumpedBarrier>(&barrier);
@@ -58,27 +66,33 @@ void place_contacts(ThreePointProblem& p, bool coupled_may_be) {
     std::vector<Place> places = add_contacts(p.points, p.string(), intervals);
     std::vector<int> nodes;
     for (Place& place : places) {
-        if (place.node == 0 && place.at.width == 0) place.node = node_at(place.at.position, p.string().length, intervals);
+        if (place.node == 0 && place.at.width == 0)
+            place.node = node_at(place.at.position, p.string().length, intervals);
         if (place.node == 0) continue;
         if (std::find(nodes.begin(), nodes.end(), place.node) != nodes.end())
-            throw Refusal("modal_spatial_newton: two barriers" + scene + " act on node " + std::to_string(place.node) +
-                          "; it solves one contact per node");
+            throw Refusal("modal_spatial_newton: two barriers" + scene + " act on node " +
+                          std::to_string(place.node) + "; it solves one contact per node");
         nodes.push_back(place.node);
     }
     if (static_cast<double>(nodes.size()) * intervals > most_weights)
-        throw Refusal("modal_spatial_newton: " + std::to_string(nodes.size()) + " of " + std::to_string(intervals - 1) +
-                      " nodes touch a barrier" + scene + ", more than fit in memory; ask for fewer modes");
+        throw Refusal("modal_spatial_newton: " + std::to_string(nodes.size()) + " of " +
+                      std::to_string(intervals - 1) + " nodes touch a barrier" + scene +
+                      ", more than fit in memory; ask for fewer modes");
     for (const Place& place : places)
         p.update.ports.push_back(
-            {place.node != 0 ? node_weights(intervals, place.node) : footprint_weights(p.modes, place.at.position, place.at.width),
+            {place.node != 0 ? node_weights(intervals, place.node)
+                             : footprint_weights(p.modes, place.at.position, place.at.width),
              place.node});
     if (places.size() <= 1 || coupled_may_be) return;
     if (nodes.size() < places.size())
-        throw Refusal("modal_spatial_newton solves several contacts only where each is a node of the grid; a barrier" + scene +
-                      " with a footprint or between nodes is coupled to another contact");
+        throw Refusal(
+            "modal_spatial_newton solves several contacts only where each is a node of the grid; a "
+            "barrier" +
+            scene + " with a footprint or between nodes is coupled to another contact");
     if (p.string().thread)
-        throw Refusal("modal_spatial_newton couples a thread to one contact point; the string" + scene + " has " +
-                      std::to_string(places.size()) + " with " + std::to_string(intervals - 1) + " nodes");
+        throw Refusal("modal_spatial_newton couples a thread to one contact point; the string" +
+                      scene + " has " + std::to_string(places.size()) + " with " +
+                      std::to_string(intervals - 1) + " nodes");
 }
 
 }  // namespace jvari

@@ -7,12 +7,13 @@
 
 namespace jvari {
 
-// N - 1 of the settings, or by default the modes below min(20 kHz, rate/2), raised until a point barrier lies on a node (to 4 times as
-// many at most: beyond, it acts through its modal weights) and a profile barrier has 8 nodes.
+// N - 1 of the settings, or by default the modes below min(20 kHz, rate/2), raised until a point
+// barrier lies on a node (to 4 times as many at most: beyond, it acts through its modal weights)
+// and a profile barrier has 8 nodes.
 int intervals_for(const String&, const Settings&);
 
-// The contacts of p.string() as points and ports. Throws Refusal where they are coupled and may not be: nodes are not (their weights are
-// orthogonal), all else is.
+// The contacts of p.string() as points and ports. Throws Refusal where they are coupled and may not
+// be: nodes are not (their weights are orthogonal), all else is.
 void place_contacts(ThreePointProblem& p, bool coupled_may_be);
 
 std::vector<double> node_weights(int intervals, int node);  // sin(j pi node/N), j = 1 .. N-1

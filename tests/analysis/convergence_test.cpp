@@ -32,8 +32,8 @@ TEST(Order, OfAPowerLawIsItsExponent) {
 }
 
 TEST(Order, IntervalIsStudentsTTimesTheStandardErrorOfTheSlope) {
-    // ln e = 0, -1, 1 over ln r = 0, 1, 2: slope 1/2, residuals (1/2, -1, 1/2), chi^2 = 3/2, S_xx = 2, one degree of freedom:
-    // standard error sqrt(1.5/2), t(0.975; 1) = 12.7062047 (table).
+    // ln e = 0, -1, 1 over ln r = 0, 1, 2: slope 1/2, residuals (1/2, -1, 1/2), chi^2 = 3/2, S_xx =
+    // 2, one degree of freedom: standard error sqrt(1.5/2), t(0.975; 1) = 12.7062047 (table).
     const Signal r = {1, std::exp(1.0), std::exp(2.0)}, e = {1, std::exp(-1.0), std::exp(1.0)};
     const Order o = observed_order(r, e);
     EXPECT_NEAR(o.order, -0.5, 1e-12);
@@ -66,7 +66,8 @@ TEST(Order, RunsThatFailedOrWereExactAreLeftOut) {
     EXPECT_EQ(o.points, 1);
     EXPECT_TRUE(std::isnan(o.order));
     EXPECT_TRUE(std::isnan(observed_order({}, {}).order));
-    EXPECT_TRUE(std::isnan(observed_order(Signal{2, 2}, Signal{1, 3}).order));  // the same rate twice
+    // the same rate twice
+    EXPECT_TRUE(std::isnan(observed_order(Signal{2, 2}, Signal{1, 3}).order));
     EXPECT_THROW(observed_order(rates, Signal{1}), std::invalid_argument);
 }
 

@@ -20,7 +20,8 @@ std::vector<double> noise(int rows, unsigned seed) {
 
 double direct(const std::vector<double>& x, const std::vector<double>& h, int n) {
     long double sum = 0;
-    for (int m = 0; m < static_cast<int>(h.size()) && m <= n; ++m) sum += static_cast<long double>(h[m]) * x[n - m];
+    for (int m = 0; m < static_cast<int>(h.size()) && m <= n; ++m)
+        sum += static_cast<long double>(h[m]) * x[n - m];
     return static_cast<double>(sum);
 }
 
@@ -35,7 +36,8 @@ TEST(Convolution, IsTheSumThatDefinesItWhateverTheBlock) {
             for (int n = 0; n + block <= 1000; n += block) {
                 convolution.advance(std::span(x).subspan(n, block), out);
                 for (int k = 0; k < block; ++k)
-                    ASSERT_NEAR(out[k], direct(x, h, n + k), 1e-13 * length) << length << " " << block << " " << n + k;
+                    ASSERT_NEAR(out[k], direct(x, h, n + k), 1e-13 * length)
+                        << length << " " << block << " " << n + k;
             }
         }
     const auto h = noise(2048, 3);

@@ -19,7 +19,8 @@ Signal sum_of(const std::vector<Partial>& partials, long rows) {
     Signal x(rows, 0.0);
     for (const Partial& p : partials)
         for (long n = 0; n < rows; ++n)
-            x[n] += p.amplitude * std::exp(-p.decay * n / rate) * std::cos(2 * pi * p.frequency * n / rate + p.phase);
+            x[n] += p.amplitude * std::exp(-p.decay * n / rate) *
+                    std::cos(2 * pi * p.frequency * n / rate + p.phase);
     return x;
 }
 
@@ -29,13 +30,12 @@ std::vector<Partial> c3(int first, int last) {
     for (int i = first; i <= last; ++i) {
         const double beta = i * pi;
         const double f = beta * std::sqrt((33.1 + 6.03e-5 * beta * beta) / 4.83e-4) / (2 * pi);
-        partials.push_back({f, 0.6 + 6.5e-3 * beta + 5.0e-6 * beta * beta * beta, 1.0 / i, 2.4 * i});
+        partials.push_back(
+            {f, 0.6 + 6.5e-3 * beta + 5.0e-6 * beta * beta * beta, 1.0 / i, 2.4 * i});
     }
     return partials;
 }
-double spacing(int i) {
-    return c3(i + 1, i + 1)[0].frequency - c3(i, i)[0].frequency;
-}
+double spacing(int i) { return c3(i + 1, i + 1)[0].frequency - c3(i, i)[0].frequency; }
 
 TEST(Dispersion, TwentyPartialsInASecondAreFoundToAThousandthOfACentAndAThousandthOfTheirDecay) {
     const auto truth = c3(1, 20);
@@ -43,7 +43,8 @@ TEST(Dispersion, TwentyPartialsInASecondAreFoundToAThousandthOfACentAndAThousand
     double worst_cents = 0, worst_decay = 0;
     for (int i = 1; i <= 20; ++i) {
         const Partial& t = truth[i - 1];
-        const Partial p = partial_near(x, rate, t.frequency * 1.01, 0.4 * spacing(i));  // the guess is 17 cents off
+        // the guess is 17 cents off
+        const Partial p = partial_near(x, rate, t.frequency * 1.01, 0.4 * spacing(i));
         worst_cents = std::max(worst_cents, std::abs(cents(p.frequency, t.frequency)));
         worst_decay = std::max(worst_decay, std::abs(p.decay / t.decay - 1));
         EXPECT_LT(std::abs(cents(p.frequency, t.frequency)), 1e-3) << i;
@@ -66,7 +67,8 @@ TEST(Dispersion, OneBandGivesAllItsPartials) {
 }
 
 TEST(Dispersion, ModesBroaderThanTheirSpacingAreToldApartInAWideBand) {
-    const auto truth = c3(1, 133);  // near mode 120 the decay is 271/s (86 Hz broad), the spacing 160 Hz
+    // near mode 120 the decay is 271/s (86 Hz broad), the spacing 160 Hz
+    const auto truth = c3(1, 133);
     const Signal x = sum_of(truth, 44100);
     for (int i : {100, 120, 130}) {
         const Partial& t = truth[i - 1];
@@ -94,14 +96,16 @@ TEST(Dispersion, TellsApartPartialsHalfABinFromEachOther) {
 }
 
 TEST(Dispersion, OfTwoPartialsTheOneWithMoreEnergyIsTheNearOne) {
-    const Signal x = sum_of({{440.0, 30.0, 2.0, 0.1}, {450.0, 0.5, 1.0, 2.0}}, 44100);  // a^2/(2 sigma): 0.07 against 0.6
+    // a^2/(2 sigma): 0.07 against 0.6
+    const Signal x = sum_of({{440.0, 30.0, 2.0, 0.1}, {450.0, 0.5, 1.0, 2.0}}, 44100);
     EXPECT_EQ(partials_between(x, rate, 415, 475).size(), 2u);
     EXPECT_NEAR(partial_near(x, rate, 445, 30).frequency, 450, 1e-5);
 }
 
 TEST(Dispersion, UndampedAndGrowingPartialsKeepTheirSign) {
     EXPECT_NEAR(partial_near(sum_of({{1000.3, 0, 1, 0}}, 44100), rate, 1000, 30).decay, 0, 1e-8);
-    EXPECT_NEAR(partial_near(sum_of({{1000.3, -2.5, 1, 0}}, 44100), rate, 1000, 30).decay, -2.5, 1e-6);
+    EXPECT_NEAR(partial_near(sum_of({{1000.3, -2.5, 1, 0}}, 44100), rate, 1000, 30).decay, -2.5,
+                1e-6);
 }
 
 TEST(Dispersion, ReachesFromNearZeroToNearHalfTheRate) {
@@ -113,8 +117,8 @@ TEST(Dispersion, ReachesFromNearZeroToNearHalfTheRate) {
 }
 
 TEST(Dispersion, NoiseMovesTheEstimateByNoMoreThanAFewTimesTheCramerRaoBound) {
-    // One partial of amplitude a in white noise of deviation s: for T seconds undamped, var f = 6 s^2/(pi^2 a^2 T^3 rate) [Hz^2] and
-    // the decay's deviation is 2 pi times that of f.
+    // One partial of amplitude a in white noise of deviation s: for T seconds undamped, var f = 6
+    // s^2/(pi^2 a^2 T^3 rate) [Hz^2] and the decay's deviation is 2 pi times that of f.
     const double a = 1, s = 1e-2, deviation = std::sqrt(6 * s * s / (pi * pi * a * a * rate));
     std::mt19937 random(11);
     std::normal_distribution<double> normal(0, s);
@@ -127,7 +131,8 @@ TEST(Dispersion, NoiseMovesTheEstimateByNoMoreThanAFewTimesTheCramerRaoBound) {
         frequency += (p.frequency - 440) * (p.frequency - 440) / trials;
         decay += (p.decay - 0.05) * (p.decay - 0.05) / trials;
     }
-    std::printf("of the bound: frequency %.2f, decay %.2f\n", std::sqrt(frequency) / deviation, std::sqrt(decay) / (2 * pi * deviation));
+    std::printf("of the bound: frequency %.2f, decay %.2f\n", std::sqrt(frequency) / deviation,
+                std::sqrt(decay) / (2 * pi * deviation));
     EXPECT_LT(std::sqrt(frequency), 2 * deviation);
     EXPECT_LT(std::sqrt(decay), 2 * 2 * pi * deviation);
 }
@@ -136,7 +141,8 @@ TEST(Dispersion, HasNoPartialWhereThereIsNone) {
     EXPECT_TRUE(partials_between({}, rate, 100, 200).empty());
     EXPECT_TRUE(partials_between(Signal{1.0}, rate, 100, 200).empty());
     EXPECT_TRUE(partials_between(Signal(44100, 0.0), rate, 100, 200).empty());
-    EXPECT_TRUE(partials_between(Signal(1000, 1.0), rate, 100, 110).empty());  // 23 ms cannot resolve 10 Hz
+    // 23 ms cannot resolve 10 Hz
+    EXPECT_TRUE(partials_between(Signal(1000, 1.0), rate, 100, 110).empty());
     Signal x = sum_of({{440, 1, 1, 0}}, 44100);
     EXPECT_TRUE(partials_between(x, rate, 200, 100).empty());
     EXPECT_TRUE(std::isnan(partial_near(Signal(44100, 0.0), rate, 440, 50).frequency));

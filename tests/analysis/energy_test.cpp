@@ -71,12 +71,14 @@ TEST(Energy, TheSumItselfAddsNothingOverAMillionRows) {
         exact += static_cast<long double>(l.supplied.back()) - l.dissipated.back();
         l.stored.push_back(static_cast<double>(exact));
     }
-    EXPECT_LT(l.balance().accumulated, 1.2e-16);  // half a last place of stored: 1.1e-16; sums in double drift 2e-12
+    // half a last place of stored: 1.1e-16; sums in double drift 2e-12
+    EXPECT_LT(l.balance().accumulated, 1.2e-16);
 }
 
 TEST(Energy, NothingIsHiddenWhereTheLedgerCannotBeRead) {
     const auto none = energy_balance({}, {}, {});
-    EXPECT_TRUE(std::isnan(none.step) && std::isnan(none.accumulated) && std::isnan(none.largest_stored));
+    EXPECT_TRUE(std::isnan(none.step) && std::isnan(none.accumulated) &&
+                std::isnan(none.largest_stored));
     EXPECT_TRUE(std::isnan(energy_balance(Trace{}).step));
     const auto one = energy_balance(Signal{3.0}, Signal{0.0}, Signal{0.0});
     EXPECT_EQ(one.step, 0);
@@ -84,7 +86,8 @@ TEST(Energy, NothingIsHiddenWhereTheLedgerCannotBeRead) {
     const auto zeros = energy_balance(Signal(5, 0.0), Signal(5, 0.0), Signal(5, 0.0));
     EXPECT_EQ(zeros.step, 0);
     EXPECT_EQ(zeros.drift, 0);
-    EXPECT_EQ(energy_balance(Signal(5, 0.0), Signal(5, 1.0), Signal(5, 0.0)).step, inf);  // supplied and lost without trace
+    // supplied and lost without trace
+    EXPECT_EQ(energy_balance(Signal(5, 0.0), Signal(5, 1.0), Signal(5, 0.0)).step, inf);
     for (double bad : {nan, inf}) {
         for (int column = 0; column < 3; ++column) {
             Ledger l = closed(20);

@@ -35,7 +35,8 @@ Trace trace_of(std::vector<Signal> columns, std::vector<std::string> names, doub
 
 TEST(Error, AScaledCopyDiffersByTheScaleInEveryWindow) {
     const Signal r = tone(4410, 44100, 131), c = tone(4410, 44100, 131, 1.03);
-    for (const Window w : {Window{}, Window{0, 0.01}, Window{0.02, 0.05}}) EXPECT_NEAR(relative_l2(c, r, 44100, w), 0.03, 1e-14);
+    for (const Window w : {Window{}, Window{0, 0.01}, Window{0.02, 0.05}})
+        EXPECT_NEAR(relative_l2(c, r, 44100, w), 0.03, 1e-14);
     EXPECT_EQ(relative_l2(r, r, 44100), 0);
 }
 
@@ -90,7 +91,8 @@ TEST(Error, NothingToCompareWithIsNotANumberAndAFailedCandidateIsInfinitelyWrong
 }
 
 TEST(Horizon, IsWhereTheRunningErrorOfASteadilyWorseningCopyPassesTenPercent) {
-    // r = 1, c = 1 + a t: E(t)^2 = a^2 t^2/3 in the limit of many rows, so E = 0.1 at t = 0.1 sqrt(3)/a.
+    // r = 1, c = 1 + a t: E(t)^2 = a^2 t^2/3 in the limit of many rows, so E = 0.1 at t = 0.1
+    // sqrt(3)/a.
     const double rate = 1e4, a = 0.4;
     Signal r(10000, 1.0), c(10000);
     for (long n = 0; n < 10000; ++n) c[n] = 1 + a * n / rate;
@@ -150,7 +152,8 @@ TEST(TapErrors, TheWorstAndTheRootMeanSquareOfTheTaps) {
 }
 
 TEST(TapErrors, RefuseTracesOfDifferentTaps) {
-    const Trace a = trace_of({Signal(4, 1.0)}, {"nut"}, 10), b = trace_of({Signal(4, 1.0)}, {"bridge"}, 10);
+    const Trace a = trace_of({Signal(4, 1.0)}, {"nut"}, 10),
+                b = trace_of({Signal(4, 1.0)}, {"bridge"}, 10);
     const Trace faster = trace_of({Signal(4, 1.0)}, {"nut"}, 20);
     EXPECT_THROW(relative_l2(a, b), std::invalid_argument);
     EXPECT_THROW(horizon(a, faster), std::invalid_argument);

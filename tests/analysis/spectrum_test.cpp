@@ -18,7 +18,8 @@ namespace {
 using Signal = std::vector<double>;
 using std::numbers::pi;
 constexpr double rate = 44100;
-const BandChoice audible = {.lowest = 100, .highest = 20e3, .taper = Taper::rectangular, .range = 100};
+const BandChoice audible = {
+    .lowest = 100, .highest = 20e3, .taper = Taper::rectangular, .range = 100};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -54,7 +55,8 @@ TEST(PowerSpectrum, SumsToTheMeanSquareForOddAndEvenLengths) {
             const double w = 0.5 - 0.5 * std::cos(2 * pi * n / rows);
             square += x[n] * x[n] / rows, windowed += w * w * x[n] * x[n], weight += w * w;
         }
-        EXPECT_NEAR(total(power_spectrum(x, rate, Taper::rectangular)), square, 1e-12 * square) << rows;
+        EXPECT_NEAR(total(power_spectrum(x, rate, Taper::rectangular)), square, 1e-12 * square)
+            << rows;
         if (rows == 1) continue;  // one row is under the end of its window
         EXPECT_NEAR(total(power_spectrum(x, rate)), windowed / weight, 1e-12 * square) << rows;
     }
@@ -68,14 +70,16 @@ TEST(PowerSpectrum, AToneHoldsHalfItsAmplitudeSquaredOnAndBetweenBins) {
     EXPECT_NEAR(on.power[99], 4.5 / 6, 1e-12);
     EXPECT_NEAR(on.power[103], 0, 1e-25);
     EXPECT_NEAR(total(power_spectrum(tone(4410, 1003.7, 3), rate)), 4.5, 1e-6);
-    EXPECT_NEAR(power_spectrum(Signal(64, 2.0), rate, Taper::rectangular).power[0], 4, 1e-14);  // a constant has one side
+    // a constant has one side
+    EXPECT_NEAR(power_spectrum(Signal(64, 2.0), rate, Taper::rectangular).power[0], 4, 1e-14);
 }
 
 TEST(PowerSpectrum, DoesNotChangeWhenAPeriodicSignalIsShifted) {
     const Signal x = noise(1000, 5);
     Signal y = x;
     std::rotate(y.begin(), y.begin() + 137, y.end());
-    const auto a = power_spectrum(x, rate, Taper::rectangular), b = power_spectrum(y, rate, Taper::rectangular);
+    const auto a = power_spectrum(x, rate, Taper::rectangular),
+               b = power_spectrum(y, rate, Taper::rectangular);
     for (std::size_t k = 0; k < a.power.size(); ++k) EXPECT_NEAR(a.power[k], b.power[k], 1e-14);
     EXPECT_LT(third_octave_difference(y, x, rate, audible), 1e-10);
 }
@@ -85,7 +89,8 @@ TEST(ThirdOctaves, AToneIsInItsBandWithItsLevel) {
         const auto b = third_octaves(tone(44100, hertz, 0.2), rate, audible);
         ASSERT_EQ(b.centre.size(), 24u);
         for (std::size_t i = 0; i < b.centre.size(); ++i) {
-            const bool mine = hertz > b.centre[i] * std::pow(10, -0.05) && hertz < b.centre[i] * std::pow(10, 0.05);
+            const bool mine = hertz > b.centre[i] * std::pow(10, -0.05) &&
+                              hertz < b.centre[i] * std::pow(10, 0.05);
             if (mine) {
                 EXPECT_NEAR(b.level[i], 10 * std::log10(0.02), 1e-9) << hertz;
             } else {
@@ -104,24 +109,37 @@ TEST(ThirdOctaves, AnImpulseRisesOneDecibelPerBandWhereverTheEdgesFallBetweenBin
         Signal x(rows, 0.0);
         x[rows / 3] = 1;
         const auto b = third_octaves(x, rate, audible);
-        for (std::size_t i = 0; i + 1 < b.centre.size(); ++i) {  // the last band is cut at half the rate
+        // the last band is cut at half the rate
+        for (std::size_t i = 0; i + 1 < b.centre.size(); ++i) {
             const double width = b.centre[i] * (std::pow(10, 0.05) - std::pow(10, -0.05));
-            EXPECT_NEAR(b.level[i], 10 * std::log10(2 * width / (rate * rows)), 1e-9) << rows << " " << b.centre[i];
+            EXPECT_NEAR(b.level[i], 10 * std::log10(2 * width / (rate * rows)), 1e-9)
+                << rows << " " << b.centre[i];
         }
-        EXPECT_NEAR(b.level.back(), 10 * std::log10(2 * (22050 - 19952.623 * std::pow(10, -0.05)) / (rate * rows)), 2e-3);
+        EXPECT_NEAR(b.level.back(),
+                    10 * std::log10(2 * (22050 - 19952.623 * std::pow(10, -0.05)) / (rate * rows)),
+                    2e-3);
     }
 }
 
 TEST(ThirdOctaves, BandsNarrowerThanABinAndAboveHalfTheRateAreLeftOut) {
-    const auto b = third_octaves(noise(441, 2), rate);  // bins of 100 Hz; the band at 501 Hz is 116 Hz audible, that at 398 Hz 92 Hz
+    // bins of 100 Hz; the band at 501 Hz is 116 Hz audible, that at 398 Hz 92 Hz
+    const auto b = third_octaves(noise(441, 2), rate);
     EXPECT_NEAR(b.centre.front(), 501.19, 0.01);
     EXPECT_NEAR(third_octaves(noise(8000, 2), 8000).centre.back(), 3981.07, 0.01);
-    EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 20, .highest = 16e3}).centre.front(), 19.953, 1e-3);  // by nominal names
-    EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 20, .highest = 16e3}).centre.back(), 15848.9, 0.1);
-    EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 31.5, .highest = 12.5e3}).centre.front(), 31.623, 1e-3);
-    EXPECT_EQ(third_octaves(noise(44100, 2), rate).centre.size(), 26u);  // as chosen where nothing is said: 50 Hz ... 16 kHz, Hann
+    // by nominal names
+    EXPECT_NEAR(
+        third_octaves(noise(44100, 2), rate, {.lowest = 20, .highest = 16e3}).centre.front(),
+        19.953, 1e-3);
+    EXPECT_NEAR(third_octaves(noise(44100, 2), rate, {.lowest = 20, .highest = 16e3}).centre.back(),
+                15848.9, 0.1);
+    EXPECT_NEAR(
+        third_octaves(noise(44100, 2), rate, {.lowest = 31.5, .highest = 12.5e3}).centre.front(),
+        31.623, 1e-3);
+    // as chosen where nothing is said: 50 Hz ... 16 kHz, Hann
+    EXPECT_EQ(third_octaves(noise(44100, 2), rate).centre.size(), 26u);
     EXPECT_NEAR(third_octaves(noise(44100, 2), rate).centre.front(), 50.119, 1e-3);
-    EXPECT_LT(third_octaves(tone(44100, 1000.5, 1), rate).level[19], -150);  // 4 kHz, beside a tone between two bins
+    // 4 kHz, beside a tone between two bins
+    EXPECT_LT(third_octaves(tone(44100, 1000.5, 1), rate).level[19], -150);
     EXPECT_GT(third_octaves(tone(44100, 1000.5, 1), rate, audible).level[16], -70);
     EXPECT_TRUE(third_octaves({}, rate).centre.empty());
     EXPECT_TRUE(third_octaves(Signal{1}, rate).centre.empty());
@@ -140,10 +158,14 @@ TEST(ThirdOctaves, AScaledCopyDiffersByItsGainForEitherTaper) {
 TEST(ThirdOctaves, RootMeanSquareIsOverTheBandsWithEnergyAlone) {
     const Signal strong = tone(44100, 1000, 1), weak = tone(44100, 4000, 1e-3);
     const Signal r = plus(strong, weak), c = plus(times(strong, 2), times(weak, 0.5));
-    EXPECT_NEAR(third_octave_difference(c, r, rate), 20 * std::log10(2.0), 1e-6);  // two bands, +6.02 and -6.02 dB
-    EXPECT_NEAR(third_octave_difference(plus(times(strong, 2), weak), r, rate), 20 * std::log10(2.0) / std::sqrt(2.0), 1e-6);
-    EXPECT_NEAR(third_octave_difference(c, r, rate, {.range = 50}), 20 * std::log10(2.0), 1e-6);  // the strong band alone
-    // The band at 4 kHz is at -60 dB, the floor at -100 dB: a candidate without it is 40 dB off there.
+    // two bands, +6.02 and -6.02 dB
+    EXPECT_NEAR(third_octave_difference(c, r, rate), 20 * std::log10(2.0), 1e-6);
+    EXPECT_NEAR(third_octave_difference(plus(times(strong, 2), weak), r, rate),
+                20 * std::log10(2.0) / std::sqrt(2.0), 1e-6);
+    // the strong band alone
+    EXPECT_NEAR(third_octave_difference(c, r, rate, {.range = 50}), 20 * std::log10(2.0), 1e-6);
+    // The band at 4 kHz is at -60 dB, the floor at -100 dB: a candidate without it is 40 dB off
+    // there.
     EXPECT_NEAR(third_octave_difference(strong, r, rate), 40 / std::sqrt(2.0), 1e-6);
 }
 
@@ -173,15 +195,19 @@ TEST(Spectrogram, EachFrameIsThePowerSpectrumOfItsRows) {
 TEST(Stft, AScaledCopyDiffersByItsGainInLevelAndInNorm) {
     const Signal x = noise(20000, 6);
     for (double gain : {0.5, 1.1}) {
-        for (const auto d : {multi_resolution_stft_difference(times(x, gain), x, rate), stft_difference(times(x, gain), x, rate, 256)}) {
+        for (const auto d : {multi_resolution_stft_difference(times(x, gain), x, rate),
+                             stft_difference(times(x, gain), x, rate, 256)}) {
             EXPECT_NEAR(d.level, std::abs(20 * std::log10(gain)), 1e-9);
             EXPECT_NEAR(d.convergence, std::abs(gain - 1), 1e-12);
         }
     }
-    // A copy that sinks below the floor is taken at the floor: a tone over a noise at -100 dB can lose no more than what it had.
+    // A copy that sinks below the floor is taken at the floor: a tone over a noise at -100 dB can
+    // lose no more than what it had.
     const Signal faint = plus(tone(20000, 440, 1), times(noise(20000, 6), 1e-4));
-    EXPECT_NEAR(stft_difference(times(faint, 2), faint, rate, 1024).level, 20 * std::log10(2.0), 1e-9);
-    EXPECT_LT(stft_difference(times(faint, 0.5), faint, rate, 1024).level, 20 * std::log10(2.0) - 0.1);
+    EXPECT_NEAR(stft_difference(times(faint, 2), faint, rate, 1024).level, 20 * std::log10(2.0),
+                1e-9);
+    EXPECT_LT(stft_difference(times(faint, 0.5), faint, rate, 1024).level,
+              20 * std::log10(2.0) - 0.1);
     const auto same = multi_resolution_stft_difference(x, x, rate);
     EXPECT_EQ(same.level, 0);
     EXPECT_EQ(same.convergence, 0);
@@ -193,14 +219,16 @@ TEST(Stft, ForgivesPhaseButNotAWrongPitchOrAMissingOne) {
     const auto pitch = multi_resolution_stft_difference(tone(20000, 466.16, 1), x, rate);
     EXPECT_LT(phase.convergence, 2e-3);
     EXPECT_GT(pitch.convergence, 0.3);
-    EXPECT_NEAR(multi_resolution_stft_difference(Signal(20000, 0.0), x, rate).convergence, 1, 1e-12);
+    EXPECT_NEAR(multi_resolution_stft_difference(Signal(20000, 0.0), x, rate).convergence, 1,
+                1e-12);
 }
 
 TEST(Stft, LeavesOutWindowsLongerThanTheSignal) {
     const Signal x = noise(1500, 6), y = noise(1500, 7);
     const auto a = stft_difference(x, y, rate, 512), b = stft_difference(x, y, rate, 1024);
     EXPECT_NEAR(multi_resolution_stft_difference(x, y, rate).level, (a.level + b.level) / 2, 1e-12);
-    EXPECT_GT(multi_resolution_stft_difference(Signal(100, 1.0), Signal(100, 2.0), rate).level, 6.0);
+    EXPECT_GT(multi_resolution_stft_difference(Signal(100, 1.0), Signal(100, 2.0), rate).level,
+              6.0);
 }
 
 TEST(Differences, OfFailedCandidatesAreInfiniteAndOfEmptyReferencesNotANumber) {
@@ -208,7 +236,8 @@ TEST(Differences, OfFailedCandidatesAreInfiniteAndOfEmptyReferencesNotANumber) {
     Signal broken = x;
     broken[4321] = nan;
     const auto both = [](const Signal& c, const Signal& r) {
-        return std::vector<double>{third_octave_difference(c, r, rate), stft_difference(c, r, rate, 512).level,
+        return std::vector<double>{third_octave_difference(c, r, rate),
+                                   stft_difference(c, r, rate, 512).level,
                                    multi_resolution_stft_difference(c, r, rate).convergence};
     };
     for (const double d : both(broken, x)) EXPECT_EQ(d, inf);
@@ -218,7 +247,8 @@ TEST(Differences, OfFailedCandidatesAreInfiniteAndOfEmptyReferencesNotANumber) {
     for (const double d : both(x, zero)) EXPECT_TRUE(std::isnan(d));
     for (const double d : both(x, {})) EXPECT_TRUE(std::isnan(d));
     for (const double d : both(x, broken)) EXPECT_TRUE(std::isnan(d));
-    EXPECT_TRUE(std::isfinite(third_octave_difference(zero, x, rate)));  // a silent candidate is at the floor
+    // a silent candidate is at the floor
+    EXPECT_TRUE(std::isfinite(third_octave_difference(zero, x, rate)));
     EXPECT_TRUE(std::isnan(third_octave_difference(Signal{1}, Signal{1}, rate)));
 }
 
@@ -237,7 +267,8 @@ TEST(Spectra, ComeOutTheSameToTheBitAndFromSeveralThreadsAtOnce) {
     const Signal x = noise(1200, 1), y = noise(1200, 2);
     const auto all = [&] {  // many lengths: each plans anew
         Signal found;
-        for (int rows = 1000; rows < 1200; ++rows) found.push_back(third_octave_difference(x, std::span(y).first(rows), rate));
+        for (int rows = 1000; rows < 1200; ++rows)
+            found.push_back(third_octave_difference(x, std::span(y).first(rows), rate));
         return found;
     };
     const Signal alone = all();

@@ -34,11 +34,13 @@ TEST(Statistics, ValuesThatAreNotFiniteAreLeftOutAndCounted) {
 }
 
 TEST(Statistics, SpreadsThatOverlapAreATie) {
-    const Spread slow = spread_of(std::vector<double>{10, 11, 12, 13}), near = spread_of(std::vector<double>{12, 13, 14, 15});
+    const Spread slow = spread_of(std::vector<double>{10, 11, 12, 13}),
+                 near = spread_of(std::vector<double>{12, 13, 14, 15});
     const Spread fast = spread_of(std::vector<double>{1, 2, 3});
     EXPECT_TRUE(tie(slow, slow));
     EXPECT_TRUE(tie(spread_of(std::vector<double>{11, 12.5, 13}), slow));
-    EXPECT_FALSE(tie(slow, near));  // quartiles 10.75 ... 12.25 and 12.75 ... 14.25, although the ranges overlap
+    // quartiles 10.75 ... 12.25 and 12.75 ... 14.25, although the ranges overlap
+    EXPECT_FALSE(tie(slow, near));
     EXPECT_FALSE(tie(near, slow));
     EXPECT_FALSE(tie(fast, slow));
     EXPECT_TRUE(tie(fast, spread_of({})));

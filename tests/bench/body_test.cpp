@@ -1,4 +1,5 @@
-// The body, one way: what is read of its responses, what they make of a force, and the made-up pair of the library.
+// The body, one way: what is read of its responses, what they make of a force, and the made-up pair
+// of the library.
 #include <gtest/gtest.h>
 #include <sndfile.h>
 #include <unistd.h>
@@ -37,12 +38,14 @@ double gain_at(const std::vector<double>& response, double hertz, double rate) {
     return std::hypot(re, im);
 }
 
-TEST(SyntheticBody, RadiatesLittleBelowItsLowestModeAndItsStrongestAnswersWithOne) {  // van Walstijn et al. 2016, fig. 5
+// van Walstijn et al. 2016, fig. 5
+TEST(SyntheticBody, RadiatesLittleBelowItsLowestModeAndItsStrongestAnswersWithOne) {
     const auto bridge = synthetic_response(BodyEnd::bridge), nut = synthetic_response(BodyEnd::nut);
     ASSERT_EQ(bridge.size(), 2048u);
     double most = 0, most_nut = 0;
     for (double f = 100; f < 20e3; f *= 1.002)
-        most = std::max(most, gain_at(bridge, f, synthetic_rate)), most_nut = std::max(most_nut, gain_at(nut, f, synthetic_rate));
+        most = std::max(most, gain_at(bridge, f, synthetic_rate)),
+        most_nut = std::max(most_nut, gain_at(nut, f, synthetic_rate));
     EXPECT_NEAR(most, 1, 0.02);
     EXPECT_NEAR(20 * std::log10(most_nut), 0, 6);
     EXPECT_LT(20 * std::log10(gain_at(bridge, 65.4, synthetic_rate) / most), -20);  // of a C2
@@ -51,11 +54,13 @@ TEST(SyntheticBody, RadiatesLittleBelowItsLowestModeAndItsStrongestAnswersWithOn
 
 TEST(SyntheticBody, OfTheLibraryIsMadeByThisRecipe) {
     const Body body = read_scene("tanpura_drone").body.value();
-    for (const auto& [end, name] : {std::pair{BodyEnd::bridge, body.bridge}, std::pair{BodyEnd::nut, body.nut}}) {
+    for (const auto& [end, name] :
+         {std::pair{BodyEnd::bridge, body.bridge}, std::pair{BodyEnd::nut, body.nut}}) {
         const auto made = synthetic_response(end);
         const auto there = impulse_response(name, synthetic_rate, "body");
         ASSERT_EQ(there.size(), made.size());
-        for (std::size_t n = 0; n < made.size(); ++n) ASSERT_NEAR(there[n], made[n], 1e-7) << name << " " << n;
+        for (std::size_t n = 0; n < made.size(); ++n)
+            ASSERT_NEAR(there[n], made[n], 1e-7) << name << " " << n;
     }
 }
 
@@ -75,9 +80,7 @@ TEST(ImpulseResponse, ThatCannotBeTakenSaysWhy) {
     const auto message_of = [](const std::string& file) {
         try {
             impulse_response(file, 44100, "body.nut");
-        } catch (const bench::store::UsageError& e) {
-            return std::string(e.what());
-        }
+        } catch (const bench::store::UsageError& e) { return std::string(e.what()); }
         return std::string();
     };
     EXPECT_TRUE(says(message_of(folder / "nothing.wav"), "body.nut: found"));
@@ -119,7 +122,8 @@ TEST(Audible, LeftIsTheBridgeAndRightTheNut) {
     trace.rows = trace.stride = 500;
     for (int n = 0; n < 500; ++n) trace.tap.push_back(std::sin(0.3 * n));
     for (int n = 0; n < 500; ++n) trace.tap.push_back(std::cos(0.2 * n));
-    const auto left = without_steady(trace.column(0), 44100), nut = without_steady(trace.column(1), 44100);
+    const auto left = without_steady(trace.column(0), 44100),
+               nut = without_steady(trace.column(1), 44100);
     Player(folder / "x.wav", scene, 44100).write(trace);
     SF_INFO info{};
     SNDFILE* file = sf_open((folder / "x.wav").c_str(), SFM_READ, &info);

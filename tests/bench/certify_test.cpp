@@ -1,4 +1,5 @@
-// Certificates as people meet them: the files, the cache, the figures that stand beside the errors of compare and suite.
+// Certificates as people meet them: the files, the cache, the figures that stand beside the errors
+// of compare and suite.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -39,9 +40,11 @@ bench::trust::KeptCertificate made(const Scene& scene, const CertifySettings& se
 // ---- The file
 
 TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
-    for (const char* scene : {"tanpura_c3_release", "sitar_c5_two_planes"}) {  // with pairs, and with an estimate
+    // with pairs, and with an estimate
+    for (const char* scene : {"tanpura_c3_release", "sitar_c5_two_planes"}) {
         const Scratch scratch;
-        const bench::trust::KeptCertificate kept = made(short_scene(scene, 1e-3), {20, 44100, {}, {}});
+        const bench::trust::KeptCertificate kept =
+            made(short_scene(scene, 1e-3), {20, 44100, {}, {}});
         const fs::path path = scratch / "a.json";
         write(path, bench::trust::json_of(kept));
         write(bench::trust::cost_path(path), bench::trust::cost_json_of(kept));
@@ -61,13 +64,15 @@ TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
         }
         ASSERT_EQ(is.pairs.size(), was.pairs.size());
         EXPECT_EQ(was.pairs.empty(), !was.entries[0].estimate.empty());
-        for (std::size_t i = 0; i < was.pairs.size(); ++i) EXPECT_EQ(is.pairs[i].taps[2].until, was.pairs[i].taps[2].until);
+        for (std::size_t i = 0; i < was.pairs.size(); ++i)
+            EXPECT_EQ(is.pairs[i].taps[2].until, was.pairs[i].taps[2].until);
     }
 }
 
 TEST(CertificateFile, KeepsTheTwoKindsOfNumbersApartAndRepeatsToTheLastDigit) {
     const Scene scene = short_scene("free_string", 5e-3);
-    const bench::trust::KeptCertificate first = made(scene, {10, 44100, {}, {}}), second = made(scene, {10, 44100, {}, {}});
+    const bench::trust::KeptCertificate first = made(scene, {10, 44100, {}, {}}),
+                                        second = made(scene, {10, 44100, {}, {}});
     EXPECT_EQ(json_of(first), json_of(second));
     for (const char* clock : {"wall", "date", "cpu", "commit"}) {
         EXPECT_FALSE(says(json_of(first), clock)) << clock;
@@ -80,7 +85,9 @@ TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDu
     const Scene scene = short_scene("free_string", 5e-3);
     const CertifySettings settings{10, 44100, {}, {}};
     const bench::trust::KeptCertificate kept = bench::trust::planned_certificate(scene, settings);
-    const auto differs = [&](const Scene& s, const CertifySettings& c) { return bench::trust::planned_certificate(s, c).key != kept.key; };
+    const auto differs = [&](const Scene& s, const CertifySettings& c) {
+        return bench::trust::planned_certificate(s, c).key != kept.key;
+    };
     EXPECT_FALSE(differs(scene, settings));
     EXPECT_TRUE(differs(short_scene("free_string", 6e-3), settings));
     EXPECT_TRUE(differs(scene, {11, 44100, {}, {}}));
@@ -91,21 +98,30 @@ TEST(CertificateFile, HasAKeyOfAllThatItDependsOnAndAHashOfTheSceneWhateverItsDu
     EXPECT_NE(bench::trust::timeless_hash(tighter), bench::trust::timeless_hash(scene));
     EXPECT_EQ(bench::trust::timeless_hash(short_scene("free_string", 6e-3)), kept.scene_hash);
     bench::store::Machine other = bench::store::machine();
-    EXPECT_EQ(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key, kept.key);
+    EXPECT_EQ(
+        bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key,
+        kept.key);
     other.commit = other.version = "another";  // a word of the documentation, say
-    EXPECT_EQ(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key, kept.key);
-    for (std::string bench::store::Machine::*what : {&bench::store::Machine::run_sources, &bench::store::Machine::compiler,
-                                                     &bench::store::Machine::flags, &bench::store::Machine::vectors}) {
+    EXPECT_EQ(
+        bench::trust::planned_certificate(scene, settings, bench::store::run_identity(other)).key,
+        kept.key);
+    for (std::string bench::store::Machine::*what :
+         {&bench::store::Machine::run_sources, &bench::store::Machine::compiler,
+          &bench::store::Machine::flags, &bench::store::Machine::vectors}) {
         bench::store::Machine changed = bench::store::machine();
         changed.*what += "x";
-        EXPECT_NE(bench::trust::planned_certificate(scene, settings, bench::store::run_identity(changed)).key, kept.key);
+        EXPECT_NE(
+            bench::trust::planned_certificate(scene, settings, bench::store::run_identity(changed))
+                .key,
+            kept.key);
     }
 }
 
 TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherFormatIsNotBelieved) {
     const Scratch scratch;
     const fs::path path = scratch / "a.json";
-    const std::string text = bench::trust::json_of(made(short_scene("free_string", 5e-3), {10, 44100, {}, {}}));
+    const std::string text =
+        bench::trust::json_of(made(short_scene("free_string", 5e-3), {10, 44100, {}, {}}));
     std::string why;
     EXPECT_FALSE(bench::trust::read_certificate(path, why));
     const auto refused = [&](const std::string& content) {
@@ -152,11 +168,14 @@ struct Verb {  // jvari certify of a small scene, its file in a folder of its ow
     Scratch scratch;
     std::string file = scratch / "c.json";
     Json run(const std::string& more = "", int code = 0) {
-        last = jvari(scratch, "certify free_string --modes 10 --json --out " + file + " --duration " + duration + " " + more);
+        last = jvari(scratch, "certify free_string --modes 10 --json --out " + file +
+                                  " --duration " + duration + " " + more);
         EXPECT_EQ(last.code, code) << last.err;
         return Json::parse(last.out);
     }
-    void alter() {  // one figure, and the checksum with it: only a file that is read and not made again still has it
+    // one figure, and the checksum with it: only a file that is read and not made again still has
+    // it
+    void alter() {
         Json j = Json::parse(content(file));
         j.erase("checksum");
         j["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] = 0.125;
@@ -168,7 +187,10 @@ struct Verb {  // jvari certify of a small scene, its file in a folder of its ow
         j[key] = value;
         write(file, bench::store::sealed(j.dump()));
     }
-    bool altered() const { return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] == 0.125; }
+    bool altered() const {
+        return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] ==
+               0.125;
+    }
     std::string duration = "0.02";
     Outcome last{};
 };
@@ -207,7 +229,8 @@ TEST(CertifyCommand, MakesABrokenOrForeignFileAgainAndSaysSo) {
     EXPECT_EQ(verb.run("--tap-rate 22050")["cached"], false);
     EXPECT_TRUE(says(verb.last.err, "another program"));
     fs::remove(bench::trust::cost_path(verb.file));
-    EXPECT_TRUE(verb.run("--tap-rate 22050")["wall_seconds"][0].is_null());  // read, without its costs
+    // read, without its costs
+    EXPECT_TRUE(verb.run("--tap-rate 22050")["wall_seconds"][0].is_null());
 }
 
 TEST(CertifyCommand, KeepsACertificateThatIsLonger) {
@@ -226,16 +249,21 @@ TEST(CertifyCommand, WritesToTheFolderOfCertificatesAndLeavesTheScenesOwnToItWhe
     const Scratch scratch;
     const std::string there = "cd " + scratch.path.string() + " &&";
     for (const char* set : {"", " --set string.0.tension=34"})
-        EXPECT_EQ(jvari(scratch, std::string("certify free_string --modes 5 --duration 0.005") + set, there).code, 0);
+        EXPECT_EQ(jvari(scratch,
+                        std::string("certify free_string --modes 5 --duration 0.005") + set, there)
+                      .code,
+                  0);
     int certificates = 0;
     for (const auto& entry : fs::directory_iterator(scratch.path / "results/certificates"))
         certificates += entry.path().string().find(".cost.json") == std::string::npos;
     EXPECT_EQ(certificates, 2);
     EXPECT_TRUE(fs::exists(scratch.path / "results/certificates/free_string.json"));
     // and compare finds it there, as far as it reaches
-    const Json json = Json::parse(
-        jvari(scratch, "compare free_string --modes 5 --schemes modal_two_point --rates 44100 --duration 0.005 --repeats 1 --json", there)
-            .out);
+    const Json json = Json::parse(jvari(scratch,
+                                        "compare free_string --modes 5 --schemes modal_two_point "
+                                        "--rates 44100 --duration 0.005 --repeats 1 --json",
+                                        there)
+                                      .out);
     EXPECT_EQ(json["manifest"]["reference"]["certificate"]["file"], "free_string.json");
     EXPECT_GT(json["cells"][0]["certificate_l2_whole"].get<double>(), 0);
 }
@@ -257,10 +285,11 @@ TEST(CertifyCommand, RefusesWhatItCannotDoAsTheOtherVerbsDo) {
         EXPECT_TRUE(ends(jvari(scratch, arguments), 2, expected)) << arguments;
     }
     EXPECT_TRUE(says(jvari(scratch, "certify --help").out, "Example: jvari certify"));
-    const Outcome nobody = jvari(scratch,
-                                 "certify sitar_c5_two_planes --set string.0.damping.law=polynomial --set "
-                                 "string.0.damping.sigma0=1 --set string.0.damping.sigma1=0.01 --out " +
-                                     (scratch / "a.json"));
+    const Outcome nobody =
+        jvari(scratch,
+              "certify sitar_c5_two_planes --set string.0.damping.law=polynomial --set "
+              "string.0.damping.sigma0=1 --set string.0.damping.sigma1=0.01 --out " +
+                  (scratch / "a.json"));
     EXPECT_EQ(nobody.code, 3) << nobody.err;
     EXPECT_EQ(scratch.files(), 0);
 }
@@ -269,11 +298,13 @@ TEST(CertifyCommand, RefusesWhatItCannotDoAsTheOtherVerbsDo) {
 
 Agreement all(double x) {
     Agreement a;
-    for (std::size_t w = 0; w < a.relative_l2.size(); ++w) a.relative_l2[w] = x * static_cast<double>(w + 1);
+    for (std::size_t w = 0; w < a.relative_l2.size(); ++w)
+        a.relative_l2[w] = x * static_cast<double>(w + 1);
     return a;
 }
 
-bench::trust::KeptCertificate by_hand() {  // one tap, 0.1 s; pair (i, j) differs by 10^-(i + 3 j) times 1, 2, 3 ... in the windows
+// one tap, 0.1 s; pair (i, j) differs by 10^-(i + 3 j) times 1, 2, 3 ... in the windows
+bench::trust::KeptCertificate by_hand() {
     bench::trust::KeptCertificate kept;
     Certificate& c = kept.certificate;
     c.taps = {"nut"};
@@ -302,9 +333,11 @@ TEST(Trust, IsTheLargestDifferenceFromAnyOtherReference) {  // one pair alone ca
     EXPECT_EQ(two.against, "one");
     EXPECT_DOUBLE_EQ(two.in_model(0, 0), 1e-3);  // entries 3 and 0
     for (auto& p : kept.certificate.pairs)
-        if (p.first == 3 && p.second == 2) p.taps[0] = all(0.02);  // from itself at another tolerance
+        // from itself at another tolerance
+        if (p.first == 3 && p.second == 2) p.taps[0] = all(0.02);
     EXPECT_DOUBLE_EQ(bench::trust::trust_of(kept, "two", {}, 0.1).in_model(0, 0), 0.02);
-    const bench::trust::Trust coarse = bench::trust::trust_of(kept, "one", {{"window", "0.5"}}, 0.1);
+    const bench::trust::Trust coarse =
+        bench::trust::trust_of(kept, "one", {{"window", "0.5"}}, 0.1);
     EXPECT_DOUBLE_EQ(coarse.in_model(0, 0), 1e-1);
     EXPECT_FALSE(trust_of(kept, "two", {{"rtol", "1e-3"}}, 0.1).any());
     EXPECT_FALSE(trust_of(kept, "four", {}, 0.1).any());
@@ -326,12 +359,14 @@ TEST(Trust, OfTheSceneHasWhatDoublingModesAndPointsChanges) {
     for (const char* name : {"one", "two"}) {  // they share the model, whichever was doubled
         const bench::trust::Trust t = bench::trust::trust_of(kept, name, {}, 0.1);
         EXPECT_EQ(t.doubled, "modes and points");
-        EXPECT_DOUBLE_EQ(t.of_scene(0, 0), t.in_model(0, 0) + and_further_ones * (2e-2 + 3e-3)) << name;
+        EXPECT_DOUBLE_EQ(t.of_scene(0, 0), t.in_model(0, 0) + and_further_ones * (2e-2 + 3e-3))
+            << name;
     }
     const bench::trust::Trust two = bench::trust::trust_of(kept, "two", {}, 0.1);
     EXPECT_EQ(two.against, "one");
-    EXPECT_DOUBLE_EQ(two.in_model(0, 0), in_model);  // what is of another model says nothing of the solution of this one
-    c.entries.back().reached = 0.02;                 // it failed there: of more nothing is known
+    // what is of another model says nothing of the solution of this one
+    EXPECT_DOUBLE_EQ(two.in_model(0, 0), in_model);
+    c.entries.back().reached = 0.02;  // it failed there: of more nothing is known
     EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 2)));
     EXPECT_FALSE(std::isnan(bench::trust::trust_of(kept, "one", {}, 0.1).of_scene(0, 0)));
 }
@@ -347,9 +382,11 @@ TEST(Trust, OfTheSceneIsTheDifferenceFromTheMatchedOneOfTwiceTheModesAndWhatThat
     const auto left_out = [&kept](const char* name, const Certificate::Options& options) {
         return bench::trust::trust_of(kept, name, options, 0.1).left_out.at(0)[0];
     };
-    for (const char* name : {"one", "two"}) EXPECT_DOUBLE_EQ(left_out(name, {}), 2e-2 + (matched_and_further_ones - 1) * 1e-3) << name;
+    for (const char* name : {"one", "two"})
+        EXPECT_DOUBLE_EQ(left_out(name, {}), 2e-2 + (matched_and_further_ones - 1) * 1e-3) << name;
     EXPECT_DOUBLE_EQ(left_out("one", matched), matched_and_further_ones * 1e-3);
-    EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", matched, 0.1).in_model(0, 0)));  // no other run is matched
+    // no other run is matched
+    EXPECT_TRUE(std::isnan(bench::trust::trust_of(kept, "one", matched, 0.1).in_model(0, 0)));
     c.entries.push_back({"one", {{"window", "0.5"}, matched.front()}, 0, {}, 0.1, 0, {}, {}, {}});
     c.pairs.push_back({7, 5, {all(1e-6)}});  // and own compliance is known to 0.1 only
     EXPECT_DOUBLE_EQ(bench::trust::trust_of(kept, "one", matched, 0.1).in_model(0, 0), 1e-1);
@@ -363,7 +400,8 @@ TEST(Trust, OfAReferenceThatStandsAloneIsItsLargestDifferenceFromItself) {
         if (e.sample_rate == 0) e.reference = "two";
     kept.certificate.entries[0].options = {{"method", "adams"}};
     const bench::trust::Trust t = bench::trust::trust_of(kept, "two", {}, 0.1);
-    EXPECT_DOUBLE_EQ(t.in_model(0, 0), 1e-3);  // of 1e-3, 1e-6, 1e-9; the oversampled scheme is left aside
+    // of 1e-3, 1e-6, 1e-9; the oversampled scheme is left aside
+    EXPECT_DOUBLE_EQ(t.in_model(0, 0), 1e-3);
     EXPECT_EQ(t.against, "two method=adams");
 }
 
@@ -383,25 +421,29 @@ TEST(Trust, ReachesAsFarAsTheCertificateAndTakesTheShortestWindowThatHolds) {
     EXPECT_DOUBLE_EQ(at(0.025, 2), 7e-1);  // what there is of entry 1: the whole of its 30 ms
 }
 
-TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepresentsIt) {  // else: results/certificates/make
+// else: results/certificates/make
+TEST(CommittedCertificates, ThereIsOneForEverySceneOfTheLibraryWithAllThatRepresentsIt) {
     for (const std::string& name : library_scenes()) {
         const Scene scene = read_scene(name);
         std::string why;
-        const auto kept = bench::trust::read_certificate(fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
+        const auto kept = bench::trust::read_certificate(
+            fs::path(JVARI_COMMITTED_CERTIFICATES) / (name + ".json"), why);
         ASSERT_TRUE(kept) << name << ": " << why;
         EXPECT_EQ(kept->scene_hash, bench::trust::timeless_hash(scene)) << name;
         EXPECT_EQ(kept->certificate.modes, modes_for(scene, {})) << name;
         for (const auto& planned : certificate_plan(scene).entries)
-            EXPECT_TRUE(std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
-                                    [&](const auto& e) {
-                                        return e.reference == planned.reference && e.options == planned.options &&
-                                               e.doubled == planned.doubled;
-                                    }))
+            EXPECT_TRUE(
+                std::any_of(kept->certificate.entries.begin(), kept->certificate.entries.end(),
+                            [&](const auto& e) {
+                                return e.reference == planned.reference &&
+                                       e.options == planned.options && e.doubled == planned.doubled;
+                            }))
                 << name << ": " << planned.reference;
         if (const Descriptor* reference = best_reference(scene)) {
             EXPECT_GT(trust_of(*kept, reference->name, {}, 10e-3).of_scene(0, 0), 0) << name;
         } else {
-            EXPECT_EQ(kept->certificate.entries.back().reference.rfind("oversampled ", 0), 0u) << name;
+            EXPECT_EQ(kept->certificate.entries.back().reference.rfind("oversampled ", 0), 0u)
+                << name;
         }
     }
 }
@@ -412,40 +454,52 @@ struct Shelf : Scratch {  // a library of certificates with one in it
     std::string environment = "JVARI_CERTIFICATES=" + path.string();
     void put(bench::trust::KeptCertificate kept, double figure) {
         for (auto& p : kept.certificate.pairs)
-            for (Agreement& tap : p.taps) tap.relative_l2.fill(kept.certificate.entries[p.first].doubled.empty() ? figure : 0);
+            for (Agreement& tap : p.taps)
+                tap.relative_l2.fill(kept.certificate.entries[p.first].doubled.empty() ? figure
+                                                                                       : 0);
         write(path / (kept.certificate.scene + ".json"), bench::trust::json_of(kept));
     }
 };
 
 const std::string small_compare =
-    "compare free_string --modes 10 --schemes modal_two_point --rates 44100,88200 --duration 0.06 --repeats 1 ";
+    "compare free_string --modes 10 --schemes modal_two_point --rates 44100,88200 --duration 0.06 "
+    "--repeats 1 ";
 
 TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateTogether) {
     Shelf shelf;
-    const bench::trust::KeptCertificate kept = made(short_scene("free_string", 0.07), {133, 44100, {}, {}});
+    const bench::trust::KeptCertificate kept =
+        made(short_scene("free_string", 0.07), {133, 44100, {}, {}});
     shelf.put(kept, 0.25);
     const std::string out = shelf / "out";
     const Outcome o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
     const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
-    const double certain = cells.number(0, "certificate_l2_50ms");  // and to what doubling the modes changed
-    EXPECT_TRUE(says(o.out, fmt::format("\u2264{:.2e}", cells.number(0, "error_l2_50ms") + certain)));
-    EXPECT_TRUE(says(o.out, "within 10 %    cannot be decided: the reference is known to 25 % only"));
-    EXPECT_TRUE(says(o.out, "in the first line of the table, by exact_contact and by doubling its modes (free_string.json)"));
+    // and to what doubling the modes changed
+    const double certain = cells.number(0, "certificate_l2_50ms");
+    EXPECT_TRUE(
+        says(o.out, fmt::format("\u2264{:.2e}", cells.number(0, "error_l2_50ms") + certain)));
+    EXPECT_TRUE(
+        says(o.out, "within 10 %    cannot be decided: the reference is known to 25 % only"));
+    EXPECT_TRUE(says(o.out,
+                     "in the first line of the table, by exact_contact and by doubling its modes "
+                     "(free_string.json)"));
     EXPECT_FALSE(says(o.err, "jvari certify"));
     for (const char* file : {"/cells.csv", "/errors.csv"}) {
         const bench::store::Table t = bench::store::read_csv(content(out + file));
         for (std::size_t i = 0; i < 2; ++i) {
-            for (const char* column : {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole", "certificate_l2_10ms_nut",
-                                       "certificate_l2_whole_y03"})
+            for (const char* column :
+                 {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole",
+                  "certificate_l2_10ms_nut", "certificate_l2_whole_y03"})
                 EXPECT_NEAR(t.number(i, column), 0.255, 0.005) << column;
             EXPECT_LT(t.number(i, "error_l2_50ms"), 0.25);  // as it was measured
         }
-        EXPECT_EQ(t.columns[t.column("certificate_l2_10ms") - 1], "reason");  // what was there before keeps its place
+        // what was there before keeps its place
+        EXPECT_EQ(t.columns[t.column("certificate_l2_10ms") - 1], "reason");
         EXPECT_EQ(t.columns.back(), "certificate_in_model_l2_whole_y03");
     }
     EXPECT_EQ(bench::store::read_csv(content(out + "/cost.csv")).column("certificate_l2_10ms"), -1);
-    const Json certificate = Json::parse(content(out + "/manifest.json"))["reference"]["certificate"];
+    const Json certificate =
+        Json::parse(content(out + "/manifest.json"))["reference"]["certificate"];
     EXPECT_EQ(certificate["file"], "free_string.json");
     EXPECT_EQ(certificate["key"], kept.key);
     EXPECT_NEAR(certificate["figures"]["certificate_l2_50ms_y03"].get<double>(), 0.255, 0.005);
@@ -470,16 +524,18 @@ TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModes
     EXPECT_FALSE(missing(small_compare));
     EXPECT_TRUE(missing(small_compare + "--set string.0.tension=34"));
     EXPECT_TRUE(missing(small_compare + "--tap-rate 22050"));
-    EXPECT_FALSE(missing("compare free_string --modes 11 --schemes modal_two_point --rates 44100 --duration 0.06 --repeats 1"));
+    EXPECT_FALSE(
+        missing("compare free_string --modes 11 --schemes modal_two_point --rates 44100 --duration "
+                "0.06 --repeats 1"));
     const auto undoubled = [&shelf](const std::string& more) {
         return jvari(shelf, small_compare + "--reference-modes cell" + more, shelf.environment);
     };
     const Outcome unknown = undoubled("");  // of ten modes there is no certificate
     EXPECT_TRUE(says(unknown.err, "the uncertainty of exact_linear is unknown"));
     EXPECT_TRUE(says(unknown.err, "jvari certify free_string --"));
-    EXPECT_TRUE(
-        says(unknown.out,
-             "within 10 %    cannot be decided: the uncertainty of the reference is unknown; measured against it, the cheapest is"));
+    EXPECT_TRUE(says(unknown.out,
+                     "within 10 %    cannot be decided: the uncertainty of the reference is "
+                     "unknown; measured against it, the cheapest is"));
     fs::resize_file(shelf.path / "free_string.json", 300);
     EXPECT_TRUE(missing(small_compare));
 }
@@ -487,7 +543,9 @@ TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModes
 TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
     const Scratch scratch;
     const std::string out = scratch / "out";
-    const Outcome o = jvari(scratch, "compare sitar_c5_two_planes --rates 44100,88200 --duration 0.02 --repeats 1 --out " + out);
+    const Outcome o = jvari(
+        scratch,
+        "compare sitar_c5_two_planes --rates 44100,88200 --duration 0.02 --repeats 1 --out " + out);
     ASSERT_TRUE(ends(o, 0, "against oversampled sitar_waveguide at 352800 Hz"));
     EXPECT_TRUE(says(o.out, "no reference represents scene sitar_c5_two_planes"));
     EXPECT_TRUE(says(o.out, "Richardson's rule from 88200, 176400 and 352800 Hz"));
@@ -499,8 +557,10 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
     const Oversampled own = oversampled(*stand_ins(scene).front(), scene, {88200, 44100, 0, {}}, 4);
     const bench::store::Table t = bench::store::read_csv(content(out + "/cells.csv"));
     for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
-        EXPECT_EQ(t.number(0, "certificate_l2_10ms_" + scene.taps[tap].name), own.estimates[tap].front().error);
-        EXPECT_EQ(t.number(0, "certificate_l2_whole_" + scene.taps[tap].name), own.estimates[tap].back().error);
+        EXPECT_EQ(t.number(0, "certificate_l2_10ms_" + scene.taps[tap].name),
+                  own.estimates[tap].front().error);
+        EXPECT_EQ(t.number(0, "certificate_l2_whole_" + scene.taps[tap].name),
+                  own.estimates[tap].back().error);
         EXPECT_EQ(t.at(0, "certificate_l2_50ms_" + scene.taps[tap].name), "");
     }
 }
@@ -508,7 +568,8 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
 TEST(ComparedWithAStandIn, ASchemeThatASuiteAsksForEstimatesItsOwnErrorToo) {
     const Scratch scratch;
     write(scratch.path / "a.toml",
-          "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [88200]\nmodes = 10\nduration = 0.06\n"
+          "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
+          "[88200]\nmodes = 10\nduration = 0.06\n"
           "reference = \"modal_two_point\"\n");
     const Json json = Json::parse(jvari(scratch, "suite " + (scratch / "a.toml") + " --json").out);
     EXPECT_EQ(json["cells"][0]["reference"], "oversampled modal_two_point");
@@ -519,12 +580,15 @@ TEST(SuiteWithACertificate, EveryRowHasTheFiguresLast) {
     Shelf shelf;
     shelf.put(made(short_scene("free_string", 0.02), {10, 44100, {}, {}}), 0.25);
     write(shelf.path / "a.toml",
-          "[[cells]]\nscenes = [\"free_string\", \"sitar_c5_two_planes\"]\nschemes = [\"modal_two_point\", \"sitar_waveguide\"]\n"
+          "[[cells]]\nscenes = [\"free_string\", \"sitar_c5_two_planes\"]\nschemes = "
+          "[\"modal_two_point\", \"sitar_waveguide\"]\n"
           "rates = [44100]\nmodes = 10\nreference_modes = \"cell\"\nduration = 0.02\n");
     const std::string out = shelf / "out";
-    const Outcome o = jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
+    const Outcome o =
+        jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_TRUE(says(content(out + "/report.html"), "certificate_l2_whole"));  // what the page makes of it: tests/browser
+    // what the page makes of it: tests/browser
+    EXPECT_TRUE(says(content(out + "/report.html"), "certificate_l2_whole"));
     const bench::store::Table t = bench::store::read_csv(content(out + "/errors.csv"));
     ASSERT_EQ(t.rows.size(), 4u);
     EXPECT_EQ(t.number(0, "certificate_l2_whole"), 0.25);

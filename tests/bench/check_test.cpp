@@ -1,4 +1,5 @@
-// jvari check: what it says and writes. That it finds each broken promise by its name is asked by tests/contract_plugins/check.sh.
+// jvari check: what it says and writes. That it finds each broken promise by its name is asked by
+// tests/contract_plugins/check.sh.
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -25,7 +26,8 @@ TEST(Check, ASchemeOfTheTreeKeepsWhatItPromises) {
     for (const Json& a : j["schemes"][0]["answers"]) {
         kept += a["answer"] == "kept";
         allocations += a["answer"] == "kept" && a["promise"] == "AllocatesNothingWhileStepping";
-        claims += a["answer"] == "kept" && (a["promise"] == "ConvergesToTheReference" || a["promise"] == "StaysSoundOverAMap" ||
+        claims += a["answer"] == "kept" && (a["promise"] == "ConvergesToTheReference" ||
+                                            a["promise"] == "StaysSoundOverAMap" ||
                                             a["promise"] == "PartialsAreWhereItsOwnRelationSays");
     }
     EXPECT_GT(kept, 100);
@@ -37,20 +39,27 @@ TEST(Check, ExcusesAKnownBreachByNameAndSaysSo) {
     const Scratch scratch;
     const Outcome o = jvari(scratch, "check modal_generalised_alpha");
     EXPECT_EQ(o.code, 0) << o.out << o.err;
-    EXPECT_TRUE(std::regex_search(o.out, std::regex("excused    CarriesNoMoreStateThanTheSceneNeeds .*acceleration"))) << o.out;
-    EXPECT_TRUE(says(o.out, "keeps what it promises, but for what it is known to break: CarriesNoMoreStateThanTheSceneNeeds"));
+    EXPECT_TRUE(std::regex_search(
+        o.out, std::regex("excused    CarriesNoMoreStateThanTheSceneNeeds .*acceleration")))
+        << o.out;
+    EXPECT_TRUE(says(o.out,
+                     "keeps what it promises, but for what it is known to break: "
+                     "CarriesNoMoreStateThanTheSceneNeeds"));
 }
 
 TEST(Check, WritesWhatContinuousIntegrationReads) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch, "check gives_nan --plugin " JVARI_FAULTS " --json --quiet --junit " + (scratch / "check.xml"));
+    const Outcome o =
+        jvari(scratch, "check gives_nan --plugin " JVARI_FAULTS " --json --quiet --junit " +
+                           (scratch / "check.xml"));
     EXPECT_EQ(o.code, 4) << o.err;
     const Json scheme = Json::parse(o.out)["schemes"][0];
     EXPECT_EQ(scheme["broken"], Json({"GivesNumbersToTheLastRow"}));
     const std::string xml = content(scratch / "check.xml");
     std::smatch found;
-    ASSERT_TRUE(
-        std::regex_search(xml, found, std::regex("<testsuite name=\"gives_nan\" tests=\"(\\d+)\" failures=\"(\\d+)\" skipped=\"(\\d+)\"")))
+    ASSERT_TRUE(std::regex_search(xml, found,
+                                  std::regex("<testsuite name=\"gives_nan\" tests=\"(\\d+)\" "
+                                             "failures=\"(\\d+)\" skipped=\"(\\d+)\"")))
         << xml.substr(0, 500);
     EXPECT_EQ(std::stoul(found[1]), scheme["answers"].size());
     EXPECT_EQ(count(xml, "<testcase "), std::stoi(found[1]));

@@ -1,5 +1,5 @@
-// What a comparison says of its cells: what is known of an error, which are the cheapest and on the front, each column under its own name,
-// and that all carry the same modes.
+// What a comparison says of its cells: what is known of an error, which are the cheapest and on the
+// front, each column under its own name, and that all carry the same modes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,13 +45,15 @@ TEST(Bound, WhereTheCertificateIsSmallWhatWasMeasuredStands) {
     EXPECT_EQ(bench::compare::error_text({HUGE_VAL, 0.1, nan}, "{:.2e}"), "inf");
     EXPECT_EQ(bench::compare::error_text({}, "{:.2e}"), "-");
     EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).shown(), 0.03);
-    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).most(), 0.033);  // what a target is held against all the same
+    // what a target is held against all the same
+    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).most(), 0.033);
 }
 
 TEST(Bound, IsNotKnownWhereErrorAndCertificateReachOne) {
     EXPECT_EQ(bench::compare::error_text({0.01, 0.98, nan}, "{:.2e}"), "\u22649.90e-01");
     EXPECT_EQ(bench::compare::error_text({0.01, 0.99, nan}, "{:.2e}"), "not known");
-    EXPECT_EQ(bench::compare::error_text({1.3, 0.01, nan}, "{:.2e}"), "1.30e+00");  // known to be all wrong
+    // known to be all wrong
+    EXPECT_EQ(bench::compare::error_text({1.3, 0.01, nan}, "{:.2e}"), "1.30e+00");
 }
 
 TEST(Bound, WithoutACertificateNothingIsCertainOfAnError) {
@@ -60,14 +62,17 @@ TEST(Bound, WithoutACertificateNothingIsCertainOfAnError) {
     EXPECT_EQ(error_text(b, "{:.2e}"), "3.00e-02?");
     EXPECT_FALSE(b.most() <= 0.1);
     EXPECT_EQ(b.least(), 0);
-    EXPECT_DOUBLE_EQ(b.shown(), 0.03);                                             // in a picture
-    EXPECT_EQ(bench::compare::error_text({HUGE_VAL, nan, nan}, "{:.2e}"), "inf");  // a run that failed is known to
+    EXPECT_DOUBLE_EQ(b.shown(), 0.03);  // in a picture
+    // a run that failed is known to
+    EXPECT_EQ(bench::compare::error_text({HUGE_VAL, nan, nan}, "{:.2e}"), "inf");
 }
 
 TEST(Bound, OfAColumnHasTheCertificateAndTheFloorOfItsWindowAndTap) {
-    const bench::store::Table t{{"error_l2_50ms", "error_l2_50ms_nut", "error_l2_10ms", "third_octave_db", "certificate_l2_50ms",
-                                 "certificate_l2_50ms_nut", "certificate_l2_10ms", "floor_error_l2_50ms", "floor_error_l2_50ms_nut"},
-                                {{"1", "2", "3", "4", "5", "6", "7", "8", "9"}}};
+    const bench::store::Table t{
+        {"error_l2_50ms", "error_l2_50ms_nut", "error_l2_10ms", "third_octave_db",
+         "certificate_l2_50ms", "certificate_l2_50ms_nut", "certificate_l2_10ms",
+         "floor_error_l2_50ms", "floor_error_l2_50ms_nut"},
+        {{"1", "2", "3", "4", "5", "6", "7", "8", "9"}}};
     const bench::compare::Bound window = bench::compare::bound_of(t, 0, "error_l2_50ms"),
                                 tap = bench::compare::bound_of(t, 0, "error_l2_50ms_nut"),
                                 octaves = bench::compare::bound_of(t, 0, "third_octave_db");
@@ -83,8 +88,9 @@ TEST(Bound, OfAColumnHasTheCertificateAndTheFloorOfItsWindowAndTap) {
 }
 
 TEST(Bound, TheHeadlineIsTheFirstWindowThatAnyOfTheRowsHas) {
-    const bench::store::Table t{{"error_l2_10ms", "error_l2_50ms", "error_l2_whole"},
-                                {{"0.1", "", "0.2"}, {"0.1", "inf", "inf"}, {"", "", "0.3"}, {"1", "2", "3"}}};
+    const bench::store::Table t{
+        {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"},
+        {{"0.1", "", "0.2"}, {"0.1", "inf", "inf"}, {"", "", "0.3"}, {"1", "2", "3"}}};
     EXPECT_EQ(bench::compare::headline_error(t, {0, 1, 2, 3}), "error_l2_50ms");
     EXPECT_EQ(bench::compare::headline_error(t, {0, 1, 2}), "error_l2_10ms");
     EXPECT_EQ(bench::compare::headline_error(t, {2}), "error_l2_whole");
@@ -93,7 +99,8 @@ TEST(Bound, TheHeadlineIsTheFirstWindowThatAnyOfTheRowsHas) {
 
 TEST(Bound, StandsBesideTheErrorInJson) {
     const bench::store::Table t =
-        bench::compare::with_bounds({{"error_l2_10ms", "certificate_l2_10ms", "error_l2_50ms", "error_l2_whole", "certificate_l2_whole"},
+        bench::compare::with_bounds({{"error_l2_10ms", "certificate_l2_10ms", "error_l2_50ms",
+                                      "error_l2_whole", "certificate_l2_whole"},
                                      {{"0.25", "0.125", "0.25", "0.25", "0.75"}}});
     EXPECT_EQ(t.at(0, "bound_l2_10ms"), "0.375");
     EXPECT_EQ(t.at(0, "bound_l2_50ms"), "");   // no certificate
@@ -108,25 +115,32 @@ struct Sample {  // a cell of the tables below
     std::string status = "ok";
 };
 bench::store::Table cells_of(const std::vector<Sample>& samples) {
-    bench::store::Table t{{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms", "error_l2_10ms_nut",
-                           "certificate_l2_50ms", "certificate_l2_10ms_nut", "third_octave_db", "cost_s_per_s", "cost_lower", "cost_upper"},
-                          {}};
+    bench::store::Table t{
+        {"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms",
+         "error_l2_10ms_nut", "certificate_l2_50ms", "certificate_l2_10ms_nut", "third_octave_db",
+         "cost_s_per_s", "cost_lower", "cost_upper"},
+        {}};
     for (const Sample& s : samples)
-        t.rows.push_back({"1", "s", s.scheme, "", s.rate, "10", s.status, s.flags, s.error, s.error, s.certificate, s.certificate,
-                          s.octaves, bench::store::text_of(s.cost), bench::store::text_of(0.95 * s.cost),
+        t.rows.push_back({"1", "s", s.scheme, "", s.rate, "10", s.status, s.flags, s.error, s.error,
+                          s.certificate, s.certificate, s.octaves, bench::store::text_of(s.cost),
+                          bench::store::text_of(0.95 * s.cost),
                           bench::store::text_of(1.05 * s.cost)});
     return t;
 }
 
 TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
-    const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.2", "0", "0.5", 1},
-                                                                        {"a", "200", "", "0.009", "0", "0.5", 3},
-                                                                        {"b", "100", "", "0.05", "0", "4", 2},
-                                                                        {"c", "100", "adhesion", "0.0001", "0", "0.1", 0.5},  // pulls
-                                                                        {"d", "100", "", "inf", "0", "inf", 0.1, "diverged"},
-                                                                        {"e", "100", "", "0.04", "0", "4", 2.1}}));  // touches b
+    const bench::store::Table t =
+        bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.2", "0", "0.5", 1},
+                                              {"a", "200", "", "0.009", "0", "0.5", 3},
+                                              {"b", "100", "", "0.05", "0", "4", 2},
+                                              // pulls
+                                              {"c", "100", "adhesion", "0.0001", "0", "0.1", 0.5},
+                                              {"d", "100", "", "inf", "0", "inf", 0.1, "diverged"},
+                                              // touches b
+                                              {"e", "100", "", "0.04", "0", "4", 2.1}}));
     ASSERT_EQ(t.rows.size(), 5u);
-    EXPECT_EQ(t.at(0, "scheme"), "e");  // 10 %: of the two whose costs cannot be told apart the more accurate
+    // 10 %: of the two whose costs cannot be told apart the more accurate
+    EXPECT_EQ(t.at(0, "scheme"), "e");
     EXPECT_EQ(t.at(0, "ties"), "b, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(0, "run"), "e, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(1, "scheme"), "a");  // 1 %
@@ -136,13 +150,16 @@ TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
     EXPECT_EQ(t.at(2, "status"), "none");
     EXPECT_EQ(t.at(3, "scheme"), "a");  // 3 dB
     EXPECT_EQ(t.at(3, "rate"), "100");
-    EXPECT_TRUE(says(bench::compare::cheapest_text(t), "within 0.1 %   none. Closest: a, 10 modes"));
+    EXPECT_TRUE(
+        says(bench::compare::cheapest_text(t), "within 0.1 %   none. Closest: a, 10 modes"));
 }
 
 TEST(Cheapest, NamesWhatTheClockCannotTellFromItAndNoneThatCosts1_2TimesTheLeast) {
-    bench::store::Table cells = cells_of(
-        {{"a", "44100", "", "0.009", "0", "", 1}, {"a", "88200", "", "0.004", "0", "", 1.09}, {"a", "176400", "", "0.001", "0", "", 1.3}});
-    for (auto& row : cells.rows) row[static_cast<std::size_t>(cells.column("cost_lower"))] = "0.5";  // a busy clock
+    bench::store::Table cells = cells_of({{"a", "44100", "", "0.009", "0", "", 1},
+                                          {"a", "88200", "", "0.004", "0", "", 1.09},
+                                          {"a", "176400", "", "0.001", "0", "", 1.3}});
+    // a busy clock
+    for (auto& row : cells.rows) row[static_cast<std::size_t>(cells.column("cost_lower"))] = "0.5";
     const bench::store::Table t = bench::compare::cheapest_of(cells);
     EXPECT_EQ(t.at(1, "rate"), "88200");
     EXPECT_EQ(t.at(1, "ties"), "a, 10 modes at 44.1 kHz");  // of the same scheme
@@ -150,20 +167,26 @@ TEST(Cheapest, NamesWhatTheClockCannotTellFromItAndNoneThatCosts1_2TimesTheLeast
 }
 
 TEST(Cheapest, NamesEachTieWithItsOwnRateWhereOneHasNone) {
-    const bench::store::Table t = bench::compare::cheapest_of(cells_of(
-        {{"a", "44100", "", "0.05", "0", "", 1}, {"exact", "", "", "0.05", "0", "", 1.01}, {"b", "88200", "", "0.05", "0", "", 1.02}}));
+    const bench::store::Table t =
+        bench::compare::cheapest_of(cells_of({{"a", "44100", "", "0.05", "0", "", 1},
+                                              {"exact", "", "", "0.05", "0", "", 1.01},
+                                              {"b", "88200", "", "0.05", "0", "", 1.02}}));
     EXPECT_EQ(t.at(0, "ties"), "exact, 10 modes; b, 10 modes at 88.2 kHz");
 }
 
 TEST(Cheapest, CannotBeDecidedWhereTheUncertaintyOfTheReferenceIsUnknown) {
-    const bench::store::Table t = bench::compare::cheapest_of(cells_of(
-        {{"a", "44100", "", "0.052", "", "2", 1}, {"b", "44100", "", "0.04", "", "2", 2}, {"c", "44100", "", "inf", "", "", 0.1}}));
+    const bench::store::Table t =
+        bench::compare::cheapest_of(cells_of({{"a", "44100", "", "0.052", "", "2", 1},
+                                              {"b", "44100", "", "0.04", "", "2", 2},
+                                              {"c", "44100", "", "inf", "", "", 0.1}}));
     EXPECT_EQ(t.at(0, "status"), "not_known");  // 10 %
     EXPECT_EQ(t.at(0, "scheme"), "");
     EXPECT_EQ(t.at(0, "why"),
-              "the uncertainty of the reference is unknown; measured against it, the cheapest is a, 10 modes at 44.1 kHz, 5.2 %");
+              "the uncertainty of the reference is unknown; measured against it, the cheapest is "
+              "a, 10 modes at 44.1 kHz, 5.2 %");
     EXPECT_EQ(t.at(1, "why"), "the uncertainty of the reference is unknown");  // 1 %
-    EXPECT_EQ(t.at(3, "scheme"), "a");                                         // 3 dB count as measured
+    // 3 dB count as measured
+    EXPECT_EQ(t.at(3, "scheme"), "a");
     EXPECT_EQ(t.at(3, "why"), "measured against a reference whose uncertainty is unknown");
 }
 
@@ -182,40 +205,50 @@ TEST(Cheapest, SaysWhatTheBestWithoutMatchedComplianceCosts) {
 }
 
 TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
-    const bench::store::Table t = bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.0095", "0.001", "", 1},  // 0.0085 to 0.0105
-                                                                        {"b", "100", "", "0.0088", "0.001", "", 2},  // to 0.0098
-                                                                        {"c", "100", "", "0.05", "0.001", "", 0.1},
-                                                                        {"d", "100", "", "0.0005", "0.001", "", 9}}));
+    // 0.0085 to 0.0105
+    const bench::store::Table t =
+        bench::compare::cheapest_of(cells_of({{"a", "100", "", "0.0095", "0.001", "", 1},
+                                              // to 0.0098
+                                              {"b", "100", "", "0.0088", "0.001", "", 2},
+                                              {"c", "100", "", "0.05", "0.001", "", 0.1},
+                                              {"d", "100", "", "0.0005", "0.001", "", 9}}));
     ASSERT_EQ(t.rows.size(), 3u);
     EXPECT_EQ(t.at(1, "scheme"), "b");
     EXPECT_EQ(t.at(1, "error"), "0.0088");
     EXPECT_NEAR(t.number(1, "bound"), 0.0098, 1e-15);
     EXPECT_EQ(t.at(1, "perhaps"), "a, 10 modes at 0.1 kHz");
-    EXPECT_TRUE(says(bench::compare::cheapest_text(t), "b, 10 modes at 0.1 kHz, \u2264 0.98 %, 2 s per s"));  // as the page has it
-    EXPECT_EQ(t.at(2, "status"), "not_known");                                                                // 0.1 %: d is within 0.15 %
+    // as the page has it
+    EXPECT_TRUE(
+        says(bench::compare::cheapest_text(t), "b, 10 modes at 0.1 kHz, \u2264 0.98 %, 2 s per s"));
+    // 0.1 %: d is within 0.15 %
+    EXPECT_EQ(t.at(2, "status"), "not_known");
     EXPECT_EQ(t.at(2, "scheme"), "");
     EXPECT_EQ(t.at(2, "perhaps"), "d, 10 modes at 0.1 kHz");
     EXPECT_EQ(t.at(2, "why"), "the reference is known to 0.1 % only");
-    EXPECT_TRUE(says(bench::compare::cheapest_text(t), "within 0.1 %   cannot be decided: the reference is known to 0.1 % only"));
+    EXPECT_TRUE(says(bench::compare::cheapest_text(t),
+                     "within 0.1 %   cannot be decided: the reference is known to 0.1 % only"));
     EXPECT_TRUE(says(bench::compare::cheapest_text(t), "perhaps for less a, 10 modes"));
 }
 
 TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
-    const bench::store::Table cells = cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "0", "0.5", 1},
-                                                {"modal_two_point", "100", "", "0.005", "0", "2", 2},
-                                                {"modal_explicit_penalty", "100", "", "0.005", "0", "2", 2}});
+    const bench::store::Table cells =
+        cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "0", "0.5", 1},
+                  {"modal_two_point", "100", "", "0.005", "0", "2", 2},
+                  {"modal_explicit_penalty", "100", "", "0.005", "0", "2", 2}});
     const bench::store::Table t = bench::compare::cheapest_of(cells);
     EXPECT_EQ(t.at(0, "scheme"), "modal_two_point");  // 10 %
     EXPECT_EQ(t.at(0, "ties"), "");
     EXPECT_EQ(t.at(2, "status"), "none");  // 0.1 %
-    const bench::store::Table all = bench::compare::cheapest_of(cells, bench::compare::Controls::compete);
+    const bench::store::Table all =
+        bench::compare::cheapest_of(cells, bench::compare::Controls::compete);
     EXPECT_EQ(all.at(0, "scheme"), "modal_two_point_trapezoidal");
     EXPECT_EQ(all.at(2, "scheme"), "modal_two_point_trapezoidal");
 }
 
 std::vector<bool> front_of(const std::vector<Sample>& samples) {
     const bench::store::Table t = cells_of(samples);
-    return bench::compare::pareto_front(t, bench::store::all_rows(t), "error_l2_50ms", "cost_s_per_s");
+    return bench::compare::pareto_front(t, bench::store::all_rows(t), "error_l2_50ms",
+                                        "cost_s_per_s");
 }
 
 TEST(Pareto, FlaggedFailedAndUnknownCellsAreOnNoFrontAndKeepNoneFromIt) {
@@ -228,18 +261,27 @@ TEST(Pareto, FlaggedFailedAndUnknownCellsAreOnNoFrontAndKeepNoneFromIt) {
 }
 
 TEST(Pareto, ErrorsBelowTheCertificateAreATieAndSoIsADifferenceWithinIt) {
-    EXPECT_EQ(front_of({{"a", "1", "", "1e-3", "0.01", "", 1}, {"b", "1", "", "1e-4", "0.01", "", 2}}), (std::vector<bool>{true, false}));
-    EXPECT_EQ(front_of({{"a", "1", "", "1e-3", "1e-5", "", 1}, {"b", "1", "", "1e-4", "1e-5", "", 2}}), (std::vector<bool>{true, true}));
+    EXPECT_EQ(
+        front_of({{"a", "1", "", "1e-3", "0.01", "", 1}, {"b", "1", "", "1e-4", "0.01", "", 2}}),
+        (std::vector<bool>{true, false}));
+    EXPECT_EQ(
+        front_of({{"a", "1", "", "1e-3", "1e-5", "", 1}, {"b", "1", "", "1e-4", "1e-5", "", 2}}),
+        (std::vector<bool>{true, true}));
     // of one cost: the more accurate stands alone only where that is certain
-    EXPECT_EQ(front_of({{"a", "1", "", "0.020", "0.01", "", 1}, {"b", "1", "", "0.039", "0.01", "", 1}}), (std::vector<bool>{true, true}));
-    EXPECT_EQ(front_of({{"a", "1", "", "0.020", "0.01", "", 1}, {"b", "1", "", "0.041", "0.01", "", 1}}), (std::vector<bool>{true, false}));
+    EXPECT_EQ(
+        front_of({{"a", "1", "", "0.020", "0.01", "", 1}, {"b", "1", "", "0.039", "0.01", "", 1}}),
+        (std::vector<bool>{true, true}));
+    EXPECT_EQ(
+        front_of({{"a", "1", "", "0.020", "0.01", "", 1}, {"b", "1", "", "0.041", "0.01", "", 1}}),
+        (std::vector<bool>{true, false}));
 }
 
 TEST(ConvergenceTable, LeavesOutWhatTheReferenceIsNotCertainTo) {
-    const bench::store::Table t = bench::compare::convergence_of(cells_of({{"a", "100", "", "0.16", "0.005", "", 1},
-                                                                           {"a", "200", "", "0.04", "0.005", "", 1},
-                                                                           {"a", "400", "", "0.01", "0.005", "", 1},
-                                                                           {"a", "800", "", "0.004", "0.005", "", 1}}));
+    const bench::store::Table t =
+        bench::compare::convergence_of(cells_of({{"a", "100", "", "0.16", "0.005", "", 1},
+                                                 {"a", "200", "", "0.04", "0.005", "", 1},
+                                                 {"a", "400", "", "0.01", "0.005", "", 1},
+                                                 {"a", "800", "", "0.004", "0.005", "", 1}}));
     ASSERT_EQ(t.rows.size(), 1u);
     EXPECT_EQ(t.at(0, "points"), "3");
     EXPECT_NEAR(t.number(0, "order"), 2, 1e-9);
@@ -259,7 +301,8 @@ Trace trace_of(const std::vector<std::vector<double>>& taps) {
 }
 std::vector<double> tone(double hertz, long rows) {
     std::vector<double> x;
-    for (long n = 0; n < rows; ++n) x.push_back(std::sin(2 * M_PI * hertz * static_cast<double>(n) / 44100));
+    for (long n = 0; n < rows; ++n)
+        x.push_back(std::sin(2 * M_PI * hertz * static_cast<double>(n) / 44100));
     return x;
 }
 int place_of(const char* column) {
@@ -276,7 +319,8 @@ TEST(Errors, AWindowEndsWhereItsNameSays) {
         x[std::lround(seconds * 44100)] += 1;
         return bench::study::errors_of(trace_of({truth, x}), trace_of({truth, truth}));
     };
-    const std::pair<const char*, double> ends[] = {{"error_l2_10ms", 0.010}, {"error_l2_50ms", 0.050}};
+    const std::pair<const char*, double> ends[] = {{"error_l2_10ms", 0.010},
+                                                   {"error_l2_50ms", 0.050}};
     for (const auto& [column, end] : ends) {
         EXPECT_GT(wrong_at(end - 1.0 / 44100)[1][place_of(column)], 0) << column;
         EXPECT_EQ(wrong_at(end)[1][place_of(column)], 0) << column;
@@ -285,7 +329,8 @@ TEST(Errors, AWindowEndsWhereItsNameSays) {
     EXPECT_GT(wrong_at(0.0999)[1][place_of("error_l2_whole")], 0);
 }
 
-// What is wrong before `from` is in no error, and a window is as long as its name says from there on.
+// What is wrong before `from` is in no error, and a window is as long as its name says from there
+// on.
 TEST(Errors, BeginWhereTheLastExcitationEnds) {
     const std::vector<double> truth = tone(1000, 8820);
     const auto wrong_at = [&](double seconds) {
@@ -293,7 +338,8 @@ TEST(Errors, BeginWhereTheLastExcitationEnds) {
         x[std::lround(seconds * 44100)] += 1;
         return bench::study::errors_of(trace_of({x}), trace_of({truth}), {}, 0.05)[0];
     };
-    for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole", "third_octave_db", "decay_db"})
+    for (const char* column :
+         {"error_l2_10ms", "error_l2_50ms", "error_l2_whole", "third_octave_db", "decay_db"})
         EXPECT_EQ(wrong_at(0.0499)[place_of(column)], 0) << column;
     EXPECT_GT(wrong_at(0.0501)[place_of("error_l2_10ms")], 0);
     EXPECT_EQ(wrong_at(0.0601)[place_of("error_l2_10ms")], 0);
@@ -311,8 +357,8 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
     const long rows = 44100;
     std::vector<double> loud = tone(1000, rows);
     for (double& v : loud) v *= 2;
-    const bench::study::Errors e =
-        bench::study::errors_of(trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
+    const bench::study::Errors e = bench::study::errors_of(
+        trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
     EXPECT_NEAR(e[0][place_of("third_octave_db")], 20 * std::log10(2), 1e-6);
     EXPECT_NEAR(e[0][place_of("centroid_hz")], 0, 1e-6);
     EXPECT_NEAR(e[1][place_of("centroid_hz")], 500, 1);
@@ -331,7 +377,8 @@ TEST(Flags, EachIsRaisedAboveItsThresholdAndSaysWhatHappened) {
     s.smallest_contact_force = -0.55;
     EXPECT_EQ(names_of(bench::study::flags_of(s)), "adhesion");
     EXPECT_EQ(bench::study::flags_of(s)[0].sentence,
-              "the contact pulls with 0.55 N, and pushes with 30 N at most: only a contact with loss may pull");
+              "the contact pulls with 0.55 N, and pushes with 30 N at most: only a contact with "
+              "loss may pull");
     s.facts = {{"psi_out_of_contact", 1.1e-9, ""}, {"modes_above_nyquist", 12, ""}};
     s.energy_residual_accumulated = 1.1e-6;
     EXPECT_EQ(names_of(bench::study::flags_of(s)), "adhesion psi_gap energy modes_above_nyquist");
@@ -350,7 +397,8 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     const auto errors_from = [&](double start) {
         bench::study::Errors e(taps, std::vector<double>(measures_of));
         for (std::size_t tap = 0; tap < taps; ++tap)
-            for (std::size_t k = 0; k < measures_of; ++k) e[tap][k] = start + 100 * static_cast<double>(tap) + static_cast<double>(k);
+            for (std::size_t k = 0; k < measures_of; ++k)
+                e[tap][k] = start + 100 * static_cast<double>(tap) + static_cast<double>(k);
         return e;
     };
     bench::study::Cell cell{};
@@ -374,7 +422,8 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     cell.clock.worst_block = 0.4;
     record.cell = cell;
     plan.jobs.push_back({&point, cell});
-    const bench::store::Table t = bench::compare::with_front(bench::study::table_of(plan, {record}));
+    const bench::store::Table t =
+        bench::compare::with_front(bench::study::table_of(plan, {record}));
     const std::pair<const char*, double> expected[] = {{"rate", 88200},
                                                        {"modes", 133},
                                                        {"cost_s_per_s", 0.2},
@@ -398,7 +447,8 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
                                                        {"state_bytes", 2128},
                                                        {"steps", 8820},
                                                        {"fact_static_compliance", 0.9}};
-    for (const auto& [column, value] : expected) EXPECT_NEAR(t.number(0, column), value, 1e-12 * std::abs(value)) << column;
+    for (const auto& [column, value] : expected)
+        EXPECT_NEAR(t.number(0, column), value, 1e-12 * std::abs(value)) << column;
     EXPECT_EQ(t.at(0, "flags"), "adhesion");
     EXPECT_EQ(t.at(0, "pareto"), "0");  // it pulls
     EXPECT_EQ(point.scene.taps[0].name, "nut");
@@ -406,9 +456,11 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
     for (std::size_t k = 0; k < measures_of; ++k) {
         const bench::study::Measure& m = bench::study::measures()[k];
         const double own = static_cast<double>(k);
-        EXPECT_EQ(t.number(0, m.column), 1000 + own + (m.column == "third_octave_db" ? 200 : 0)) << m.column;
+        EXPECT_EQ(t.number(0, m.column), 1000 + own + (m.column == "third_octave_db" ? 200 : 0))
+            << m.column;
         for (std::size_t tap = 0; tap < taps; ++tap)
-            EXPECT_EQ(t.number(0, m.column + "_" + point.scene.taps[tap].name), 1000 + own + 100 * static_cast<double>(tap));
+            EXPECT_EQ(t.number(0, m.column + "_" + point.scene.taps[tap].name),
+                      1000 + own + 100 * static_cast<double>(tap));
         if (m.less_is_better) {
             EXPECT_EQ(t.number(0, "floor_" + m.column + "_bridge"), 5200 + own);
         }
@@ -444,7 +496,8 @@ bench::study::Plan planned(const bench::compare::CompareRequest& r, const Scene&
     return plan;
 }
 
-bench::study::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes, int modes = 0) {
+bench::study::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes,
+                            int modes = 0) {
     bench::compare::CompareRequest r;
     r.scene = scene;
     r.schemes = schemes;
@@ -456,24 +509,28 @@ bench::study::Plan plan_for(const std::string& scene, const std::vector<std::str
 
 TEST(Plan, TheReferenceAndEveryCellCarryTheSameModes) {
     for (const char* scene : {"two_point_bridge", "tanpura_c3_release", "free_string"}) {
-        const bench::study::Plan plan = plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
+        const bench::study::Plan plan =
+            plan_for(scene, {"modal_two_point", "modal_spatial_newton"});
         const int modes = plan.points.front().references.front().settings.modes;
         EXPECT_EQ(modes, scene == std::string("two_point_bridge") ? 94 : 133);
         ASSERT_EQ(plan.jobs.size(), 4u);
         for (const bench::study::Job& job : plan.jobs) {
             const bench::study::Cell& c = job.cell;
             EXPECT_EQ(c.settings.modes, modes) << scene << " " << c.scheme->name;
-            EXPECT_EQ(make_scheme(*c.scheme, job.point->scene, c.settings)->dofs() >= 2 * modes, true);
+            EXPECT_EQ(make_scheme(*c.scheme, job.point->scene, c.settings)->dofs() >= 2 * modes,
+                      true);
         }
         EXPECT_TRUE(plan.notes.empty());
     }
 }
 
 TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSaysSo) {
-    const bench::study::Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
+    const bench::study::Plan plan =
+        plan_for("sitar_parabola", {"modal_spatial_newton", "finite_difference_explicit"});
     EXPECT_EQ(plan.points.front().references.front().settings.modes, 94);
     for (const bench::study::Job& job : plan.jobs)
-        EXPECT_EQ(job.cell.settings.modes, std::string("modal_spatial_newton") == job.cell.scheme->name ? 0 : 94);
+        EXPECT_EQ(job.cell.settings.modes,
+                  std::string("modal_spatial_newton") == job.cell.scheme->name ? 0 : 94);
     ASSERT_EQ(plan.notes.size(), 1u);
     EXPECT_TRUE(says(plan.notes[0], "modal_spatial_newton carries 421 modes"));
     const bench::study::Plan asked = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
@@ -488,7 +545,8 @@ TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {
     r.schemes = {"modal_two_point", "exact_contact"};
     r.search = false;
     const Scene scene = bench::compare::load_scene(r.scene, {}, 0.01);
-    using Kinds = std::vector<std::pair<double, std::vector<double>>>;  // rows a second, rates; 0: continuous time
+    // rows a second, rates; 0: continuous time
+    using Kinds = std::vector<std::pair<double, std::vector<double>>>;
     const auto kinds = [&](const std::vector<double>& rates) {
         r.rates = rates;
         Kinds all;
@@ -505,7 +563,8 @@ TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {
     };
     EXPECT_EQ(kinds({88200, 132300}), (Kinds{{44100, {88200, 132300, 0}}}));
     EXPECT_EQ(kinds({44100, 22050}), (Kinds{{22050, {22050, 44100, 0}}}));
-    EXPECT_EQ(kinds({96000, 44100, 48000, 88200}), (Kinds{{44100, {44100, 88200, 0}}, {48000, {48000, 96000}}}));
+    EXPECT_EQ(kinds({96000, 44100, 48000, 88200}),
+              (Kinds{{44100, {44100, 88200, 0}}, {48000, {48000, 96000}}}));
 }
 
 TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
@@ -520,7 +579,9 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
     EXPECT_TRUE(declares(*reference().scheme, "compliance"));
     EXPECT_EQ(reference().settings.options, OptionValues());
     for (const bench::study::Job& job : planned(r, scene).jobs)
-        EXPECT_EQ(job.cell.settings.options, job.cell.scheme->name == std::string("modal_two_point") ? matched : OptionValues());
+        EXPECT_EQ(job.cell.settings.options, job.cell.scheme->name == std::string("modal_two_point")
+                                                 ? matched
+                                                 : OptionValues());
     r.options.push_back({reference().scheme->name, "compliance", "matched"});
     EXPECT_EQ(reference().settings.options, matched);
 }
@@ -529,7 +590,8 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
 
 bench::study::Truth truth_of(int modes, double duration = 0.01) {
     Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, duration);
-    std::vector<bench::study::ReferenceChoice> references = plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
+    std::vector<bench::study::ReferenceChoice> references =
+        plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
     for (auto& c : references) c.kept = false;
     return bench::study::run_truth(references, scene, modes, 1, bench::store::Listener());
 }
@@ -541,17 +603,22 @@ TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
     EXPECT_LT(left(truth.reference), bench::study::settled);
     ASSERT_GE(truth.coarser.size(), 2u);
     EXPECT_GE(left(truth.coarser.back()), bench::study::settled);
-    for (std::size_t k = 0; k < truth.coarser.size(); ++k) EXPECT_EQ(truth.coarser[k].choice.settings.modes, 133 << k);
+    for (std::size_t k = 0; k < truth.coarser.size(); ++k)
+        EXPECT_EQ(truth.coarser[k].choice.settings.modes, 133 << k);
     EXPECT_FALSE(says(truth.said, "too long"));
-    const auto finer = truth_of(2 * modes);  // by the reference itself: what it leaves out is what it says, or less
-    const double is = relative_difference(truth.reference.run.trace.column(nut), finer.reference.run.trace.column(nut), 44100, 10e-3);
+    // by the reference itself: what it leaves out is what it says, or less
+    const auto finer = truth_of(2 * modes);
+    const double is = relative_difference(truth.reference.run.trace.column(nut),
+                                          finer.reference.run.trace.column(nut), 44100, 10e-3);
     EXPECT_LT(is, left(truth.reference));
-    const double was = relative_difference(truth.coarser.back().run.trace.column(nut), finer.reference.run.trace.column(nut), 44100, 10e-3);
+    const double was = relative_difference(truth.coarser.back().run.trace.column(nut),
+                                           finer.reference.run.trace.column(nut), 44100, 10e-3);
     EXPECT_LT(was, left(truth.coarser.back()));
     EXPECT_GT(was, 0.02 * left(truth.coarser.back()));
 }
 
-// Sixteen contacts that the string couples take 60 times as long with 1504 modes as with 752, and more than half a minute: it ends before.
+// Sixteen contacts that the string couples take 60 times as long with 1504 modes as with 752, and
+// more than half a minute: it ends before.
 TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
     Scene scene = bench::compare::load_scene("two_point_bridge", {}, 0.1);
     const LumpedBarrier one = std::get<LumpedBarrier>(scene.strings[0].barriers[0]);
@@ -562,7 +629,8 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
         scene.strings[0].barriers.emplace_back(b);
     }
     const bench::study::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
-    const auto truth = bench::study::run_truth(plan.points.front().references, scene, 0, 1, bench::store::Listener());
+    const auto truth = bench::study::run_truth(plan.points.front().references, scene, 0, 1,
+                                               bench::store::Listener());
     EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.said;
     EXPECT_TRUE(says(truth.said, "too long"));
 }
@@ -593,9 +661,10 @@ TEST(Truth, AMatchedCellIsInNoModelWithComplianceOfItsOwn) {
 }
 
 TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
-    EXPECT_NEAR(left_after(1e-3, 3e-3, false), 5e-4, 1e-12);      // 1/3 + 1/9 + ...
-    EXPECT_NEAR(left_after(1e-6, 1e-1, false), 1e-6 / 3, 1e-18);  // no better than order two, since one pair can agree by chance
-    EXPECT_NEAR(left_after(1e-3, nan, false), 2.5e-3, 1e-12);     // one doubling: order one half
+    EXPECT_NEAR(left_after(1e-3, 3e-3, false), 5e-4, 1e-12);  // 1/3 + 1/9 + ...
+    // no better than order two, since one pair can agree by chance
+    EXPECT_NEAR(left_after(1e-6, 1e-1, false), 1e-6 / 3, 1e-18);
+    EXPECT_NEAR(left_after(1e-3, nan, false), 2.5e-3, 1e-12);  // one doubling: order one half
     EXPECT_NEAR(left_after(1e-3, 1.1e-3, false), 2.75e-3, 1e-12);
     EXPECT_NEAR(left_after(3e-3, 1e-3, false), 7.5e-3, 1e-12);  // they do not get smaller
     EXPECT_EQ(left_after(0, 0, false), 0);
@@ -604,10 +673,14 @@ TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
 }
 
 TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
-    const Scene scene = bench::compare::load_scene("tanpura_c3_release", {"string.0.tension=40"}, 1e-3);  // no certificate is of it
+    // no certificate is of it
+    const Scene scene =
+        bench::compare::load_scene("tanpura_c3_release", {"string.0.tension=40"}, 1e-3);
     const bench::study::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
     const auto truth =
-        bench::study::run_truth(plan.points.front().references, scene, 1, 1, bench::store::Listener());  // nothing is below one mode
+        // nothing is below one mode
+        bench::study::run_truth(plan.points.front().references, scene, 1, 1,
+                                bench::store::Listener());
     EXPECT_TRUE(truth.coarser.empty());
     EXPECT_FALSE(truth.reference.trust.any());
     EXPECT_TRUE(std::isnan(truth.reference.trust.of_scene(0, 2)));
@@ -615,7 +688,8 @@ TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
 
 // ---- What is tried where nothing is named
 
-std::vector<bench::study::Cell> sought(bench::compare::CompareRequest r, const std::vector<std::string>& set = {},
+std::vector<bench::study::Cell> sought(bench::compare::CompareRequest r,
+                                       const std::vector<std::string>& set = {},
                                        std::vector<std::string>* notes = nullptr) {
     const bench::study::Plan plan = planned(r, bench::compare::load_scene(r.scene, set, 0.01));
     if (notes) *notes = plan.notes;
@@ -623,7 +697,8 @@ std::vector<bench::study::Cell> sought(bench::compare::CompareRequest r, const s
     for (const bench::study::Job& job : plan.jobs) cells.push_back(job.cell);
     return cells;
 }
-bench::compare::CompareRequest request_for(std::vector<std::string> schemes, std::vector<double> rates) {
+bench::compare::CompareRequest request_for(std::vector<std::string> schemes,
+                                           std::vector<double> rates) {
     bench::compare::CompareRequest r;
     r.scene = "tanpura_c3_release";
     r.schemes = std::move(schemes);
@@ -633,20 +708,25 @@ bench::compare::CompareRequest request_for(std::vector<std::string> schemes, std
 std::vector<std::string> names_of(const std::vector<bench::study::Cell>& cells) {
     std::vector<std::string> names;
     for (const auto& c : cells)
-        names.push_back(bench::store::options_text(c.settings.options) + " " + std::to_string(c.settings.modes) + " " +
+        names.push_back(bench::store::options_text(c.settings.options) + " " +
+                        std::to_string(c.settings.modes) + " " +
                         std::to_string(std::lround(c.settings.sample_rate)));
     return names;
 }
 
 TEST(Search, MoreModesWhereTheyLieBelowHalfTheRateAndBothFormsOfCompliance) {
-    EXPECT_EQ(names_of(sought(request_for({"modal_two_point"}, {44100, 88200, 176400}))),
-              (std::vector<std::string>{"compliance=own 133 44100", "compliance=own 133 88200", "compliance=own 133 176400",
-                                        "compliance=own 180 88200", "compliance=own 180 176400", "compliance=own 266 176400",
-                                        "compliance=matched 133 44100", "compliance=matched 133 88200", "compliance=matched 133 176400",
-                                        "compliance=matched 180 88200", "compliance=matched 180 176400", "compliance=matched 266 176400"}));
+    EXPECT_EQ(
+        names_of(sought(request_for({"modal_two_point"}, {44100, 88200, 176400}))),
+        (std::vector<std::string>{
+            "compliance=own 133 44100", "compliance=own 133 88200", "compliance=own 133 176400",
+            "compliance=own 180 88200", "compliance=own 180 176400", "compliance=own 266 176400",
+            "compliance=matched 133 44100", "compliance=matched 133 88200",
+            "compliance=matched 133 176400", "compliance=matched 180 88200",
+            "compliance=matched 180 176400", "compliance=matched 266 176400"}));
     // a grid takes its nodes from the rate
-    EXPECT_EQ(names_of(sought(request_for({"finite_difference_explicit"}, {176400}))),
-              (std::vector<std::string>{"compliance=own 133 176400", "compliance=matched 133 176400"}));
+    EXPECT_EQ(
+        names_of(sought(request_for({"finite_difference_explicit"}, {176400}))),
+        (std::vector<std::string>{"compliance=own 133 176400", "compliance=matched 133 176400"}));
 }
 
 TEST(Search, WhatIsNamedStands) {
@@ -655,30 +735,35 @@ TEST(Search, WhatIsNamedStands) {
     r.options = {{"modal_two_point", "compliance", "own"},
                  {"modal_quadratised", "compliance", "own"},
                  {"modal_quadratised", "compliance", "matched"}};
-    EXPECT_EQ(names_of(sought(r)),
-              (std::vector<std::string>{"compliance=own 60 88200", "compliance=own 133 88200", "compliance=own 60 88200",
-                                        "compliance=own 133 88200", "compliance=matched 60 88200", "compliance=matched 133 88200"}));
+    EXPECT_EQ(
+        names_of(sought(r)),
+        (std::vector<std::string>{"compliance=own 60 88200", "compliance=own 133 88200",
+                                  "compliance=own 60 88200", "compliance=own 133 88200",
+                                  "compliance=matched 60 88200", "compliance=matched 133 88200"}));
     auto none = request_for({"modal_two_point"}, {88200});
     none.search = false;
     EXPECT_EQ(names_of(sought(none)), (std::vector<std::string>{" 133 88200"}));
     none.search = true;
-    none.reference_modes.reset();  // a reference of the cell's own modes cannot tell what they leave out
+    // a reference of the cell's own modes cannot tell what they leave out
+    none.reference_modes.reset();
     EXPECT_EQ(names_of(sought(none)), (std::vector<std::string>{" 133 88200"}));
 }
 
 TEST(Search, MatchedComplianceThatWasNotTriedIsSaidOnceWithItsReason) {
     std::vector<std::string> notes;
-    const auto cells =
-        sought(request_for({"modal_two_point", "modal_spatial_newton"}, {44100}), {"string.0.barrier.0.contact_loss=1"}, &notes);
+    const auto cells = sought(request_for({"modal_two_point", "modal_spatial_newton"}, {44100}),
+                              {"string.0.barrier.0.contact_loss=1"}, &notes);
     for (const auto& c : cells) EXPECT_TRUE(c.settings.options.empty());
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_EQ(notes[0],
-              "compliance=matched was not tried with modal_two_point, modal_spatial_newton: compliance=matched leaves out contact loss");
+              "compliance=matched was not tried with modal_two_point, modal_spatial_newton: "
+              "compliance=matched leaves out contact loss");
 }
 
 TEST(Search, AReferenceTakesOneValueOfAnOption) {
     auto r = request_for({"modal_two_point"}, {44100});
-    r.options = {{"exact_contact", "compliance", "own"}, {"exact_contact", "compliance", "matched"}};
+    r.options = {{"exact_contact", "compliance", "own"},
+                 {"exact_contact", "compliance", "matched"}};
     EXPECT_THROW(sought(r), bench::store::UsageError);
 }
 
@@ -691,7 +776,8 @@ bench::study::Cell tried(const char* scheme, double rate, int modes) {
     c.searched = true;
     return c;
 }
-std::vector<bool> needed(std::vector<bench::study::Cell> cells, const std::vector<double>& errors, double certificate = 0) {
+std::vector<bool> needed(std::vector<bench::study::Cell> cells, const std::vector<double>& errors,
+                         double certificate = 0) {
     bench::compare::mark_needed(cells, errors, certificate);
     std::vector<bool> all;
     for (const auto& c : cells) {
@@ -702,7 +788,9 @@ std::vector<bool> needed(std::vector<bench::study::Cell> cells, const std::vecto
 }
 
 TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
-    const auto two_point = [](double rate, int modes) { return tried("modal_two_point", rate, modes); };
+    const auto two_point = [](double rate, int modes) {
+        return tried("modal_two_point", rate, modes);
+    };
     using Flags = std::vector<bool>;
     const auto more = [&](double rate, int modes) {
         bench::study::Cell c = two_point(rate, modes);
@@ -710,19 +798,33 @@ TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
         return c;
     };
     // of one scheme: as many modes at a lower rate, or fewer
-    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100), more(176400, 100)}, {0.05, 0.049, 0.04}), (Flags{true, false, true}));
-    EXPECT_EQ(needed({two_point(44100, 200), more(88200, 100)}, {0.05, 0.05}), (Flags{true, true}));       // neither surely costs less
-    EXPECT_EQ(needed({two_point(44100, 100), two_point(88200, 100)}, {0.05, 0.05}), (Flags{true, true}));  // its convergence is asked for
+    EXPECT_EQ(
+        needed({two_point(44100, 100), more(88200, 100), more(176400, 100)}, {0.05, 0.049, 0.04}),
+        (Flags{true, false, true}));
+    // neither surely costs less
+    EXPECT_EQ(needed({two_point(44100, 200), more(88200, 100)}, {0.05, 0.05}), (Flags{true, true}));
+    // its convergence is asked for
+    EXPECT_EQ(needed({two_point(44100, 100), two_point(88200, 100)}, {0.05, 0.05}),
+              (Flags{true, true}));
     // it keeps 1 %, which the cheaper one does not
-    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0105, 0.0095}), (Flags{true, true}));
-    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0105, 0.0095}, 1e-3), (Flags{true, false}));  // nor does it
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0105, 0.0095}),
+              (Flags{true, true}));
+    // nor does it
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0105, 0.0095}, 1e-3),
+              (Flags{true, false}));
     // the finest accuracy is kept: more of it is not needed
-    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0009, 0.0001}), (Flags{true, false}));
+    EXPECT_EQ(needed({two_point(44100, 100), more(88200, 100)}, {0.0009, 0.0001}),
+              (Flags{true, false}));
     // of another scheme: a thirty-second of the steps times the state
-    const auto grid = [](double rate, int nodes) { return tried("finite_difference_theta", rate, nodes); };
-    EXPECT_EQ(needed({two_point(44100, 100), grid(44100, 3000), grid(88200, 1600)}, {0.05, 0.05, 0.05}), (Flags{true, true, false}));
+    const auto grid = [](double rate, int nodes) {
+        return tried("finite_difference_theta", rate, nodes);
+    };
+    EXPECT_EQ(
+        needed({two_point(44100, 100), grid(44100, 3000), grid(88200, 1600)}, {0.05, 0.05, 0.05}),
+        (Flags{true, true, false}));
     // what fails is a finding at the modes that the scheme takes unasked, and none beyond
-    std::vector<bench::study::Cell> failed{two_point(44100, 100), two_point(88200, 100), two_point(88200, 200)};
+    std::vector<bench::study::Cell> failed{two_point(44100, 100), two_point(88200, 100),
+                                           two_point(88200, 200)};
     failed[2].added = true;
     failed[1].reason = failed[2].reason = "diverged";
     bench::compare::mark_needed(failed, {0.05, HUGE_VAL, HUGE_VAL}, 0);
@@ -730,7 +832,8 @@ TEST(Search, ACellIsLeftOutWhereOneThatSurelyCostsLessDoesAsWell) {
     EXPECT_FALSE(failed[2].needed);
 }
 
-// A table of measured modes is the string: nothing is left out of it, and another solver tells how far it is solved.
+// A table of measured modes is the string: nothing is left out of it, and another solver tells how
+// far it is solved.
 TEST(Truth, OfMeasuredModesHasAllOfThemAndIsConfirmedByAnotherSolver) {
     Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, 0.005);
     String& s = scene.strings.front();
@@ -741,12 +844,14 @@ TEST(Truth, OfMeasuredModesHasAllOfThemAndIsConfirmedByAnotherSolver) {
         table.decay_rate.push_back(modes.sigma[i]);
     }
     s.damping = table;
-    std::vector<bench::study::ReferenceChoice> references = plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
+    std::vector<bench::study::ReferenceChoice> references =
+        plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
     for (auto& c : references) c.kept = false;
     const auto truth = bench::study::run_truth(references, scene, 0, 1, bench::store::Listener());
     EXPECT_EQ(truth.reference.choice.settings.modes, 200);
     EXPECT_EQ(truth.reference.choice.settings.options, OptionValues());
-    EXPECT_TRUE(says(truth.said, "200 modes, all that were measured: what lies above")) << truth.said;
+    EXPECT_TRUE(says(truth.said, "200 modes, all that were measured: what lies above"))
+        << truth.said;
     EXPECT_FALSE(says(truth.said, "too long")) << truth.said;
     EXPECT_EQ(truth.reference.trust.against, "sundials");
     EXPECT_GT(truth.reference.trust.of_scene(0, 2), 0);

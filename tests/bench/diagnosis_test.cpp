@@ -13,7 +13,8 @@ using namespace jvari::bench;
 
 namespace {
 struct Sample {
-    double rate, error, octaves = 5, floor = 1e-9, in_model = NAN, certificate = 1e-9, error_10ms = NAN, horizon = 0.008;
+    double rate, error, octaves = 5, floor = 1e-9, in_model = NAN, certificate = 1e-9,
+                        error_10ms = NAN, horizon = 0.008;
     const char* status = "ok";
 };
 store::Table cells_of(const std::vector<Sample>& samples, const std::string& scheme = "a") {
@@ -67,7 +68,8 @@ store::Table cells_of(const std::vector<Sample>& samples, const std::string& sch
 }
 std::vector<Sample> falling(double order, double first) {
     std::vector<Sample> all;
-    for (const double k : {1, 2, 4, 8}) all.push_back({44100 * k, first * std::pow(k, -order) * (k == 2 ? 1.02 : 1)});
+    for (const double k : {1, 2, 4, 8})
+        all.push_back({44100 * k, first * std::pow(k, -order) * (k == 2 ? 1.02 : 1)});
     return all;
 }
 std::string why(const std::vector<Sample>& samples, double most) {
@@ -99,26 +101,34 @@ TEST(Diagnosis, TooFewRatesNoConvergenceAndOutOfReachAreThreeSentences) {
     EXPECT_TRUE(says(why(two, 0.01), "Two rates are too few to extrapolate: run a third."));
     EXPECT_FALSE(says(why(two, 0.01), "reach"));
     std::vector<Sample> flat = falling(0, 0.16);
-    EXPECT_TRUE(says(why(flat, 0.01), "hardly falls with the rate (order 0.00), so a higher rate will not help"));
+    EXPECT_TRUE(says(why(flat, 0.01),
+                     "hardly falls with the rate (order 0.00), so a higher rate will not help"));
     const std::string slow = why(falling(0.3, 0.16), 0.01);
     EXPECT_TRUE(says(slow, "falls with the rate (order 0.3), but no rate within reach is enough"));
 }
 
 TEST(Diagnosis, OfThreeRatesWithAWideIntervalNothingIsSaidOfAHigherRate) {
-    store::Table t = cells_of({{44100, 0.0152}, {88200, 0.0049}, {176400, 0.0041}});  // order 0.95 +- 5
-    const auto text = [&t] { return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.001); };
-    EXPECT_TRUE(says(text(), "From these rates it cannot be told whether a higher rate helps.")) << text();
+    // order 0.95 +- 5
+    store::Table t = cells_of({{44100, 0.0152}, {88200, 0.0049}, {176400, 0.0041}});
+    const auto text = [&t] {
+        return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.001);
+    };
+    EXPECT_TRUE(says(text(), "From these rates it cannot be told whether a higher rate helps."))
+        << text();
     EXPECT_FALSE(says(text(), "order")) << text();
     EXPECT_FALSE(says(text(), "--modes")) << text();
     t.columns.emplace_back("reference_modes");
     for (auto& row : t.rows) row.emplace_back("15");
     EXPECT_TRUE(says(text(), "helps. More modes may help: try `--modes 15`.")) << text();
-    for (auto& row : t.rows) row[static_cast<std::size_t>(t.column("error_in_model_l2_50ms"))] = "0.004";  // the error is of the scheme
+    // the error is of the scheme
+    for (auto& row : t.rows)
+        row[static_cast<std::size_t>(t.column("error_in_model_l2_50ms"))] = "0.004";
     EXPECT_FALSE(says(text(), "--modes")) << text();
     store::Table falls = cells_of(falling(1, 0.4));
     falls.columns.emplace_back("reference_modes");
     for (auto& row : falls.rows) row.emplace_back("15");
-    EXPECT_FALSE(says(compare::why_none(falls, store::all_rows(falls), "error_l2_50ms", 0.01), "--modes"));
+    EXPECT_FALSE(
+        says(compare::why_none(falls, store::all_rows(falls), "error_l2_50ms", 0.01), "--modes"));
 }
 
 TEST(Diagnosis, RatesThatWereRunOverTheHeadlinesWindowAloneCountForTheOrder) {
@@ -142,7 +152,8 @@ TEST(Diagnosis, AHorizonIsSaidOnlyWhereItLiesBeforeTheEnd) {
 }
 
 TEST(Diagnosis, NamesNoiseReferenceAndModesWhereTheyStandInTheWay) {
-    std::vector<Sample> noisy = falling(1, 0.4), unsure = noisy, truncated = falling(0.1, 0.03), brief = falling(0.1, 0.3);
+    std::vector<Sample> noisy = falling(1, 0.4), unsure = noisy, truncated = falling(0.1, 0.03),
+                        brief = falling(0.1, 0.3);
     for (Sample& s : noisy) s.floor = 0.02;
     for (Sample& s : unsure) s.certificate = 0.03;
     for (Sample& s : truncated) s.in_model = 1e-4;
@@ -150,15 +161,19 @@ TEST(Diagnosis, NamesNoiseReferenceAndModesWhereTheyStandInTheWay) {
     EXPECT_TRUE(says(why(noisy, 0.01), "A change of the start by 1e-12 alone makes 2 %."));
     EXPECT_FALSE(says(why(noisy, 0.01), "extrapolated"));
     EXPECT_TRUE(says(why(unsure, 0.01), "The reference is known to 3 % only."));
-    EXPECT_TRUE(says(why(truncated, 0.01), "Most of that comes from the modes left out: try `--modes 20`."));
+    EXPECT_TRUE(says(why(truncated, 0.01),
+                     "Most of that comes from the modes left out: try `--modes 20`."));
     EXPECT_FALSE(says(why(truncated, 0.01), "order"));
-    EXPECT_TRUE(says(why(brief, 0.01), "Over the first 10 ms a, 10 modes at 44.1 kHz is within 1 %."));
+    EXPECT_TRUE(
+        says(why(brief, 0.01), "Over the first 10 ms a, 10 modes at 44.1 kHz is within 1 %."));
 }
 
 TEST(Diagnosis, SaysWhereMoreModesHelp) {
     store::Table t = cells_of({{44100, 0.2}, {44100, 0.1}});
     t.rows[0][5] = "5";
-    const auto text = [&t] { return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01); };
+    const auto text = [&t] {
+        return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01);
+    };
     EXPECT_TRUE(says(text(), "The error falls with the modes: try `--modes 20`.")) << text();
     t.rows[0][8] = "0.11";  // order 0.14
     EXPECT_FALSE(says(text(), "--modes")) << text();
@@ -166,15 +181,20 @@ TEST(Diagnosis, SaysWhereMoreModesHelp) {
 
 TEST(Diagnosis, SaysThatMatchedComplianceWasNotRun) {
     store::Table t = cells_of(falling(0.1, 0.3), "modal_two_point");
-    EXPECT_TRUE(says(compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01), "compliance=matched was not run."));
+    EXPECT_TRUE(says(compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01),
+                     "compliance=matched was not run."));
     t.rows[1][3] = "compliance=matched";
-    EXPECT_FALSE(says(compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01), "was not run"));
+    EXPECT_FALSE(
+        says(compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01), "was not run"));
 }
 
 TEST(Diagnosis, StandsInTheTableOfTheCheapestWhereItSaysNone) {
     const store::Table t = compare::cheapest_of(cells_of(falling(0.15, 0.16)));
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        EXPECT_EQ(!t.at(i, "why").empty(), t.at(i, "status") == "none" && t.at(i, "measure") != "third_octave_db") << i;
-    EXPECT_TRUE(says(compare::cheapest_text(t), "none. Closest: a, 10 modes at")) << compare::cheapest_text(t);
+        EXPECT_EQ(!t.at(i, "why").empty(),
+                  t.at(i, "status") == "none" && t.at(i, "measure") != "third_octave_db")
+            << i;
+    EXPECT_TRUE(says(compare::cheapest_text(t), "none. Closest: a, 10 modes at"))
+        << compare::cheapest_text(t);
 }
 }  // namespace

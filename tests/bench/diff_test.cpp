@@ -17,9 +17,10 @@ using bench::diff::Turn;
 
 constexpr int schemes = 8, rates = 4;
 
-// Costs as a clock gives them: a true one of each cell, times the machine's drift, times a disturbance of the cell and a smaller one of
-// each of its five samples.
-Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1, const std::string& cpu = "one") {
+// Costs as a clock gives them: a true one of each cell, times the machine's drift, times a
+// disturbance of the cell and a smaller one of each of its five samples.
+Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
+             const std::string& cpu = "one") {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     Folder f;
@@ -36,7 +37,8 @@ Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
                                   std::exp(0.3 * disturbance * normal(random)));
             std::sort(samples.begin(), samples.end());
             const auto text = [](double x) { return bench::store::text_of(x); };
-            f.cells.rows.push_back({"string", "scheme_" + std::to_string(s), "", std::to_string(44100 << r), "40", "ok", "0.01",
+            f.cells.rows.push_back({"string", "scheme_" + std::to_string(s), "",
+                                    std::to_string(44100 << r), "40", "ok", "0.01",
                                     text(samples[2]), text(samples[1]), text(samples[3])});
         }
     return f;
@@ -55,8 +57,10 @@ TEST(Costs, ASchemeThatIsThirtyPerCentSlowerIsFoundWhateverTheMachinesDrift) {
 TEST(Costs, TwoRunsOfOneProgramAreSilentOnAQuietAndOnABusyMachine) {
     for (const double disturbance : {0.01, 0.1, 0.6})
         for (unsigned repeat = 0; repeat < 10; ++repeat) {
-            const Difference d = difference(timed(2 * repeat, disturbance), timed(2 * repeat + 1, disturbance, 1.1));
-            EXPECT_TRUE(d.findings.empty()) << disturbance << " " << repeat << " " << d.findings.front().row;
+            const Difference d =
+                difference(timed(2 * repeat, disturbance), timed(2 * repeat + 1, disturbance, 1.1));
+            EXPECT_TRUE(d.findings.empty())
+                << disturbance << " " << repeat << " " << d.findings.front().row;
         }
 }
 
@@ -85,11 +89,18 @@ TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
 
 // ---- Errors and outcomes.
 
-Folder cell(const std::string& status, const std::string& flags, double error, double floor, double certificate) {
+Folder cell(const std::string& status, const std::string& flags, double error, double floor,
+            double certificate) {
     const auto text = [](double x) { return bench::store::text_of(x); };
     Folder f;
     f.name = "made up";
-    f.cells.columns = {"scheme", "rate", "status", "flags", "error_l2_50ms", "floor_error_l2_50ms", "certificate_l2_50ms"};
+    f.cells.columns = {"scheme",
+                       "rate",
+                       "status",
+                       "flags",
+                       "error_l2_50ms",
+                       "floor_error_l2_50ms",
+                       "certificate_l2_50ms"};
     f.cells.rows = {{"a", "44100", status, flags, text(error), text(floor), text(certificate)}};
     return f;
 }
@@ -101,8 +112,10 @@ Turn turn_between(const Folder& a, const Folder& b) {
 
 TEST(Errors, GetWorseBeyondNoiseAndCertificatesAlone) {
     const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
-    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 9e-10, 1e-12, 1e-3)), Turn::same);    // a thousand floors
-    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 1.2e-9, 1e-12, 1e-3)), Turn::moved);  // beyond them, not beyond the certificates
+    // a thousand floors
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 9e-10, 1e-12, 1e-3)), Turn::same);
+    // beyond them, not beyond the certificates
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 1.2e-9, 1e-12, 1e-3)), Turn::moved);
     EXPECT_EQ(turn_between(was, cell("ok", "", 0.0519, 1e-12, 1e-3)), Turn::moved);
     EXPECT_EQ(turn_between(was, cell("ok", "", 0.0521, 1e-12, 1e-3)), Turn::worse);
     EXPECT_EQ(turn_between(was, cell("ok", "", 0.0479, 1e-12, 1e-3)), Turn::better);
@@ -123,7 +136,9 @@ TEST(Errors, OfAnotherReferenceAreSaidToBeBeforeAnyFigure) {
         f->cells.rows[0].emplace_back(f == &was ? "exact_contact" : "sundials");
     }
     const std::string text = text_of(bench::diff::difference(was, is), was, is);
-    EXPECT_TRUE(text.starts_with("the references differ in 1 of 1 cells (reference exact_contact -> sundials)")) << text;
+    EXPECT_TRUE(text.starts_with(
+        "the references differ in 1 of 1 cells (reference exact_contact -> sundials)"))
+        << text;
 }
 
 TEST(Errors, ThatAreNoLongerKnownAreWorse) {
@@ -162,10 +177,14 @@ TEST(Errors, AreNotExcusedByACertificateThatGrew) {
     const Difference nine = difference(was, cell("ok", "", 0.45, 1e-12, 1e9));
     EXPECT_EQ(turn_in(nine, "error_l2_50ms"), Turn::worse);
     EXPECT_EQ(turn_in(nine, "certificate_l2_50ms"), Turn::worse);
-    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0519, 1e-12, 5e-3)), "error_l2_50ms"), Turn::moved);
-    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0521, 1e-12, 5e-3)), "error_l2_50ms"), Turn::worse);
-    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0512, 1e-12, 1e-4)), "error_l2_50ms"), Turn::worse);
-    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, 2e-3)), Turn::worse);  // the certificate itself
+    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0519, 1e-12, 5e-3)), "error_l2_50ms"),
+              Turn::moved);
+    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0521, 1e-12, 5e-3)), "error_l2_50ms"),
+              Turn::worse);
+    EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0512, 1e-12, 1e-4)), "error_l2_50ms"),
+              Turn::worse);
+    // the certificate itself
+    EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, 2e-3)), Turn::worse);
     EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, 5e-4)), Turn::better);
     EXPECT_EQ(turn_between(was, cell("ok", "", 0.05, 1e-12, NAN)), Turn::worse);
 }
@@ -180,16 +199,21 @@ TEST(Cells, ThatAreMissingAfterAreWorse) {
 
 Folder modes(const std::vector<std::string>& own_cents) {
     Folder f;
-    f.dispersion.columns = {"scene", "scheme", "options", "rate", "mode", "own_cents", "own_decay_per_s"};
+    f.dispersion.columns = {"scene", "scheme",    "options",        "rate",
+                            "mode",  "own_cents", "own_decay_per_s"};
     for (std::size_t k = 0; k < own_cents.size(); ++k)
-        f.dispersion.rows.push_back({"s", "a", "", "44100", std::to_string(k + 1), own_cents[k], "1"});
+        f.dispersion.rows.push_back(
+            {"s", "a", "", "44100", std::to_string(k + 1), own_cents[k], "1"});
     return f;
 }
 
 TEST(Dispersion, IsWorseWhereAModeIsFurtherFromItsPitchOnEitherSide) {
-    for (const auto& [before, after] : {std::pair{"1", "-3"}, {"-1", "-3"}, {"1", "3"}, {"-1", "3"}, {"1", ""}}) {
-        EXPECT_EQ(turn_in(difference(modes({before}), modes({after})), "own_cents"), Turn::worse) << before << " " << after;
-        EXPECT_EQ(turn_in(difference(modes({after}), modes({before})), "own_cents"), Turn::better) << before << " " << after;
+    for (const auto& [before, after] :
+         {std::pair{"1", "-3"}, {"-1", "-3"}, {"1", "3"}, {"-1", "3"}, {"1", ""}}) {
+        EXPECT_EQ(turn_in(difference(modes({before}), modes({after})), "own_cents"), Turn::worse)
+            << before << " " << after;
+        EXPECT_EQ(turn_in(difference(modes({after}), modes({before})), "own_cents"), Turn::better)
+            << before << " " << after;
     }
     EXPECT_EQ(turn_in(difference(modes({"1"}), modes({"1.000000001"})), "own_cents"), Turn::same);
     EXPECT_TRUE(difference(modes({"1", "2"}), modes({"1"})).worse());
@@ -254,9 +278,12 @@ TEST(Errors, AreNotExcusedByAFloorThatWasRaised) {
 
 TEST(Outcomes, OfMapsAreComparedPointByPoint) {
     Folder a, b;
-    a.maps.columns = b.maps.columns = {"map", "scene", "scheme", "x_key", "x", "y_key", "y", "outcome"};
-    a.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "sound"}, {"m", "s", "a", "rate", "2", "", "", "sound"}};
-    b.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "diverged"}, {"m", "s", "a", "rate", "3", "", "", "sound"}};
+    a.maps.columns =
+        b.maps.columns = {"map", "scene", "scheme", "x_key", "x", "y_key", "y", "outcome"};
+    a.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "sound"},
+                   {"m", "s", "a", "rate", "2", "", "", "sound"}};
+    b.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "diverged"},
+                   {"m", "s", "a", "rate", "3", "", "", "sound"}};
     const Difference d = difference(a, b);
     ASSERT_EQ(d.findings.size(), 1u);
     EXPECT_EQ(d.findings[0].turn, Turn::worse);
@@ -279,19 +306,23 @@ TEST(Folders, WithNothingInCommonAreRefused) {
 TEST(Diff, FindsAPluginThatIsTwoPerCentOffAndNothingElse) {
     const Scratch scratch;
     const std::string compare =
-        "$J compare free_string --schemes honest,modal_two_point --rates 44100,88200 --duration 0.05 --repeats 1 --quiet ";
-    const Outcome o = shell(scratch, compare + "--plugin " JVARI_HONEST " --out a >/dev/null || exit 9\n" +  //
-                                         compare + "--plugin " JVARI_LOUD " --out b >/dev/null || exit 9\n" + compare +
-                                         "--plugin " JVARI_HONEST
-                                         " --out c >/dev/null || exit 9\n"
-                                         "$J diff a c --json >same.json; test $? = 0 || exit 8\n"
-                                         "$J diff b a >/dev/null; test $? = 0 || exit 7\n"
-                                         "$J diff a b --json");
+        "$J compare free_string --schemes honest,modal_two_point --rates 44100,88200 --duration "
+        "0.05 --repeats 1 --quiet ";
+    const Outcome o = shell(
+        scratch, compare + "--plugin " JVARI_HONEST " --out a >/dev/null || exit 9\n" + compare +
+                     "--plugin " JVARI_LOUD " --out b >/dev/null || exit 9\n" + compare +
+                     "--plugin " JVARI_HONEST
+                     " --out c >/dev/null || exit 9\n"
+                     "$J diff a c --json >same.json; test $? = 0 || exit 8\n"
+                     "$J diff b a >/dev/null; test $? = 0 || exit 7\n"
+                     "$J diff a b --json");
     EXPECT_EQ(o.code, 4) << o.err;
-    const auto j = nlohmann::json::parse(o.out), same = nlohmann::json::parse(content(scratch / "same.json"));
+    const auto j = nlohmann::json::parse(o.out),
+               same = nlohmann::json::parse(content(scratch / "same.json"));
     EXPECT_EQ(same["worse"], 0);
     for (const auto& f : same["findings"])
-        EXPECT_EQ(f["column"], "processor_s_per_s") << f;  // two schemes: not told from the machine's doing
+        // two schemes: not told from the machine's doing
+        EXPECT_EQ(f["column"], "processor_s_per_s") << f;
     EXPECT_GT(j["worse"], 2);
     bool seen = false;
     for (const auto& f : j["findings"]) {
@@ -304,24 +335,36 @@ TEST(Diff, FindsAPluginThatIsTwoPerCentOffAndNothingElse) {
 
 TEST(Diff, RefusesBadFolders) {
     const Scratch scratch;
-    EXPECT_TRUE(ends(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " + (scratch / "none")), 2, "no such folder"));
+    EXPECT_TRUE(ends(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " + (scratch / "none")), 2,
+                     "no such folder"));
     EXPECT_EQ(shell(scratch, "mkdir empty; $J diff empty empty").code, 2);
-    EXPECT_EQ(shell(scratch, "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/cells.csv; $J diff x x").code, 2);
+    EXPECT_EQ(
+        shell(scratch,
+              "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/cells.csv; $J diff x x")
+            .code,
+        2);
     EXPECT_EQ(shell(scratch, "$J diff x").code, 2);
-    EXPECT_EQ(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/stability").code, 2);
-    EXPECT_EQ(jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/smoke").code, 0);
+    EXPECT_EQ(
+        jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/stability")
+            .code,
+        2);
+    EXPECT_EQ(
+        jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/smoke").code,
+        0);
 }
 
 TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
     const Scratch scratch;
-    const std::string head = "scheme,rate,status,error_l2_50ms\\n", a = "a,1,ok,0.1\\n", b = "b,1,ok,0.1\\n";
+    const std::string head = "scheme,rate,status,error_l2_50ms\\n", a = "a,1,ok,0.1\\n",
+                      b = "b,1,ok,0.1\\n";
     const Outcome o =
         shell(scratch,
               "make() { mkdir $1; echo '{}' >$1/manifest.json; printf \"$2\" >$1/errors.csv; }\n"
               "make both '" +
                   head + a + b + "'; make one '" + head + a + "'; make empty '" + head +
                   "a,1,ok,\\nb,1,ok,nan\\n'\n"
-                  "$J diff both empty --quiet; echo $?; $J diff both one --quiet; echo $?; $J diff one both --quiet; echo $?\n"
+                  "$J diff both empty --quiet; echo $?; $J diff both one --quiet; echo $?; $J diff "
+                  "one both --quiet; echo $?\n"
                   "$J diff both one; $J diff both one --json");
     EXPECT_EQ(o.out.substr(0, 6), "4\n4\n0\n") << o.err;
     EXPECT_TRUE(says(o.out, "1 missing after, which counts as worse"));

@@ -1,4 +1,5 @@
-// Any program as a scheme: what it leaves behind, what it says without end, what its command names, and how it fails.
+// Any program as a scheme: what it leaves behind, what it says without end, what its command names,
+// and how it fails.
 #include <array>
 
 #include "tests/command_line.hpp"
@@ -9,36 +10,46 @@ namespace {
 // A script whose trace is silence; `more` comes before.
 std::string silence(const std::string& file, const std::string& more = "") {
     return "cat > '" + file + "' <<'E'\n#!/bin/sh\n" + more +
-           "\npython3 - \"$@\" <<'P'\nimport json, sys\np = json.load(open(sys.argv[1]))\nwith open(sys.argv[2], 'w') as f:\n"
+           "\npython3 - \"$@\" <<'P'\nimport json, sys\np = json.load(open(sys.argv[1]))\nwith "
+           "open(sys.argv[2], 'w') as f:\n"
            "    print('time_s,' + ','.join(p['tap_names']), file=f)\n"
-           "    for n in range(p['rows']): print(*[n / p['tap_rate']] + [0] * p['taps'], sep=',', file=f)\nP\nE\nchmod +x '" +
+           "    for n in range(p['rows']): print(*[n / p['tap_rate']] + [0] * p['taps'], sep=',', "
+           "file=f)\nP\nE\nchmod +x '" +
            file + "'\n";
 }
-const std::string run = "timeout 20 $J run free_string --duration 0.005 --scheme mine --external 'sh mine' ";
+const std::string run =
+    "timeout 20 $J run free_string --duration 0.005 --scheme mine --external 'sh mine' ";
 const std::string suite = "timeout 20 $J suite s.toml --out out --external 'sh mine'\n";
 
 TEST(External, WhatItLeavesBehindIsNotWaitedFor) {
     const Scratch scratch;
-    EXPECT_TRUE(ends(shell(scratch, silence("mine", "sleep 43.21 &") + run + "&& ! pgrep -f 'sleep 43.21'"), 0, "rows"));
-    EXPECT_TRUE(ends(shell(scratch, silence("mine", "setsid sleep 21.43 &") + run + "&& pkill -f 'sleep 21.43'"), 0, "rows"));
+    EXPECT_TRUE(
+        ends(shell(scratch, silence("mine", "sleep 43.21 &") + run + "&& ! pgrep -f 'sleep 43.21'"),
+             0, "rows"));
+    EXPECT_TRUE(ends(
+        shell(scratch, silence("mine", "setsid sleep 21.43 &") + run + "&& pkill -f 'sleep 21.43'"),
+        0, "rows"));
 }
 
 TEST(External, OfWhatItSaysTheEndIsKept) {
     const Scratch scratch;
-    std::ofstream(scratch / "mine") << "head -c 500000000 /dev/zero\necho; echo the last word; exit 7\n";
+    std::ofstream(scratch / "mine")
+        << "head -c 500000000 /dev/zero\necho; echo the last word; exit 7\n";
     EXPECT_TRUE(ends(shell(scratch, "ulimit -v 400000; " + run), 4, "exit code 7: the last word"));
 }
 
 TEST(External, ItsTraceIsReadOnlyWhereItCanBeOne) {
     const Scratch scratch;
     std::ofstream(scratch / "mine") << "truncate -s 5G \"$2\"\n";
-    EXPECT_TRUE(ends(shell(scratch, "ulimit -v 400000; " + run), 4, "has 5369 MB, and 222 rows of 2 taps"));
+    EXPECT_TRUE(
+        ends(shell(scratch, "ulimit -v 400000; " + run), 4, "has 5369 MB, and 222 rows of 2 taps"));
 }
 
 TEST(External, ATimeLimitIsOneOnTheClock) {
     const Scratch scratch;
     std::ofstream(scratch / "mine") << "sleep 30\n";
-    std::ofstream(scratch / "s.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"mine\"]\nrates = [44100]\nduration = 0.005\n"
+    std::ofstream(scratch / "s.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = "
+                                         "[\"mine\"]\nrates = [44100]\nduration = 0.005\n"
                                          "modes = [20]\nreference_modes = 20\ntime_limit_s = 0.5\n";
     const Outcome o = shell(scratch, suite);
     EXPECT_EQ(o.code, 4);
@@ -48,21 +59,26 @@ TEST(External, ATimeLimitIsOneOnTheClock) {
 TEST(External, ItsFilesAreKnownAsTheShellReadsTheCommand) {
     const Scratch scratch;
     shell(scratch, "mkdir 'a b' bin; truncate -s 3G large");
-    for (const auto& [command, file, name] : {std::array<const char*, 3>{"sh 'a b/mine.sh'", "a b/mine.sh", "mine"},
-                                              {"true large;sh a\\ b/mine.sh", "a b/mine.sh", "mine"},
-                                              {"sh \"$PWD/a b/mine.sh\"", "a b/mine.sh", "mine"},
-                                              {"sh a?b/mine.sh", "a b/mine.sh", "mine"},
-                                              {"mine", "bin/mine", "external"}}) {
+    for (const auto& [command, file, name] :
+         {std::array<const char*, 3>{"sh 'a b/mine.sh'", "a b/mine.sh", "mine"},
+          {"true large;sh a\\ b/mine.sh", "a b/mine.sh", "mine"},
+          {"sh \"$PWD/a b/mine.sh\"", "a b/mine.sh", "mine"},
+          {"sh a?b/mine.sh", "a b/mine.sh", "mine"},
+          {"mine", "bin/mine", "external"}}) {
         const std::string compare =
-            "PATH=$PWD/bin:$PATH $J compare free_string --rates 44100 --modes 20 --reference-modes 20 --duration "
+            "PATH=$PWD/bin:$PATH $J compare free_string --rates 44100 --modes 20 --reference-modes "
+            "20 --duration "
             "0.005 --repeats 1 --resume --out out --schemes ";
-        std::ofstream(scratch / "again") << compare << name << " --external \"$(cat command)\" 2>&1 | grep read.back\n";
+        std::ofstream(scratch / "again")
+            << compare << name << " --external \"$(cat command)\" 2>&1 | grep read.back\n";
         std::ofstream(scratch / "command") << command;
         const Outcome o =
-            shell(scratch, "ulimit -v 2000000; rm -rf out\n" + silence(file) + ". ./again; . ./again; echo >>'" + file + "'; . ./again");
-        EXPECT_EQ(o.out,
-                  "the errors of 0 of 1 cells were read back\nthe errors of 1 of 1 cells were read back\n"
-                  "the errors of 0 of 1 cells were read back\n")
+            shell(scratch, "ulimit -v 2000000; rm -rf out\n" + silence(file) +
+                               ". ./again; . ./again; echo >>'" + file + "'; . ./again");
+        EXPECT_EQ(
+            o.out,
+            "the errors of 0 of 1 cells were read back\nthe errors of 1 of 1 cells were read back\n"
+            "the errors of 0 of 1 cells were read back\n")
             << command;
     }
 }
@@ -73,9 +89,12 @@ TEST(External, ThatItFailsIsARowOfAMap) {
     for (const char* schemes : {R"("mine", "modal_two_point")", R"("mine")"}) {
         std::ofstream(scratch / "s.toml")
             << "[[map]]\nname = \"m\"\nscene = \"free_string\"\nschemes = [" << schemes
-            << "]\nduration = 0.005\nmodes = 20\nx = { key = \"rate\", from = 44100, to = 88200, points = 2 }\n";
+            << "]\nduration = 0.005\nmodes = 20\nx = { key = \"rate\", from = 44100, to = 88200, "
+               "points = 2 }\n";
         EXPECT_TRUE(ends(shell(scratch, "rm -rf out\n" + suite), 0, "error 2"));
-        EXPECT_TRUE(says(content(scratch / "out/maps.csv"), "m,free_string,mine,rate,44100,,,error,sh mine: exit code 1: no rows today,"));
+        EXPECT_TRUE(
+            says(content(scratch / "out/maps.csv"),
+                 "m,free_string,mine,rate,44100,,,error,sh mine: exit code 1: no rows today,"));
     }
 }
 

@@ -1,5 +1,6 @@
-// Every way in which a scheme is known to fail, from its smallest reproducer; and the minimiser that made them, on a toy.
-// `jvari suite stability --out DIR` writes them to DIR/failures; copied to tests/failures they are what is replayed here.
+// Every way in which a scheme is known to fail, from its smallest reproducer; and the minimiser
+// that made them, on a toy. `jvari suite stability --out DIR` writes them to DIR/failures; copied
+// to tests/failures they are what is replayed here.
 #include "bench/map/failures.hpp"
 
 #include <gtest/gtest.h>
@@ -26,8 +27,10 @@ TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
     ASSERT_FALSE(all.empty());
     for (const bench::map::Reproducer& r : all) {
         const bench::map::Tried t = trials(r.trial);
-        EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict)) << r.file << ": " << t.judgement.detail;
-        EXPECT_LE(t.judgement.step, 2 * r.expected.step) << r.file;  // a growth from rounding is as long as its logarithm
+        EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict))
+            << r.file << ": " << t.judgement.detail;
+        // a growth from rounding is as long as its logarithm
+        EXPECT_LE(t.judgement.step, 2 * r.expected.step) << r.file;
         EXPECT_GE(2 * t.judgement.step, r.expected.step) << r.file;
     }
 }
@@ -44,23 +47,28 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         m.reproduce = reproduce;
         const std::vector<bench::map::Map> maps = {m};
         const bench::map::MapRequest request{"\"tests\"", {}, false, 1};
-        const bench::map::MapRun run = bench::map::run_maps(maps, catalogue(), request, bench::store::Listener());
+        const bench::map::MapRun run =
+            bench::map::run_maps(maps, catalogue(), request, bench::store::Listener());
         ASSERT_EQ(run.points.size(), 1u);
         EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::study::Verdict::diverged);
-        EXPECT_EQ(reproducers_of(run, catalogue(), request, bench::store::Listener()).size(), reproduce ? 1u : 0u);
+        EXPECT_EQ(reproducers_of(run, catalogue(), request, bench::store::Listener()).size(),
+                  reproduce ? 1u : 0u);
     }
 }
 
 TEST(Failures, EveryControlHasOne) {
     std::set<std::string> failing;
-    for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue())) failing.insert(r.trial.scheme->name);
-    for (const char* control : {"modal_explicit_penalty", "modal_two_point_trapezoidal", "modal_quadratised", "finite_difference_explicit",
-                                "finite_difference_theta", "modal_spatial_newton"})
+    for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue()))
+        failing.insert(r.trial.scheme->name);
+    for (const char* control :
+         {"modal_explicit_penalty", "modal_two_point_trapezoidal", "modal_quadratised",
+          "finite_difference_explicit", "finite_difference_theta", "modal_spatial_newton"})
         EXPECT_TRUE(failing.contains(control)) << control;
 }
 
 bench::map::Trial large() {
-    bench::map::Trial t{&catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
+    bench::map::Trial t{
+        &catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
     t.settings.sample_rate = t.settings.tap_rate = 44100;
     t.scene.duration = 0.1;
     return t;
@@ -75,16 +83,19 @@ TEST(Failures, EveryOutcomeHasOne) {
                           r.expected.verdict == bench::study::Verdict::energy_gaining);
     }
     for (const bench::study::Verdict v :
-         {bench::study::Verdict::inaccurate, bench::study::Verdict::adhesive, bench::study::Verdict::energy_gaining,
-          bench::study::Verdict::not_converged, bench::study::Verdict::diverged})
+         {bench::study::Verdict::inaccurate, bench::study::Verdict::adhesive,
+          bench::study::Verdict::energy_gaining, bench::study::Verdict::not_converged,
+          bench::study::Verdict::diverged})
         EXPECT_TRUE(seen.contains(v)) << name_of(v);
     EXPECT_TRUE(gains);  // where modal_two_point is sound; its inaccurate points are everyone's
 }
 
 TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
     const bench::map::Trial t =
-        bench::map::minimised(large(), [](const bench::map::Trial& x) {  // fails with a thread, from 17 modes and 23 rows on
-            return x.scene.strings[0].thread && x.settings.modes >= 17 && x.scene.duration * x.settings.tap_rate > 22.5;
+        // fails with a thread, from 17 modes and 23 rows on
+        bench::map::minimised(large(), [](const bench::map::Trial& x) {
+            return x.scene.strings[0].thread && x.settings.modes >= 17 &&
+                   x.scene.duration * x.settings.tap_rate > 22.5;
         });
     EXPECT_EQ(t.settings.modes, 17);
     EXPECT_EQ(std::lround(t.scene.duration * t.settings.tap_rate), 23);
@@ -99,7 +110,8 @@ TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
 TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
     const bench::map::Trial t = bench::map::minimised(large(), [](const bench::map::Trial& x) {
         if (x.scene.strings[0].barriers.empty()) throw std::runtime_error("nothing to fail at");
-        return x.scene.strings[0].thread.has_value() || x.scene.strings[0].bending_stiffness > 0;  // either will do
+        // either will do
+        return x.scene.strings[0].thread.has_value() || x.scene.strings[0].bending_stiffness > 0;
     });
     const String& s = t.scene.strings[0];
     EXPECT_EQ(s.barriers.size(), 1u);
@@ -111,11 +123,14 @@ TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
     bench::map::Trials trials(catalogue());
     bench::map::Trial t = large();
     t.scheme = &catalogue().find("modal_explicit_penalty");
-    const auto diverges = [&trials](const bench::map::Trial& x) { return trials(x).judgement.verdict == bench::study::Verdict::diverged; };
+    const auto diverges = [&trials](const bench::map::Trial& x) {
+        return trials(x).judgement.verdict == bench::study::Verdict::diverged;
+    };
     ASSERT_TRUE(diverges(t));
     t = bench::map::minimised(t, diverges);
     EXPECT_LT(t.settings.modes, 133);
-    const auto folder = std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     bench::map::write_failures(folder, {{"a.toml", t, trials(t).judgement}});
     const auto back = bench::map::read_failures(folder, catalogue());

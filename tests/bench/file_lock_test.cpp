@@ -1,4 +1,5 @@
-// One process at a time makes a file: whoever comes later takes what it made, and one that is gone holds nobody up.
+// One process at a time makes a file: whoever comes later takes what it made, and one that is gone
+// holds nobody up.
 #include "bench/store/system/file_lock.hpp"
 
 #include <fcntl.h>
@@ -52,9 +53,10 @@ TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
         children.push_back(fork());
         if (children.back() != 0) continue;
         long rows = 0;
-        bench::store::side_by_side({1}, 1, bench::store::Listener(), "", [&](std::size_t, bench::store::Done&) {
-            rows = bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows;
-        });
+        bench::store::side_by_side(
+            {1}, 1, bench::store::Listener(), "", [&](std::size_t, bench::store::Done&) {
+                rows = bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows;
+            });
         _exit(rows > 100 ? 0 : 1);
     }
     for (const pid_t child : children) {
@@ -78,12 +80,14 @@ TEST(FileLock, SaysWhoHoldsItAndWhatForAndGoesWithItsHolder) {
             const FileLock second(scratch / "a", "makes it");  // in one process, too
             ADD_FAILURE();
         } catch (const Busy& busy) {
-            EXPECT_EQ(busy.who, "process " + std::to_string(getpid()) + " on " + host + ", which makes it");
+            EXPECT_EQ(busy.who,
+                      "process " + std::to_string(getpid()) + " on " + host + ", which makes it");
         }
         EXPECT_TRUE(FileLock(scratch / "b", "").held());
     }
     EXPECT_EQ(scratch.files(), 0);
-    std::ofstream(scratch / "a.lock") << "\033[2Jsomebody\n";  // what lies there says nothing about who holds it
+    // what lies there says nothing about who holds it
+    std::ofstream(scratch / "a.lock") << "\033[2Jsomebody\n";
     EXPECT_TRUE(FileLock(scratch / "a", "").held());
 }
 
@@ -143,9 +147,11 @@ TEST(FileLock, ThatIsStaleInAFolderThatCannotBeWrittenIsPassedBy) {
     namespace fs = std::filesystem;
     fs::create_directory(scratch / "runs");
     std::ofstream(scratch / "runs/key.run.lock") << "elsewhere boot pid:[1] 999999 1";
-    for (const auto& path : {scratch.path, scratch.path / "runs"}) fs::permissions(path, fs::perms(0555));
+    for (const auto& path : {scratch.path, scratch.path / "runs"})
+        fs::permissions(path, fs::perms(0555));
     EXPECT_EQ(status_of_child([&] {
-                  if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 2;  // root may write everywhere
+                  // root may write everywhere
+                  if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 2;
                   int made = 0;
                   bench::trust::kept_run(
                       scratch / "runs", "key", [&made] { return ++made, jvari::Run(); }, 0);
@@ -153,7 +159,8 @@ TEST(FileLock, ThatIsStaleInAFolderThatCannotBeWrittenIsPassedBy) {
               }),
               0);
     EXPECT_FALSE(fs::exists(scratch / "runs/key.run"));
-    for (const auto& path : {scratch.path, scratch.path / "runs"}) fs::permissions(path, fs::perms(0755));
+    for (const auto& path : {scratch.path, scratch.path / "runs"})
+        fs::permissions(path, fs::perms(0755));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Ctrl-C, and what it leaves: whole files or none, an ended line, the way to go on, and a caller that sees the signal.
+// Ctrl-C, and what it leaves: whole files or none, an ended line, the way to go on, and a caller
+// that sees the signal.
 #include "bench/store/system/interruption.hpp"
 
 #include <fcntl.h>
@@ -20,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr auto under_way = std::chrono::milliseconds(4000);  // after its start a program has begun what lasts
+// after its start a program has begun what lasts
+constexpr auto under_way = std::chrono::milliseconds(4000);
 #else
 constexpr auto under_way = std::chrono::milliseconds(1000);
 #endif
@@ -33,7 +35,8 @@ struct How {
 
 class Started {  // the built program on its own
 public:
-    Started(const Scratch& scratch, const std::vector<std::string>& arguments, const How& how = {}) {
+    Started(const Scratch& scratch, const std::vector<std::string>& arguments,
+            const How& how = {}) {
         child_ = how.terminal ? forkpty(&terminal_, nullptr, nullptr, nullptr) : fork();
         if (child_ != 0) return;
         signal(SIGINT, how.ignoring ? SIG_IGN : SIG_DFL);
@@ -59,7 +62,8 @@ public:
 
     template <class Happened>
     void once(Happened happened) {  // waits for it, or for the program's end
-        while (!happened() && !has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        while (!happened() && !has_ended())
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     void send(int signal) {
         if (!has_ended()) kill(child_, signal);
@@ -95,23 +99,25 @@ std::vector<std::string> parts_below(const fs::path& folder) {
 int files_of(const fs::path& folder, const char* extension) {
     std::error_code none_yet;
     int n = 0;
-    for (const auto& entry : fs::directory_iterator(folder, none_yet)) n += entry.path().extension() == extension;
+    for (const auto& entry : fs::directory_iterator(folder, none_yet))
+        n += entry.path().extension() == extension;
     return n;
 }
-int cells_in(const fs::path& folder) {
-    return files_of(folder, ".json");
-}
+int cells_in(const fs::path& folder) { return files_of(folder, ".json"); }
 
 TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", kept = scratch / "stopped/cells";
-    std::ofstream(file)
-        << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
-           "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
-    ASSERT_EQ(Started(scratch, {"suite", file, "--jobs", "1", "--out", scratch / "whole"}).end(), -1);
+    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = "
+                           "[\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
+                           "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { "
+                           "\"string.0.tension\" = [30, 31, 32, 33] }\n";
+    ASSERT_EQ(Started(scratch, {"suite", file, "--jobs", "1", "--out", scratch / "whole"}).end(),
+              -1);
     int before = 0;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGINT}) {
-        Started suite(scratch, {"suite", file, "--jobs", "2", "--resume", "--out", scratch / "stopped"});
+        Started suite(scratch,
+                      {"suite", file, "--jobs", "2", "--resume", "--out", scratch / "stopped"});
         suite.once([&] { return cells_in(kept) > before; });
         suite.send(signal);
         EXPECT_EQ(suite.end(), signal);
@@ -121,12 +127,14 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
         EXPECT_LT(n, 24);
         before = n;
         const std::string said = "interrupted: " + std::to_string(n) + " of 24 cells and " +
-                                 std::to_string(files_of(scratch / "stopped/references", ".run")) + " runs of references are kept in " +
-                                 (scratch / "stopped") + "; --resume";
+                                 std::to_string(files_of(scratch / "stopped/references", ".run")) +
+                                 " runs of references are kept in " + (scratch / "stopped") +
+                                 "; --resume";
         EXPECT_TRUE(says(content(scratch / "stderr"), said));
         EXPECT_EQ(content(scratch / "stdout"), "");
     }
-    ASSERT_EQ(Started(scratch, {"suite", file, "--resume", "--out", scratch / "stopped"}).end(), -1);
+    ASSERT_EQ(Started(scratch, {"suite", file, "--resume", "--out", scratch / "stopped"}).end(),
+              -1);
     EXPECT_TRUE(says(content(scratch / "stdout"), " " + std::to_string(before) + " read back"));
     EXPECT_EQ(content(scratch / "stopped/errors.csv"), content(scratch / "whole/errors.csv"));
 }
@@ -137,12 +145,14 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     const std::string out = scratch / "stopped", cells = out + "/cells";
     const auto arguments = [](const std::string& folder, const std::string& more = "") {
         std::istringstream words(
-            "compare tanpura_c3_release --schemes modal_two_point,modal_quadratised --rates 44100,88200 --modes 40 --option compliance=own "
+            "compare tanpura_c3_release --schemes modal_two_point,modal_quadratised --rates "
+            "44100,88200 --modes 40 --option compliance=own "
             "--duration 0.05 --repeats 1 --reference-modes 40 --jobs 1 --out " +
             folder + more);
         return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
     };
-    ASSERT_EQ(Started(scratch, arguments(scratch / "whole")).end(), -1) << content(scratch / "stderr");
+    ASSERT_EQ(Started(scratch, arguments(scratch / "whole")).end(), -1)
+        << content(scratch / "stderr");
     fs::path held;
     for (const auto& entry : fs::directory_iterator(scratch / "whole/cells"))
         if (entry.path().extension() == ".json") held = cells / entry.path().filename();
@@ -150,37 +160,47 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     {
         const bench::store::FileLock lock(held, "is held by a test");
         Started compare(scratch, arguments(out));
-        compare.once([&] { return content(scratch / "stderr").find("waiting for") != std::string::npos; });
+        compare.once(
+            [&] { return content(scratch / "stderr").find("waiting for") != std::string::npos; });
         compare.send(SIGINT);
         EXPECT_EQ(compare.end(), SIGINT);
     }
     EXPECT_EQ(cells_in(cells), 3);
     const std::string said = content(scratch / "stderr");
-    EXPECT_TRUE(says(said, "interrupted: the errors of 3 of 4 cells are kept in " + out + "; --resume goes on from there"));
+    EXPECT_TRUE(says(said, "interrupted: the errors of 3 of 4 cells are kept in " + out +
+                               "; --resume goes on from there"));
     EXPECT_FALSE(fs::exists(out + "/cells.csv"));
-    ASSERT_EQ(Started(scratch, arguments(out, " --resume")).end(), -1) << content(scratch / "stderr");
+    ASSERT_EQ(Started(scratch, arguments(out, " --resume")).end(), -1)
+        << content(scratch / "stderr");
     EXPECT_TRUE(says(content(scratch / "stderr"), "the errors of 3 of 4 cells were read back"));
-    for (const char* table : {"/errors.csv", "/convergence.csv"}) EXPECT_EQ(content(out + table), content(scratch / "whole" + table));
+    for (const char* table : {"/errors.csv", "/convergence.csv"})
+        EXPECT_EQ(content(out + table), content(scratch / "whole" + table));
     for (const auto& sound : fs::directory_iterator(scratch / "whole/sounds"))
-        EXPECT_EQ(content(out + "/sounds/" + sound.path().filename().string()), content(sound.path())) << sound.path();
+        EXPECT_EQ(content(out + "/sounds/" + sound.path().filename().string()),
+                  content(sound.path()))
+            << sound.path();
 }
 
 TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [2822400]\nreference_modes = "
+    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = "
+                           "[\"modal_two_point\"]\nrates = [2822400]\nreference_modes = "
                            "\"cell\"\nduration = 60\n";
     for (const auto& [arguments, said] : {
              std::pair<std::vector<std::string>, std::string>{
-                 {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"}, "for there is no --out DIR"},
+                 {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"},
+                 "for there is no --out DIR"},
              {{"suite", file}, "for there is no --out DIR"},
-             {{"certify", "tanpura_c3", "--out", scratch / "c.json"}, "until all runs of a certificate are done"},
+             {{"certify", "tanpura_c3", "--out", scratch / "c.json"},
+              "until all runs of a certificate are done"},
          }) {
         Started nowhere(scratch, arguments);
         std::this_thread::sleep_for(under_way);
         nowhere.send(SIGINT);
         EXPECT_EQ(nowhere.end(), SIGINT) << arguments.front();
-        EXPECT_TRUE(says(content(scratch / "stderr"), "interrupted: nothing is kept, " + said)) << arguments.front() << ": ";
+        EXPECT_TRUE(says(content(scratch / "stderr"), "interrupted: nothing is kept, " + said))
+            << arguments.front() << ": ";
     }
     EXPECT_FALSE(fs::exists(scratch / "c.json"));
     EXPECT_FALSE(fs::exists(scratch / "c.json.lock"));
@@ -189,16 +209,20 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
 TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", references = scratch / "all/references";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n"
-                           "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nreference_modes = "
+    std::ofstream(file) << "[[cells]]\nscenes = [\"free_string\"]\nschemes = "
+                           "[\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n"
+                           "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = "
+                           "[\"modal_two_point\"]\nrates = [44100]\nreference_modes = "
                            "\"cell\"\nduration = 2\n"
                            "reference = \"sundials\"\n";
     Started suite(scratch, {"suite", file, "--out", scratch / "all", "--resume", "--jobs", "2"});
-    suite.once([&] { return cells_in(scratch / "all/cells") == 1 && files_of(references, ".lock") == 1; });
+    suite.once(
+        [&] { return cells_in(scratch / "all/cells") == 1 && files_of(references, ".lock") == 1; });
     suite.send(SIGINT);
     EXPECT_EQ(suite.end(), SIGINT);
     EXPECT_EQ(files_of(references, ".run"), 6);  // of the free string
-    const std::string said = "interrupted: 1 of 2 cells and 6 runs of references are kept in " + (scratch / "all") + "; --resume";
+    const std::string said = "interrupted: 1 of 2 cells and 6 runs of references are kept in " +
+                             (scratch / "all") + "; --resume";
     EXPECT_TRUE(says(content(scratch / "stderr"), said));
     EXPECT_EQ(files_of(references, ".lock") + files_of(scratch / "all/cells", ".lock"), 0);
 }
@@ -208,7 +232,8 @@ TEST(Interruption, AProgramThatIsRunEndsAndWhatItStartedAsWell) {
     std::ofstream(scratch / "mine") << "sleep 30 & echo $$ $! > " + (scratch / "pids") + "; wait\n";
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
         fs::remove(scratch / "pids");
-        Started run(scratch, {"run", "free_string", "--scheme", "mine", "--duration", "0.01", "--external", "sh " + (scratch / "mine")});
+        Started run(scratch, {"run", "free_string", "--scheme", "mine", "--duration", "0.01",
+                              "--external", "sh " + (scratch / "mine")});
         run.once([&] { return content(scratch / "pids").ends_with('\n'); });
         run.send(signal);
         EXPECT_EQ(run.end(), signal);
@@ -218,7 +243,8 @@ TEST(Interruption, AProgramThatIsRunEndsAndWhatItStartedAsWell) {
                 const std::string status = content("/proc/" + std::to_string(pid) + "/stat");
                 return !status.empty() && status.find(") Z") == std::string::npos;
             };
-            for (int k = 0; k < 50 && runs(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            for (int k = 0; k < 50 && runs(); ++k)
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
             EXPECT_FALSE(runs()) << "after signal " << signal;
         }
     }
@@ -227,8 +253,8 @@ TEST(Interruption, AProgramThatIsRunEndsAndWhatItStartedAsWell) {
 
 TEST(Interruption, ARunLeavesNoFile) {
     const Scratch scratch;
-    Started run(scratch,
-                {"run", "tanpura_c3", "--scheme", "modal_two_point", "--rate", "2822400", "--duration", "60", "--out", scratch / "x.csv"});
+    Started run(scratch, {"run", "tanpura_c3", "--scheme", "modal_two_point", "--rate", "2822400",
+                          "--duration", "60", "--out", scratch / "x.csv"});
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     run.send(SIGINT);
     EXPECT_EQ(run.end(), SIGINT);
@@ -239,7 +265,8 @@ TEST(Interruption, ARunLeavesNoFile) {
 TEST(Interruption, CtrlCOnATerminalClearsTheProgressLine) {
     const Scratch scratch;
     Started run(scratch,
-                {"run", "tanpura_c3", "--scheme", "modal_two_point", "--rate", "2822400", "--duration", "60", "--out", scratch / "x.csv"},
+                {"run", "tanpura_c3", "--scheme", "modal_two_point", "--rate", "2822400",
+                 "--duration", "60", "--out", scratch / "x.csv"},
                 {.terminal = true});
     std::string seen;
     while (seen.find('%') == std::string::npos && !run.has_ended()) seen += run.read();
@@ -253,7 +280,8 @@ TEST(Interruption, CtrlCOnATerminalClearsTheProgressLine) {
 TEST(Interruption, WhatTheCallerIgnoresIsIgnored) {
     const Scratch scratch;
     Started run(scratch,
-                {"run", "free_string", "--scheme", "modal_two_point", "--rate", "2822400", "--duration", "3", "--out", scratch / "x.csv"},
+                {"run", "free_string", "--scheme", "modal_two_point", "--rate", "2822400",
+                 "--duration", "3", "--out", scratch / "x.csv"},
                 {.ignoring = true});
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     run.send(SIGINT);
@@ -265,15 +293,18 @@ TEST(Interruption, WhoDrawsAChartIsNotSpared) {
     const Scratch scratch;
     for (const char* library : {"vega", "vega-lite", "vega-embed"}) {
         fs::create_directories(scratch.path / library / "build");
-        std::ofstream(scratch.path / library / "build" / (library + std::string(".min.js"))) << "//";
+        std::ofstream(scratch.path / library / "build" / (library + std::string(".min.js")))
+            << "//";
     }
-    std::ofstream(scratch / "node") << "#!/bin/bash\ngrep SigBlk /proc/self/status >" << scratch / "blocked"
-                                    << "\nexec sleep 1\n";
+    std::ofstream(scratch / "node")
+        << "#!/bin/bash\ngrep SigBlk /proc/self/status >" << scratch / "blocked"
+        << "\nexec sleep 1\n";
     fs::permissions(scratch / "node", fs::perms::owner_all);
     Started compare(scratch,
-                    {"compare", "free_string", "--schemes", "modal_two_point", "--rates", "44100", "--duration", "0.01", "--repeats", "1",
-                     "--out", scratch / "c"},
-                    {.path = scratch.path.string() + ":" + std::getenv("PATH"), .node_modules = scratch.path.string()});
+                    {"compare", "free_string", "--schemes", "modal_two_point", "--rates", "44100",
+                     "--duration", "0.01", "--repeats", "1", "--out", scratch / "c"},
+                    {.path = scratch.path.string() + ":" + std::getenv("PATH"),
+                     .node_modules = scratch.path.string()});
     compare.once([&] { return !content(scratch / "blocked").empty(); });
     compare.send(SIGINT);
     EXPECT_EQ(compare.end(), SIGINT);
@@ -282,7 +313,8 @@ TEST(Interruption, WhoDrawsAChartIsNotSpared) {
         EXPECT_NE(entry.path().filename().string().rfind("jvari-", 0), 0u) << entry.path();
 }
 
-class Child {  // a copy of this program, on its own: it says when it is ready and waits to be told to go on
+// a copy of this program, on its own: it says when it is ready and waits to be told to go on
+class Child {
 public:
     template <class Life>
     explicit Child(Life life) {
@@ -363,7 +395,8 @@ TEST(Interruption, ASecondSignalEndsAtOnceWhatTheFirstWaitsFor) {
 struct Left : Scratch {
     std::string file(const std::string& name, int hours) const {  // of that age
         std::ofstream(*this / name) << "half";
-        fs::last_write_time(*this / name, fs::file_time_type::clock::now() - std::chrono::hours(hours));
+        fs::last_write_time(*this / name,
+                            fs::file_time_type::clock::now() - std::chrono::hours(hours));
         return *this / name;
     }
 };
@@ -373,7 +406,8 @@ TEST(Killed, PartsAreSweptAfterADayAndNothingElse) {
     const bench::store::FreshFile own(left.path / "a.json");
     const std::string part = own.path().filename();
     const std::string swept = left.file(part + "1.part", 25);
-    const std::string kept[] = {left.file(part, 23), left.file("d.json", 25), left.file(part.substr(1), 25), left.file(".mine.part", 25)};
+    const std::string kept[] = {left.file(part, 23), left.file("d.json", 25),
+                                left.file(part.substr(1), 25), left.file(".mine.part", 25)};
     bench::store::sweep_parts(left.path);
     bench::store::sweep_parts(left.path / "nowhere");
     EXPECT_FALSE(fs::exists(swept));
@@ -385,7 +419,8 @@ TEST(Killed, ASuiteSweepsItsCells) {
     fs::create_directories(left / "kept/cells");
     const std::string part = left.file("kept/cells/.jvari-0123456789abcdef.part", 25);
     std::ofstream(left / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\nrepeats = 1\n";
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
+           "[44100]\nduration = 0.01\nrepeats = 1\n";
     EXPECT_EQ(shell(left, "$J suite a.toml --out kept").code, 0);
     EXPECT_FALSE(fs::exists(part));
 }

@@ -1,4 +1,5 @@
-// Runs of references that are kept: what is read back is what was run, and nothing else is believed.
+// Runs of references that are kept: what is read back is what was run, and nothing else is
+// believed.
 #include "bench/trust/kept_run.hpp"
 
 #include <cmath>
@@ -16,9 +17,7 @@ namespace fs = std::filesystem;
 
 const Settings settings{0, 44100, 20, {{"tolerance", "1e-8"}}};
 
-Scene released() {
-    return bench::compare::load_scene("tanpura_c3_release", {}, 5e-3);
-}
+Scene released() { return bench::compare::load_scene("tanpura_c3_release", {}, 5e-3); }
 
 jvari::Run a_run(double seconds = 1) {
     jvari::Run r = run(exact_contact, released(), settings);
@@ -60,7 +59,8 @@ TEST(KeptRun, IsNotBelievedWhereItIsBrokenAlteredOrOfAnother) {
     const std::string whole = content(path.string());
     EXPECT_FALSE(bench::trust::read_run(path, "another"));
     EXPECT_FALSE(bench::trust::read_run(scratch / "none.run", "key"));
-    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{7}, std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
         overwrite(path, whole.substr(0, size));
         EXPECT_FALSE(bench::trust::read_run(path, "key")) << size;
     }
@@ -99,17 +99,22 @@ TEST(KeptRun, IsNotBelievedWhereItsChecksumIsRightAndItsContentIsNot) {
 
 TEST(KeptRun, OfSizesThatCannotBeIsNotBelievedWhateverItsChecksum) {
     const Scratch scratch;
-    const auto believed = [&](const std::string& dofs, const std::string& stride, const std::string& rows) {
-        const std::string content = R"({"key":"key","outcome":"ok","failed_step":0,"dofs":)" + dofs +
-                                    R"(,"steps":0,"wall_seconds":1,"facts":[],"worst_block":0,"tap_rate":44100,"stride":)" + stride +
-                                    R"(,"rows":)" + rows + R"(,"names":["a","b","c","d","e","f","g","h"]})" + "\n";
+    const auto believed = [&](const std::string& dofs, const std::string& stride,
+                              const std::string& rows) {
+        const std::string content =
+            R"({"key":"key","outcome":"ok","failed_step":0,"dofs":)" + dofs +
+            R"(,"steps":0,"wall_seconds":1,"facts":[],"worst_block":0,"tap_rate":44100,"stride":)" +
+            stride + R"(,"rows":)" + rows + R"(,"names":["a","b","c","d","e","f","g","h"]})" + "\n";
         overwrite(scratch / "a.run", bench::store::hash_of(content) + content);
         return bench::trust::read_run(scratch / "a.run", "key").has_value();
     };
     EXPECT_TRUE(believed("4", "9", "0"));
-    EXPECT_FALSE(believed("4", "0", "0"));                                      // a run has its first row at least
-    EXPECT_FALSE(believed("4", "2305843009213693952", "2305843009213693952"));  // 2^61: eight columns of as many doubles are 0 bytes
-    EXPECT_FALSE(believed("4", "1000000000", "0"));                             // 64 GB of rows that were never made
+    // a run has its first row at least
+    EXPECT_FALSE(believed("4", "0", "0"));
+    // 2^61: eight columns of as many doubles are 0 bytes
+    EXPECT_FALSE(believed("4", "2305843009213693952", "2305843009213693952"));
+    // 64 GB of rows that were never made
+    EXPECT_FALSE(believed("4", "1000000000", "0"));
     EXPECT_FALSE(believed("1e300", "9", "0"));
     EXPECT_FALSE(believed("2147483648", "9", "0"));
     EXPECT_FALSE(believed("4", "9", "18446744073709551615"));
@@ -120,7 +125,8 @@ TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {
     const fs::path folder = scratch / "runs";
     int made = 0;
     const auto make = [&made] { return ++made, a_run(); };
-    const jvari::Run first = bench::trust::kept_run(folder, "key", make), second = bench::trust::kept_run(folder, "key", make);
+    const jvari::Run first = bench::trust::kept_run(folder, "key", make),
+                     second = bench::trust::kept_run(folder, "key", make);
     EXPECT_EQ(made, 1);
     EXPECT_EQ(first.trace.tap, second.trace.tap);
     overwrite(folder / "key.run", "half");

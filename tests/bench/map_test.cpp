@@ -1,4 +1,5 @@
-// Maps of suites: the file, bisection, boundaries against theory, and that a map which was stopped ends like one that was not.
+// Maps of suites: the file, bisection, boundaries against theory, and that a map which was stopped
+// ends like one that was not.
 #include <cmath>
 #include <thread>
 
@@ -37,25 +38,34 @@ TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
     EXPECT_TRUE(m.y.whole);
     EXPECT_FALSE(m.x.whole);
     EXPECT_TRUE(m.reproduce);
-    EXPECT_EQ(m.fixed,
-              (std::vector<bench::map::Assignment>{{"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
+    EXPECT_EQ(m.fixed, (std::vector<bench::map::Assignment>{{"rate", "48000"},
+                                                            {"option:grid", "100"},
+                                                            {"string.0.damping.law", "\"none\""}}));
 }
 
 TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
-    const std::string head = "[[map]]\nname = \"a\"\nscene = \"b\"\n", x = "x = { key = \"rate\", values = [1, 2] }\n";
+    const std::string head = "[[map]]\nname = \"a\"\nscene = \"b\"\n",
+                      x = "x = { key = \"rate\", values = [1, 2] }\n";
     const std::pair<std::string, const char*> cases[] = {
         {"[[map]]\nname = \"a\"\n" + x, "a.toml:1: map.0: the key scene is missing"},
-        {head + x + "schmes = [\"c\"]", "a.toml:5: map.0: unknown key \"schmes\"; did you mean \"schemes\"?"},
-        {head + "x = { key = \"rate\", valeus = [1] }", "a.toml:4: map.0.x: unknown key \"valeus\"; did you mean \"values\"?"},
+        {head + x + "schmes = [\"c\"]",
+         "a.toml:5: map.0: unknown key \"schmes\"; did you mean \"schemes\"?"},
+        {head + "x = { key = \"rate\", valeus = [1] }",
+         "a.toml:4: map.0.x: unknown key \"valeus\"; did you mean \"values\"?"},
         {head + "x = { key = \"rate\" }", "a.toml:4: map.0.x: the key from is missing"},
-        {head + "x = { key = \"rate\", from = 2, to = 1, points = 3 }", "map.0.x.to: found 1, expected more than from"},
-        {head + "x = { key = \"rate\", from = 1, to = 2, points = 1 }", "map.0.x.points: found 1, expected 2 or more"},
-        {head + "x = { key = \"rate\", from = 1, values = [1] }", "map.0.x.from: found 1, expected either values or from, to and points"},
+        {head + "x = { key = \"rate\", from = 2, to = 1, points = 3 }",
+         "map.0.x.to: found 1, expected more than from"},
+        {head + "x = { key = \"rate\", from = 1, to = 2, points = 1 }",
+         "map.0.x.points: found 1, expected 2 or more"},
+        {head + "x = { key = \"rate\", from = 1, values = [1] }",
+         "map.0.x.from: found 1, expected either values or from, to and points"},
         {head + "x = { key = \"rate\", values = [2, 1] }", "expected numbers that ascend"},
-        {head + "x = { key = \"rate\", values = [-2] }", "a.toml:4: map.0.x.values.0: found -2, expected a number > 0"},
+        {head + "x = { key = \"rate\", values = [-2] }",
+         "a.toml:4: map.0.x.values.0: found -2, expected a number > 0"},
         {head + "x = { key = \"modes\", values = [2.5] }",
          "a.toml:4: map.0.x.values.0: found 2.5, expected a whole number from 1 to 9999999"},
-        {head + x + "rate = 3", "map.0.x.key: found \"rate\", expected a key that is not set for all points as well"},
+        {head + x + "rate = 3",
+         "map.0.x.key: found \"rate\", expected a key that is not set for all points as well"},
         {head + x + "reproduce = 1", "a.toml:5: map.0.reproduce: found 1, expected true or false"},
         {head + x + "theory = \"grid\"", "a.toml:5: map.0.theory: unknown theory \"grid\""},
         {head + "x = { key = \"string.0.damping.law\", values = [\"none\"] }\nrefine = 3",
@@ -69,12 +79,15 @@ TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
 // ---- Bisection
 
 TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
-    const std::string head = "[[map]]\nname = \"a\"\nscene = \"free_string\"\nschemes = [\"modal_two_point\", \"modal_quadratised\"]\n";
+    const std::string head =
+        "[[map]]\nname = \"a\"\nscene = \"free_string\"\nschemes = [\"modal_two_point\", "
+        "\"modal_quadratised\"]\n";
     const auto axis = [](const char* name, const std::string& points) {
-        return name + std::string(" = { key = \"") + (*name == 'x' ? "rate" : "duration") + "\", from = 1, to = 2, points = " + points +
-               " }\n";
+        return name + std::string(" = { key = \"") + (*name == 'x' ? "rate" : "duration") +
+               "\", from = 1, to = 2, points = " + points + " }\n";
     };
-    EXPECT_EQ(refusal_of(head + axis("x", "9999999")), "a.toml:5: map.0.x.points: found 9999999, expected at most 1000000");
+    EXPECT_EQ(refusal_of(head + axis("x", "9999999")),
+              "a.toml:5: map.0.x.points: found 9999999, expected at most 1000000");
     EXPECT_EQ(refusal_of(head + axis("x", "10000") + axis("y", "1000")),
               "a.toml:1: map.0: found 20000000 points, expected at most 1000000");
     EXPECT_EQ(refusal_of(head + axis("x", "500") + axis("y", "1000")), "read");
@@ -83,10 +96,12 @@ TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
     int asked = 0;
     const auto past_pi = [&asked](double x) {
-        return ++asked, x < 3.14159265 ? bench::study::Verdict::sound : bench::study::Verdict::diverged;
+        return ++asked,
+               x < 3.14159265 ? bench::study::Verdict::sound : bench::study::Verdict::diverged;
     };
     const bench::map::Bracket b =
-        bench::map::bisect({1, 100, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 20, false, past_pi);
+        bench::map::bisect({1, 100, bench::study::Verdict::sound, bench::study::Verdict::diverged},
+                           20, false, past_pi);
     EXPECT_EQ(asked, 20);
     EXPECT_LT(b.low, 3.14159265);
     EXPECT_GE(b.high, 3.14159265);
@@ -94,31 +109,38 @@ TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
 }
 
 TEST(Bisection, OfWholeNumbersEndsAtNeighbours) {
-    const auto past = [](double x) { return x <= 137 ? bench::study::Verdict::sound : bench::study::Verdict::refused; };
-    const bench::map::Bracket b =
-        bench::map::bisect({100, 400, bench::study::Verdict::sound, bench::study::Verdict::refused}, 60, true, past);
+    const auto past = [](double x) {
+        return x <= 137 ? bench::study::Verdict::sound : bench::study::Verdict::refused;
+    };
+    const bench::map::Bracket b = bench::map::bisect(
+        {100, 400, bench::study::Verdict::sound, bench::study::Verdict::refused}, 60, true, past);
     EXPECT_EQ(b.low, 137);
     EXPECT_EQ(b.high, 138);
 }
 
 TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereStabilityEnds) {
     const auto three = [](double x) {
-        return x < 2 ? bench::study::Verdict::sound : x < 3 ? bench::study::Verdict::adhesive : bench::study::Verdict::diverged;
+        return x < 2   ? bench::study::Verdict::sound
+               : x < 3 ? bench::study::Verdict::adhesive
+                       : bench::study::Verdict::diverged;
     };
-    const bench::map::Bracket end =
-        bench::map::bisect({1, 10, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 30, false, three);
+    const bench::map::Bracket end = bench::map::bisect(
+        {1, 10, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 30, false, three);
     EXPECT_NEAR(end.low, 2, 1e-6);
     EXPECT_EQ(end.at_high, bench::study::Verdict::adhesive);
     const auto mirrored = [&three](double x) { return three(11 - x); };
     const bench::map::Bracket start =
-        bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, mirrored);
+        bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound},
+                           30, false, mirrored);
     EXPECT_NEAR(start.high, 9, 1e-6);
     EXPECT_EQ(start.at_low, bench::study::Verdict::adhesive);
     const auto flagged = [](double x) {  // an open ledger between is stable
-        return x < 2 ? bench::study::Verdict::diverged : x < 3 ? bench::study::Verdict::flagged : bench::study::Verdict::sound;
+        return x < 2   ? bench::study::Verdict::diverged
+               : x < 3 ? bench::study::Verdict::flagged
+                       : bench::study::Verdict::sound;
     };
-    const bench::map::Bracket stable =
-        bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, flagged);
+    const bench::map::Bracket stable = bench::map::bisect(
+        {1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, flagged);
     EXPECT_NEAR(stable.low, 2, 1e-6);
     EXPECT_EQ(stable.at_high, bench::study::Verdict::flagged);
 }
@@ -150,9 +172,11 @@ constexpr const char* limits = R"(
     refine = 8
 )";
 
-bench::map::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {}, bool resume = false, int jobs = 1) {
+bench::map::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {},
+                          bool resume = false, int jobs = 1) {
     static const bench::compare::Catalogue catalogue;
-    return bench::map::run_maps(suite.maps, catalogue, {"\"tests\"", folder, resume, jobs}, bench::store::Listener());
+    return bench::map::run_maps(suite.maps, catalogue, {"\"tests\"", folder, resume, jobs},
+                                bench::store::Listener());
 }
 
 TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
@@ -160,13 +184,16 @@ TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
     const bench::map::MapRun run = run_of(suite);
     ASSERT_EQ(run.boundaries.size(), 3u);
     for (const bench::map::Boundary& b : run.boundaries) {
-        EXPECT_LT(std::abs(b.relative_difference()), 0.01) << b.map->name << " " << b.scheme->name << " " << b.theory;
+        EXPECT_LT(std::abs(b.relative_difference()), 0.01)
+            << b.map->name << " " << b.scheme->name << " " << b.theory;
         EXPECT_EQ(b.high, bench::study::Verdict::sound);
         EXPECT_NE(b.low, bench::study::Verdict::sound);
     }
     const bench::store::Table t = bench::map::boundaries_table(run, {});
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        EXPECT_EQ(t.at(i, "theory_holds_for").starts_with("lasting contact;"), t.at(i, "map") == "penalty") << t.at(i, "theory_holds_for");
+        EXPECT_EQ(t.at(i, "theory_holds_for").starts_with("lasting contact;"),
+                  t.at(i, "map") == "penalty")
+            << t.at(i, "theory_holds_for");
     EXPECT_TRUE(says(bench::map::maps_text(run), "theory holds for lasting contact;"));
 }
 
@@ -174,10 +201,12 @@ TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
     const bench::compare::Catalogue catalogue;
     const bench::map::Trials trials(catalogue);
     const auto at = [&](const char* rate, const std::string& reference) {
-        bench::map::Trial t = bench::map::trial_of("free_string", catalogue.find("modal_two_point"), reference,
-                                                   {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
+        bench::map::Trial t =
+            bench::map::trial_of("free_string", catalogue.find("modal_two_point"), reference,
+                                 {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
         t.settings.tap_rate = 44100;
-        return trials.plan_of(t).points.front().reference_key;  // points that share it share the run
+        // points that share it share the run
+        return trials.plan_of(t).points.front().reference_key;
     };
     EXPECT_NE(at("44100", "modal_spatial_newton"), at("88200", "modal_spatial_newton"));
     EXPECT_EQ(at("44100", "modal_spatial_newton"), at("44100", "modal_spatial_newton"));
@@ -188,8 +217,9 @@ TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {
     const bench::compare::Catalogue catalogue;
     bench::map::Trials trials(catalogue);
     const auto error = [&](const char* modes, int reference_modes) {
-        const bench::map::Trial t = bench::map::trial_of("tanpura_c3_release", catalogue.find("modal_two_point"), "exact_contact",
-                                                         {{"rate", "705600"}, {"modes", modes}, {"duration", "0.005"}}, reference_modes);
+        const bench::map::Trial t = bench::map::trial_of(
+            "tanpura_c3_release", catalogue.find("modal_two_point"), "exact_contact",
+            {{"rate", "705600"}, {"modes", modes}, {"duration", "0.005"}}, reference_modes);
         return trials(t).error;
     };
     EXPECT_LT(error("20", 0), 0.02);  // within a string of 20 modes
@@ -215,8 +245,8 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     EXPECT_EQ(t.at(0, "reference"), "exact_linear");
     EXPECT_EQ(t.at(1, "outcome"), "refused");
     EXPECT_TRUE(says(t.at(1, "detail"), "half the sample rate"));
-    const bench::store::Table boundaries =
-        bench::map::boundaries_table(run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
+    const bench::store::Table boundaries = bench::map::boundaries_table(
+        run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
     ASSERT_GE(boundaries.rows.size(), 2u);
     EXPECT_EQ(boundaries.at(0, "between"), "sound|refused");
     EXPECT_EQ(boundaries.at(0, "reproducer"), "failures/a.toml");
@@ -229,7 +259,8 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
     const bench::map::MapRun whole = run_of(suite, scratch.path);
     EXPECT_EQ(whole.read_back, 0);
-    int removed = 0;  // as if the suite had been stopped: a part of its points, and one that was cut off
+    // as if the suite had been stopped: a part of its points, and one that was cut off
+    int removed = 0;
     for (const auto& entry : fs::directory_iterator(scratch.path / "points")) {
         if (++removed % 3 == 0) fs::remove(entry.path());
         if (removed % 7 == 0) std::ofstream(entry.path()) << "{";
@@ -243,7 +274,8 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     EXPECT_EQ(run_of(suite, scratch.path, true).ran, 0);
     const auto first = fs::directory_iterator(scratch.path / "points")->path(),
                second = std::next(fs::directory_iterator(scratch.path / "points"))->path();
-    fs::copy_file(first, second, fs::copy_options::overwrite_existing);  // a point under the name of another
+    // a point under the name of another
+    fs::copy_file(first, second, fs::copy_options::overwrite_existing);
     EXPECT_EQ(run_of(suite, scratch.path, true).ran, 1);
 }
 
@@ -257,7 +289,8 @@ TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {
         x = { key = "rate", values = [44100, 88200] }
         duration = 0.005
     )";
-    const auto r = jvari(scratch, "suite " + (scratch / "s.toml") + " --out " + (scratch / "out"), "JVARI_NODE_MODULES=/nowhere");
+    const auto r = jvari(scratch, "suite " + (scratch / "s.toml") + " --out " + (scratch / "out"),
+                         "JVARI_NODE_MODULES=/nowhere");
     EXPECT_EQ(r.code, 0) << r.err;
     const bench::store::Table t = bench::store::read_csv(content(scratch / "out/maps.csv"));
     ASSERT_EQ(t.rows.size(), 2u);

@@ -1,4 +1,5 @@
-// What a suite measures beside errors: dispersion and compliance of the schemes, observed orders, the cheapest cells.
+// What a suite measures beside errors: dispersion and compliance of the schemes, observed orders,
+// the cheapest cells.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +23,8 @@ const Descriptor& scheme_named(const std::string& name) {
     throw std::runtime_error(name);
 }
 
-bench::store::Table rows_for(const std::string& scheme, const std::string& scene_name, double rate, std::vector<std::string> set = {},
-                             double duration = 0.3) {
+bench::store::Table rows_for(const std::string& scheme, const std::string& scene_name, double rate,
+                             std::vector<std::string> set = {}, double duration = 0.3) {
     const Scene scene = bench::compare::load_scene(scene_name, set, duration);
     Settings settings;
     settings.sample_rate = rate;
@@ -35,13 +36,18 @@ bench::store::Table rows_for(const std::string& scheme, const std::string& scene
 // ---- Dispersion
 
 TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
-    for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton", "modal_three_point",
-                             "finite_difference_explicit", "finite_difference_theta", "finite_difference_hamiltonian"}) {
-        const bench::store::Table t = rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
+    for (const char* name :
+         {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton",
+          "modal_three_point", "finite_difference_explicit", "finite_difference_theta",
+          "finite_difference_hamiltonian"}) {
+        const bench::store::Table t =
+            rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
         ASSERT_EQ(t.rows.size(), 30u) << name;
         for (std::size_t i = 0; i < t.rows.size(); ++i) {
-            EXPECT_NEAR(t.number(i, "own_cents"), t.number(i, "trace_cents"), 1e-5) << name << " mode " << i + 1;
-            EXPECT_NEAR(t.number(i, "own_decay_per_s"), t.number(i, "trace_decay_per_s"), 1e-4) << name << " mode " << i + 1;
+            EXPECT_NEAR(t.number(i, "own_cents"), t.number(i, "trace_cents"), 1e-5)
+                << name << " mode " << i + 1;
+            EXPECT_NEAR(t.number(i, "own_decay_per_s"), t.number(i, "trace_decay_per_s"), 1e-4)
+                << name << " mode " << i + 1;
         }
     }
 }
@@ -49,12 +55,14 @@ TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
 TEST(Dispersion, ExactCoefficientsAreExactAndTrapezoidalOnesWarpByTheirArctangent) {
     const double dt = 1 / 44100.0;
     const bench::store::Table exact = rows_for("modal_two_point", "free_string", 44100),
-                              warped = rows_for("modal_two_point_trapezoidal", "free_string", 44100);
+                              warped =
+                                  rows_for("modal_two_point_trapezoidal", "free_string", 44100);
     for (std::size_t i = 0; i < exact.rows.size(); ++i) {
         const double omega = 2 * pi * exact.number(i, "frequency_hz");
         EXPECT_NEAR(exact.number(i, "own_cents"), 0, 1e-9);
         EXPECT_NEAR(exact.number(i, "own_decay_per_s"), exact.number(i, "decay_per_s"), 1e-9);
-        EXPECT_NEAR(warped.number(i, "own_cents"), 1200 * std::log2(2 / dt * std::atan(omega * dt / 2) / omega),
+        EXPECT_NEAR(warped.number(i, "own_cents"),
+                    1200 * std::log2(2 / dt * std::atan(omega * dt / 2) / omega),
                     1e-3);  // to sigma^2/omega^2
     }
 }
@@ -69,7 +77,8 @@ TEST(Dispersion, TheSitarOfIntegerLengthIsSharpByAsMuchAsThePaperSays) {
 }
 
 TEST(Dispersion, AStringAgainstABridgeHasNoModesOfItsOwnToHear) {
-    const bench::store::Table t = rows_for("modal_two_point", "tanpura_c3_release", 44100, {}, 0.05);
+    const bench::store::Table t =
+        rows_for("modal_two_point", "tanpura_c3_release", 44100, {}, 0.05);
     ASSERT_FALSE(t.rows.empty());
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         EXPECT_EQ(t.at(i, "trace_cents"), "");
@@ -86,12 +95,14 @@ double compliance(const std::string& scheme, double rate) {
     return fact_of(run(scheme_named(scheme), scene, settings).facts, "static_compliance");
 }
 
-TEST(Compliance, ExactModesDoNotMakeAnExactForcedResponse) {  // 0.926 and 1.045: an independent prototype's, C3, 133 modes, 44.1 kHz
+// 0.926 and 1.045: an independent prototype's, C3, 133 modes, 44.1 kHz
+TEST(Compliance, ExactModesDoNotMakeAnExactForcedResponse) {
     EXPECT_NEAR(compliance("modal_two_point", 44100), 0.926, 5e-4);
     EXPECT_NEAR(compliance("modal_quadratised", 44100), 0.926, 5e-4);
     EXPECT_NEAR(compliance("modal_spatial_newton", 44100), 1.045, 5e-4);
     EXPECT_NEAR(compliance("modal_explicit_penalty", 44100), 1.045, 5e-4);
-    EXPECT_NEAR(compliance("modal_two_point_trapezoidal", 44100), 1, 1e-12);  // omega0^2 dt^2/4 is the true stiffness
+    // omega0^2 dt^2/4 is the true stiffness
+    EXPECT_NEAR(compliance("modal_two_point_trapezoidal", 44100), 1, 1e-12);
 }
 
 TEST(Compliance, GoesToTheTrueOneWithTheSquareOfTheStep) {
@@ -127,11 +138,13 @@ bench::store::Table cells_with(const std::vector<std::vector<std::string>>& rows
 
 TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
     const bench::store::Table t = bench::compare::convergence_of(cells_with({
-        {"1", "s", "a", "", "100", "10", "ok", "", "", "1.5", "1e-9", "", "", "", ""},   // nothing of the waveform is right
+        // nothing of the waveform is right
+        {"1", "s", "a", "", "100", "10", "ok", "", "", "1.5", "1e-9", "", "", "", ""},
         {"2", "s", "a", "", "200", "20", "ok", "", "", "0.04", "1e-9", "", "", "", ""},  // order 2
         {"3", "s", "a", "", "400", "40", "ok", "", "", "0.01", "1e-9", "", "", "", ""},
         {"4", "s", "a", "", "800", "80", "ok", "", "", "0.0025", "1e-9", "", "", "", ""},
-        {"5", "s", "a", "", "1600", "160", "ok", "", "", "1e-9", "1e-9", "", "", "", ""},  // the floor
+        // the floor
+        {"5", "s", "a", "", "1600", "160", "ok", "", "", "1e-9", "1e-9", "", "", "", ""},
         {"6", "s", "a", "", "3200", "320", "diverged", "", "", "inf", "1e-9", "", "", "", ""},
         {"7", "s", "b", "", "100", "10", "ok", "", "", "0.1", "1e-9", "", "", "", ""},
         {"8", "s", "b", "", "200", "10", "ok", "", "", "0.05", "1e-9", "", "", "", ""},

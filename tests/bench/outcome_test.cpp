@@ -11,9 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Descriptor promising(Balance b) {
-    return {"made_up", "", {}, b, Clock::stepped, nullptr};
-}
+Descriptor promising(Balance b) { return {"made_up", "", {}, b, Clock::stepped, nullptr}; }
 
 Scene string_over_barrier() {
     Scene s;
@@ -49,12 +47,15 @@ struct MadeUp {  // 100 rows at 1 kHz of a string that swings
         const Descriptor d = promising(b);
         bench::study::Cell cell{&d, {}};
         cell.summary = bench::study::summary_of(d, scene, {}, run);
-        return bench::study::judge(cell, with_truth ? bench::study::errors_of(run.trace, truth).at(2).at(2) : nan);  // nut, whole run
+        // nut, whole run
+        return bench::study::judge(
+            cell, with_truth ? bench::study::errors_of(run.trace, truth).at(2).at(2) : nan);
     }
     bench::study::Verdict verdict(Balance b = Balance::exact) { return judgement(b).verdict; }
 };
 
-bench::study::Judgement judged(Status status, double over_bound, double gain, double pull, double error, Balance b) {
+bench::study::Judgement judged(Status status, double over_bound, double gain, double pull,
+                               double error, Balance b) {
     const Descriptor d = promising(b);
     bench::study::Cell cell{&d, {}};
     cell.summary.status = status;
@@ -84,8 +85,10 @@ TEST(Outcome, EnergyThatTheLedgerDoesNotExplainIsAGain) {
     m.energy(1, 50) = 1;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.energy(0, 80) = 2 + 4e-6;
-    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);        // 2e-6 of the 2 J that were there
-    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::flagged);  // no gain to speak of, and an open ledger
+    // 2e-6 of the 2 J that were there
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::energy_gaining);
+    // no gain to speak of, and an open ledger
+    EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::flagged);
     m.energy(0, 80) = 2.04;
     EXPECT_EQ(m.verdict(Balance::none), bench::study::Verdict::energy_gaining);
 }
@@ -93,7 +96,8 @@ TEST(Outcome, EnergyThatTheLedgerDoesNotExplainIsAGain) {
 TEST(Outcome, EnergyThatIsLostIsNoGain) {
     MadeUp m;
     for (int n = 1; n < 100; ++n) m.energy(0, n) = 0.5;
-    EXPECT_EQ(m.verdict(), bench::study::Verdict::flagged);  // the ledger does not say where it went
+    // the ledger does not say where it went
+    EXPECT_EQ(m.verdict(), bench::study::Verdict::flagged);
     m.energy(2, 1) = 0.5;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
 }
@@ -124,7 +128,8 @@ TEST(Outcome, ARunThatNothingSpeaksOfIsUnjudgedAndNeverSound) {
     m.scene.strings[0].initial.reset();  // nor does its own energy say how far it may swing
     EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::study::Verdict::unjudged);
     EXPECT_NE(m.judgement(Balance::none, false).detail, "");
-    EXPECT_EQ(m.judgement(Balance::none, true).verdict, bench::study::Verdict::sound);  // its reference speaks
+    // its reference speaks
+    EXPECT_EQ(m.judgement(Balance::none, true).verdict, bench::study::Verdict::sound);
     EXPECT_EQ(judged({}, 0, nan, nan, nan, Balance::none).verdict, bench::study::Verdict::sound);
     EXPECT_EQ(judged({}, nan, 0, nan, nan, Balance::none).verdict, bench::study::Verdict::sound);
     EXPECT_EQ(judged({}, nan, nan, 0, nan, Balance::none).verdict, bench::study::Verdict::sound);
@@ -137,7 +142,8 @@ TEST(Outcome, APullIsMeasuredAgainstTheHardestPush) {
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.run.facts[0].value = -1.1 * 6e-6;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::adhesive);
-    m.run.facts = {{"smallest_contact_force", -0.9e-9, "N"}, {"largest_contact_force", 0, "N"}};  // it hardly touches
+    // it hardly touches
+    m.run.facts = {{"smallest_contact_force", -0.9e-9, "N"}, {"largest_contact_force", 0, "N"}};
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     m.run.facts = {{"smallest_contact_force", -1.1e-9, "N"}};  // and does not say how it pushes
     EXPECT_EQ(m.verdict(), bench::study::Verdict::adhesive);
@@ -149,7 +155,8 @@ TEST(Outcome, ATenthOfErrorIsInaccurate) {
     EXPECT_EQ(m.verdict(), bench::study::Verdict::sound);
     for (int n = 200; n < 300; ++n) m.run.trace.tap[n] = m.truth.tap[n] * 1.11;
     EXPECT_EQ(m.verdict(), bench::study::Verdict::inaccurate);
-    EXPECT_EQ(m.judgement(Balance::exact, false).verdict, bench::study::Verdict::sound);  // nothing to be compared with
+    // nothing to be compared with
+    EXPECT_EQ(m.judgement(Balance::exact, false).verdict, bench::study::Verdict::sound);
 }
 
 TEST(Outcome, WhatAComparisonFlagsIsNeverSound) {
@@ -159,20 +166,31 @@ TEST(Outcome, WhatAComparisonFlagsIsNeverSound) {
         return m.verdict() == bench::study::Verdict::sound;
     };
     EXPECT_TRUE(sound_with([](MadeUp&) {}));
-    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts.push_back({"psi_out_of_contact", 2e-9, "1"}); }));
-    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts.push_back({"modes_above_nyquist", 1, ""}); }));
-    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts[0].value = -1; }));                    // adhesion
-    EXPECT_FALSE(sound_with([](MadeUp& m) { m.energy(2, 50) = 2e-6, m.energy(1, 50) = 0; }));  // energy
+    EXPECT_FALSE(sound_with([](MadeUp& m) {
+        m.run.facts.push_back({"psi_out_of_contact", 2e-9, "1"});
+    }));
+    EXPECT_FALSE(sound_with([](MadeUp& m) {
+        m.run.facts.push_back({"modes_above_nyquist", 1, ""});
+    }));
+    // adhesion
+    EXPECT_FALSE(sound_with([](MadeUp& m) { m.run.facts[0].value = -1; }));
+    // energy
+    EXPECT_FALSE(sound_with([](MadeUp& m) { m.energy(2, 50) = 2e-6, m.energy(1, 50) = 0; }));
 }
 
 TEST(Outcome, TheGravestNameWins) {
     const Status stopped{Outcome::not_converged, 3};
-    EXPECT_EQ(judged({Outcome::diverged, 3}, 9, 1, 1, 1, Balance::exact).verdict, bench::study::Verdict::diverged);
-    EXPECT_EQ(judged(stopped, nan, 1, 1, 1, Balance::exact).verdict, bench::study::Verdict::not_converged);
-    EXPECT_EQ(judged({}, nan, 1, 1, 1, Balance::exact).verdict, bench::study::Verdict::energy_gaining);
+    EXPECT_EQ(judged({Outcome::diverged, 3}, 9, 1, 1, 1, Balance::exact).verdict,
+              bench::study::Verdict::diverged);
+    EXPECT_EQ(judged(stopped, nan, 1, 1, 1, Balance::exact).verdict,
+              bench::study::Verdict::not_converged);
+    EXPECT_EQ(judged({}, nan, 1, 1, 1, Balance::exact).verdict,
+              bench::study::Verdict::energy_gaining);
     EXPECT_EQ(judged({}, nan, nan, 1, 1, Balance::exact).verdict, bench::study::Verdict::adhesive);
-    EXPECT_EQ(judged({}, nan, nan, nan, 1, Balance::exact).verdict, bench::study::Verdict::inaccurate);
-    EXPECT_EQ(judged({}, nan, nan, nan, nan, Balance::exact).verdict, bench::study::Verdict::unjudged);
+    EXPECT_EQ(judged({}, nan, nan, nan, 1, Balance::exact).verdict,
+              bench::study::Verdict::inaccurate);
+    EXPECT_EQ(judged({}, nan, nan, nan, nan, Balance::exact).verdict,
+              bench::study::Verdict::unjudged);
 }
 
 }  // namespace

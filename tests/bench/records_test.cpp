@@ -22,15 +22,19 @@ TEST(Records, WhatCsvWritesItReadsBackWhateverTheFieldsHold) {
 }
 
 TEST(Records, NoTextIsAFormulaToASpreadsheetAndNumbersStayNumbers) {
-    const bench::store::Table t{{"=a", "b"}, {{"=1+1", "-thread"}, {"@x", "+"}, {"'=1", "'"}, {"-0.5", "-inf"}, {"-1e-05", "=a,\"b\""}}};
-    EXPECT_EQ(csv(t), "'=a,b\n'=1+1,'-thread\n'@x,'+\n''=1,''\n-0.5,-inf\n-1e-05,\"'=a,\"\"b\"\"\"\n");
+    const bench::store::Table t{
+        {"=a", "b"},
+        {{"=1+1", "-thread"}, {"@x", "+"}, {"'=1", "'"}, {"-0.5", "-inf"}, {"-1e-05", "=a,\"b\""}}};
+    EXPECT_EQ(csv(t),
+              "'=a,b\n'=1+1,'-thread\n'@x,'+\n''=1,''\n-0.5,-inf\n-1e-05,\"'=a,\"\"b\"\"\"\n");
     const bench::store::Table back = bench::store::read_csv(bench::store::csv(t));
     EXPECT_EQ(back.columns, t.columns);
     EXPECT_EQ(back.rows, t.rows);
 }
 
 TEST(Records, NumbersReadBackAsTheSameDouble) {
-    for (double x : {0.0, 0.1, 1.0 / 3, 1e-320, 6.02214076e23, -0.1, 2822400.0, std::numeric_limits<double>::max()})
+    for (double x : {0.0, 0.1, 1.0 / 3, 1e-320, 6.02214076e23, -0.1, 2822400.0,
+                     std::numeric_limits<double>::max()})
         EXPECT_EQ(bench::store::number_of(bench::store::text_of(x)), x);
     EXPECT_EQ(bench::store::text_of(std::nan("")), "");
     EXPECT_TRUE(std::isnan(bench::store::number_of("")));
@@ -75,7 +79,9 @@ TEST(Checksum, WhatWasSealedComesBackAndNothingElseDoes) {
 }
 
 TEST(Checksum, NestingIsCountedOutsideOfTexts) {
-    const auto deep = [](std::size_t n, const std::string& within) { return std::string(n, '[') + within + std::string(n, ']'); };
+    const auto deep = [](std::size_t n, const std::string& within) {
+        return std::string(n, '[') + within + std::string(n, ']');
+    };
     EXPECT_NO_THROW(bench::store::parsed(deep(32, "\"[[[[\\\"[[[[\"")));
     EXPECT_NO_THROW(bench::store::parsed("[" + deep(31, "") + "," + deep(31, "") + "]"));
     EXPECT_THROW(bench::store::parsed(deep(33, "")), std::runtime_error);

@@ -1,5 +1,5 @@
-// The report of a folder: what its page is given, what is refused, and what fits. What the page makes of it is asked of its own JavaScript
-// in tests/browser/page.mjs. The folder is made up.
+// The report of a folder: what its page is given, what is refused, and what fits. What the page
+// makes of it is asked of its own JavaScript in tests/browser/page.mjs. The folder is made up.
 #include "bench/report/report.hpp"
 
 #include <fmt/core.h>
@@ -25,11 +25,13 @@ using Json = nlohmann::ordered_json;
 
 struct MadeUp : Scratch {  // some of the files
     explicit MadeUp(const std::vector<std::string>& files) {
-        for (const std::string& name : files) fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
+        for (const std::string& name : files)
+            fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
     }
 };
-const std::vector<std::string> every_file{"manifest.json", "cells.csv",      "dispersion.csv", "convergence.csv",
-                                          "maps.csv",      "boundaries.csv", "others.svg"};
+const std::vector<std::string> every_file{"manifest.json",   "cells.csv", "dispersion.csv",
+                                          "convergence.csv", "maps.csv",  "boundaries.csv",
+                                          "others.svg"};
 
 Json data_of(const std::string& page) {
     const auto from = page.find("id=\"data\">") + 10;
@@ -38,7 +40,8 @@ Json data_of(const std::string& page) {
 
 TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     const MadeUp folder(every_file);
-    const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    const Outcome o =
+        jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(o.err, "npm ci"));
     const Json data = data_of(content(folder / "report.html"));
@@ -51,7 +54,8 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
         EXPECT_EQ(kept.only(file.columns).rows, file.rows) << name;  // the files' own rows, whole
     }
     for (const auto& entry : fs::directory_iterator(folder.path))
-        EXPECT_TRUE(entry.path().extension() != ".svg" || entry.path().filename() == "others.svg") << entry.path();
+        EXPECT_TRUE(entry.path().extension() != ".svg" || entry.path().filename() == "others.svg")
+            << entry.path();
 }
 
 TEST(Report, AFolderWithoutResultsIsRefused) {
@@ -68,16 +72,18 @@ TEST(Report, ATableThatWasCutAfterItsHeaderIsRefusedAndThePageStays) {
         const MadeUp folder({"manifest.json", "maps.csv"});
         std::ofstream(folder / table) << "scheme,rate\n";
         std::ofstream(folder / "report.html") << "the page";
-        EXPECT_TRUE(ends(jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere"), 2,
-                         std::string(table) + ": it has no row"));
+        EXPECT_TRUE(
+            ends(jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere"), 2,
+                 std::string(table) + ": it has no row"));
         EXPECT_EQ(content(folder / "report.html"), "the page");
     }
 }
 
 TEST(Report, APipeInPlaceOfAFileIsRefused) {
     const MadeUp folder(every_file);
-    EXPECT_TRUE(ends(shell(folder, "rm manifest.json; mkfifo manifest.json; timeout 20 $J report ."), 2,
-                     "manifest.json: something that is no file"));
+    EXPECT_TRUE(
+        ends(shell(folder, "rm manifest.json; mkfifo manifest.json; timeout 20 $J report ."), 2,
+             "manifest.json: something that is no file"));
 }
 
 TEST(Report, TextsThatAreNoUtf8AreShownAsFarAsTheyAre) {
@@ -85,26 +91,33 @@ TEST(Report, TextsThatAreNoUtf8AreShownAsFarAsTheyAre) {
     std::string cells = content(folder / "cells.csv");
     cells.replace(cells.find(",one,"), 5, ",one\xff,");
     std::ofstream(folder / "cells.csv", std::ios::binary) << cells;
-    const Outcome o = jvari(folder, "report --json " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    const Outcome o =
+        jvari(folder, "report --json " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(content(folder / "report.html"), "one\ufffd"));
 }
 
 TEST(Report, AManifestThatIsNestedTooDeepIsRefused) {
     const MadeUp folder(every_file);
-    std::ofstream(folder / "manifest.json") << "{\"suite\": \"a\", \"x\": " << std::string(300000, '[') << std::string(300000, ']') << "}";
+    std::ofstream(folder / "manifest.json")
+        << "{\"suite\": \"a\", \"x\": " << std::string(300000, '[') << std::string(300000, ']')
+        << "}";
     EXPECT_EQ(jvari(folder, "report " + folder.path.string()).code, 2);
 }
 
 TEST(Report, SoundsLieBelowTheFolder) {
     const Scratch outside;
-    std::ofstream(outside / "private.wav", std::ios::binary) << bench::store::wav_of({44100, 1, std::vector<std::int16_t>(4410, 7)});
-    for (const std::string& file : {outside / "private.wav", "../" + outside.path.filename().string() + "/private.wav"}) {
+    std::ofstream(outside / "private.wav", std::ios::binary)
+        << bench::store::wav_of({44100, 1, std::vector<std::int16_t>(4410, 7)});
+    for (const std::string& file :
+         {outside / "private.wav", "../" + outside.path.filename().string() + "/private.wav"}) {
         const MadeUp folder(every_file);
-        std::ofstream(folder / "sounds.csv") << "scheme,rate,modes,tap,quantity,sample_rate,peak,file,reference_file\none,44100,1,nut,"
+        std::ofstream(folder / "sounds.csv") << "scheme,rate,modes,tap,quantity,sample_rate,peak,"
+                                                "file,reference_file\none,44100,1,nut,"
                                                 "nut_force,44100,1,"
                                              << file << ",\n";
-        const Outcome o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+        const Outcome o =
+            jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
         EXPECT_TRUE(ends(o, 2, "expected one below the folder"));
     }
 }
@@ -113,13 +126,16 @@ TEST(Report, SoundsLieBelowTheFolder) {
 struct Record : MadeUp {
     Record() : MadeUp({"manifest.json", "cells.csv"}) {
         const bench::store::Table cells = bench::store::read_csv(content(*this / "cells.csv"));
-        const std::vector<std::string> clocked{"cost_s_per_s", "cost_lower", "cost_upper", "ns_per_step"};
+        const std::vector<std::string> clocked{"cost_s_per_s", "cost_lower", "cost_upper",
+                                               "ns_per_step"};
         std::vector<std::string> rest;
         for (const std::string& name : cells.columns)
-            if (std::find(clocked.begin(), clocked.end(), name) == clocked.end()) rest.push_back(name);
+            if (std::find(clocked.begin(), clocked.end(), name) == clocked.end())
+                rest.push_back(name);
         std::vector<std::string> cost{"cell", "scene", "scheme", "rate"};
         cost.insert(cost.end(), clocked.begin(), clocked.end());
-        std::ofstream(*this / "errors.csv", std::ios::binary) << bench::store::csv(cells.only(rest));
+        std::ofstream(*this / "errors.csv", std::ios::binary)
+            << bench::store::csv(cells.only(rest));
         std::ofstream(*this / "cost.csv", std::ios::binary) << bench::store::csv(cells.only(cost));
         fs::remove(path / "cells.csv");
     }
@@ -132,29 +148,34 @@ TEST(Report, IsMadeOfARecordsErrorsAndCostsAsOfItsCells) {
         const Scratch none;
         EXPECT_EQ(jvari(none, "report " + folder.string(), "JVARI_NODE_MODULES=/nowhere").code, 0);
         const Json tables = data_of(content(folder / "report.html")).at("tables");
-        return tables.at("cheapest").dump() + tables.at("fronts").dump() + tables.at("orders").dump();
+        return tables.at("cheapest").dump() + tables.at("fronts").dump() +
+               tables.at("orders").dump();
     };
     EXPECT_EQ(told(record.path), told(whole.path));
     std::string cost = content(record / "cost.csv");
     cost.replace(cost.find("88200"), 5, "88300");
     std::ofstream(record / "cost.csv", std::ios::binary) << cost;
-    const Outcome o = jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    const Outcome o =
+        jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_TRUE(ends(o, 2, "cost.csv: its rows are not those of errors.csv"));
 }
 
 TEST(Report, AnErrorThatIsBoundedStandsAtItAndItsCertificateTogether) {
     const MadeUp folder({"manifest.json"});
-    std::ofstream(folder / "cells.csv") << "scene,scheme,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms\n"
-                                           "a,b,44100,10,ok,,1e-2,6e-4\na,b,88200,10,ok,,1e-3,6e-4\n";
-    const bench::store::Table bounds = bench::report::derived_tables(bench::report::read_results(folder.path)).at("bounds");
+    std::ofstream(folder / "cells.csv")
+        << "scene,scheme,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms\n"
+           "a,b,44100,10,ok,,1e-2,6e-4\na,b,88200,10,ok,,1e-3,6e-4\n";
+    const bench::store::Table bounds =
+        bench::report::derived_tables(bench::report::read_results(folder.path)).at("bounds");
     ASSERT_EQ(bounds.rows.size(), 1u);  // 6 % of the first: as measured
     EXPECT_EQ(bounds.at(0, "row"), "1");
     EXPECT_NEAR(bounds.number(0, "shown"), 1.6e-3, 1e-12);
 }
 
 TEST(Report, ABusyMachineIsSaid) {
-    bench::store::Table cells{{"cost_s_per_s", "cost_lower", "cost_upper"},
-                              {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};
+    bench::store::Table cells{
+        {"cost_s_per_s", "cost_lower", "cost_upper"},
+        {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};
     EXPECT_DOUBLE_EQ(bench::compare::median_spread(cells), 0.25);
     EXPECT_TRUE(says(bench::compare::busy_text(cells), "25 %"));
     cells.rows.resize(1);
@@ -164,14 +185,21 @@ TEST(Report, ABusyMachineIsSaid) {
 }
 
 TEST(Report, MatchedComplianceThatErrsMoreThanOwnIsTold) {
-    bench::store::Table cells{{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms",
-                               "error_l2_50ms_fret", "certificate_l2_50ms_fret", "error_l2_50ms_y", "certificate_l2_50ms_y"},
-                              {{"1", "s", "a", "compliance=own,levels=2", "44100", "40", "ok", "", "0.1", "0.2", "0.01", "0.1", "0"},
-                               {"2", "s", "a", "compliance=matched,levels=2", "44100", "40", "ok", "", "0.1", "0.3", "0.01", "0.1", "0"},
-                               {"3", "s", "a", "compliance=own,levels=3", "44100", "40", "ok", "", "0.1", "0.1", "0.01", "0.01", "0"}}};
+    bench::store::Table cells{
+        {"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms",
+         "error_l2_50ms_fret", "certificate_l2_50ms_fret", "error_l2_50ms_y",
+         "certificate_l2_50ms_y"},
+        {{"1", "s", "a", "compliance=own,levels=2", "44100", "40", "ok", "", "0.1", "0.2", "0.01",
+          "0.1", "0"},
+         {"2", "s", "a", "compliance=matched,levels=2", "44100", "40", "ok", "", "0.1", "0.3",
+          "0.01", "0.1", "0"},
+         {"3", "s", "a", "compliance=own,levels=3", "44100", "40", "ok", "", "0.1", "0.1", "0.01",
+          "0.01", "0"}}};
     const std::string text = bench::compare::harm_text(cells);
     EXPECT_TRUE(says(text, "in 1 of 1 runs"));
-    EXPECT_TRUE(says(text, "most at fret of 30 % by a compliance=matched,levels=2, 40 modes at 44.1 kHz, where own compliance has 20 %"));
+    EXPECT_TRUE(says(text,
+                     "most at fret of 30 % by a compliance=matched,levels=2, 40 modes at 44.1 kHz, "
+                     "where own compliance has 20 %"));
     cells.rows[1][9] = "0.26";  // sure of 0.25, which is not above 1.2 x 0.21
     EXPECT_EQ(bench::compare::harm_text(cells), "");
     cells.rows[1][9] = "0.3", cells.rows[0][7] = "energy";  // not to be trusted
@@ -181,23 +209,29 @@ TEST(Report, MatchedComplianceThatErrsMoreThanOwnIsTold) {
 TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReference) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\", \"modal_explicit_penalty\"]\nrates = [44100, "
+        << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\", "
+           "\"modal_explicit_penalty\"]\nrates = [44100, "
            "88200]\n"
-           "modes = 10\nreference_modes = \"cell\"\nduration = 0.03\nmeasure = [\"errors\", \"sound\"]\nsweep = { \"string.0.tension\" = "
+           "modes = 10\nreference_modes = \"cell\"\nduration = 0.03\nmeasure = [\"errors\", "
+           "\"sound\"]\nsweep = { \"string.0.tension\" = "
            "[30, 31] }\n";
-    const std::string command = "suite " + scratch / "a.toml" + " --json --out " + scratch / "out", none = "JVARI_NODE_MODULES=/nowhere";
+    const std::string command = "suite " + scratch / "a.toml" + " --json --out " + scratch / "out",
+                      none = "JVARI_NODE_MODULES=/nowhere";
     ASSERT_EQ(jvari(scratch, command, none).code, 0);
-    const std::string first = content(scratch / "out/sounds.csv"), page = content(scratch / "out/report.html");
+    const std::string first = content(scratch / "out/sounds.csv"),
+                      page = content(scratch / "out/report.html");
     const bench::report::Results r = bench::report::read_results(scratch.path / "out");
-    ASSERT_EQ(r.sounds.rows.size(), 6u);  // of each tension the reference and two rates; the penalty force diverges
+    // of each tension the reference and two rates; the penalty force diverges
+    ASSERT_EQ(r.sounds.rows.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
         const bool truth = i % 3 == 0;
         EXPECT_EQ(r.sounds.at(i, "scheme"), truth ? "reference" : "modal_two_point");
         EXPECT_EQ(r.sounds.at(i, "reference_file"), truth ? "" : r.sounds.at(i / 3 * 3, "file"));
-        EXPECT_EQ(r.sounds.at(i, "problem"),
-                  i < 3 ? "tanpura_c3_release, string.0.tension = 30" : "tanpura_c3_release, string.0.tension = 31");
-        EXPECT_EQ(bench::store::read_wav(scratch.path / "out" / r.sounds.at(i, "file"), 1).samples.size(),
-                  1324u);  // rows at 0 and 30 ms too
+        EXPECT_EQ(r.sounds.at(i, "problem"), i < 3 ? "tanpura_c3_release, string.0.tension = 30"
+                                                   : "tanpura_c3_release, string.0.tension = 31");
+        EXPECT_EQ(
+            bench::store::read_wav(scratch.path / "out" / r.sounds.at(i, "file"), 1).samples.size(),
+            1324u);  // rows at 0 and 30 ms too
     }
     EXPECT_NE(r.sounds.at(0, "file"), r.sounds.at(3, "file"));
     ASSERT_EQ(jvari(scratch, command + " --resume", none).code, 0);
@@ -206,7 +240,8 @@ TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReferen
     ASSERT_EQ(sounds.size(), 6u);
     EXPECT_EQ(sounds[0].at("row"), 0);
     EXPECT_EQ(sounds[0].at("rate"), 44100);
-    EXPECT_EQ(bench::store::bytes_of_base64(sounds[0].at("samples").get<std::string>()).size(), 2u * 1324);
+    EXPECT_EQ(bench::store::bytes_of_base64(sounds[0].at("samples").get<std::string>()).size(),
+              2u * 1324);
 }
 
 Json a_page() {
@@ -215,26 +250,32 @@ Json a_page() {
             {"tables", {{"cells", "</script><script>"}}},
             {"pictures", Json::array()},
             {"sounds", Json::array()},
-            {"left_out", {{"cells", Json::array()}, {"sounds", Json::array()}, {"figures", Json::array()}}}};
+            {"left_out",
+             {{"cells", Json::array()}, {"sounds", Json::array()}, {"figures", Json::array()}}}};
 }
 
 TEST(Report, NothingInThePageEndsAScriptEarly) {
-    EXPECT_EQ(bench::report::inside_script("a</script>b</SCRIPT><!--"), "a<\\/script>b<\\/SCRIPT><\\!--");
+    EXPECT_EQ(bench::report::inside_script("a</script>b</SCRIPT><!--"),
+              "a<\\/script>b<\\/SCRIPT><\\!--");
     EXPECT_EQ(bench::report::inside_script("x</g,1<2"), "x</g,1<2");
     const std::string text = bench::report::page_of(a_page(), "");
     EXPECT_TRUE(says(text, "<title>&lt;b&gt;</title>"));
     EXPECT_EQ(data_of(text).at("tables").at("cells"), "</script><script>");
     EXPECT_EQ(data_of(text).at("manifest").at("note"), "<!-- </script>");
-    for (const char* mark : {"@TITLE@", "@STYLE@", "@SCRIPTS@", "@DATA@", "@PROGRAM@"}) EXPECT_FALSE(says(text, mark)) << mark;
+    for (const char* mark : {"@TITLE@", "@STYLE@", "@SCRIPTS@", "@DATA@", "@PROGRAM@"})
+        EXPECT_FALSE(says(text, mark)) << mark;
 }
 
 TEST(Report, WhatDoesNotFitIsLeftOutFromTheLastOnAndThePageSaysSo) {
     Json page = a_page();
-    for (int k = 0; k < 10; ++k) page["sounds"].push_back({{"row", k}, {"samples", std::string(40000, 'x')}});
-    for (int k = 0; k < 2; ++k) page["pictures"].push_back({{"name", "b"}, {"data", std::string(40000, 'y')}});
+    for (int k = 0; k < 10; ++k)
+        page["sounds"].push_back({{"row", k}, {"samples", std::string(40000, 'x')}});
+    for (int k = 0; k < 2; ++k)
+        page["pictures"].push_back({{"name", "b"}, {"data", std::string(40000, 'y')}});
     const std::string whole = bench::report::page_of(page, "");
     EXPECT_EQ(bench::report::fitting_page_of(page, "", whole.size()), whole);
-    const Json data = data_of(bench::report::fitting_page_of(page, "", whole.size() - 150000));  // two pictures and two sounds of 40 kB
+    // two pictures and two sounds of 40 kB
+    const Json data = data_of(bench::report::fitting_page_of(page, "", whole.size() - 150000));
     EXPECT_EQ(data.at("pictures").size(), 0u);
     EXPECT_EQ(data.at("left_out").at("figures").size(), 1u);
     EXPECT_EQ(data.at("sounds").size(), 8u);
@@ -246,7 +287,8 @@ TEST(Report, ATableThatWouldBeTooLargeKeepsTheColumnsThatChartsNeedAndSaysSo) {
     bench::store::Table t{{"scheme", "rate", "much"}, {}};
     t.rows.assign(2000, {"a", "44100", std::string(1000, 'x')});
     Json said = Json::array();
-    EXPECT_EQ(bench::report::fitting(t, said).columns, (std::vector<std::string>{"scheme", "rate"}));
+    EXPECT_EQ(bench::report::fitting(t, said).columns,
+              (std::vector<std::string>{"scheme", "rate"}));
     EXPECT_EQ(said.size(), 1u);
     t.rows.resize(1000);
     EXPECT_EQ(bench::report::fitting(t, said).columns.size(), 3u);
@@ -258,9 +300,11 @@ TEST(Pareto, ADifferenceInsideTheSpreadDecidesNothing) {
     EXPECT_EQ(pareto_front(apart), (std::vector<bool>{true, false}));
     const std::vector<bench::compare::Point> tied{{1, 0.9, 1.6, 1e-3}, {2, 1.5, 2.1, 1e-3}};
     EXPECT_EQ(pareto_front(tied), (std::vector<bool>{true, true}));
-    const std::vector<bench::compare::Point> tied_cost_less_error{{1, 0.9, 1.6, 1e-3}, {2, 1.5, 2.1, 1e-4}};
+    const std::vector<bench::compare::Point> tied_cost_less_error{{1, 0.9, 1.6, 1e-3},
+                                                                  {2, 1.5, 2.1, 1e-4}};
     EXPECT_EQ(pareto_front(tied_cost_less_error), (std::vector<bool>{false, true}));
-    const std::vector<bench::compare::Point> unsound{{1, 1, 1, HUGE_VAL}, {NAN, NAN, NAN, 1e-9}, {3, 3, 3, 1e-3}};
+    const std::vector<bench::compare::Point> unsound{
+        {1, 1, 1, HUGE_VAL}, {NAN, NAN, NAN, 1e-9}, {3, 3, 3, 1e-3}};
     EXPECT_EQ(pareto_front(unsound), (std::vector<bool>{false, false, true}));
 }
 

@@ -1,5 +1,5 @@
-// A suite by several processes that share a folder: the same tables to the last byte, each cell and each reference once, and none lost
-// with who ran it; costs of one machine.
+// A suite by several processes that share a folder: the same tables to the last byte, each cell and
+// each reference once, and none lost with who ran it; costs of one machine.
 #include <fcntl.h>
 #include <sys/inotify.h>
 #include <sys/stat.h>
@@ -57,7 +57,8 @@ duration = 0.01
 reproduce = false
 )";
 
-// Of what processes wrote into out1, out2 ... : the numbers before a word, as in "16 points, 4 boundaries: 5 run".
+// Of what processes wrote into out1, out2 ... : the numbers before a word, as in "16 points, 4
+// boundaries: 5 run".
 std::vector<int> numbers_before(const std::string& word, const Scratch& scratch, int processes) {
     std::vector<int> all;
     for (int k = 1; k <= processes; ++k) {
@@ -90,7 +91,8 @@ std::map<std::string, int> moved_into(int watch) {  // how often each file
 TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml") << study;
-    ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole >out1").code, 0) << content(scratch / "stderr");
+    ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole >out1").code, 0)
+        << content(scratch / "stderr");
     const std::vector<int> alone = numbers_before("run,", scratch, 1);
     ASSERT_EQ(alone.size(), 2u);  // points of maps, cells
     const int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
@@ -99,7 +101,8 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
         ASSERT_GE(inotify_add_watch(watch, (scratch.path / "all" / name).c_str(), IN_MOVED_TO), 0);
     }
     const std::string lines =
-        "for k in 1 2 3; do $J suite a.toml --out all --resume --jobs 1 >out$k & all=\"$all $!\"; done\n"
+        "for k in 1 2 3; do $J suite a.toml --out all --resume --jobs 1 >out$k & all=\"$all $!\"; "
+        "done\n"
         "for p in $all; do wait $p || exit 1; done";
     ASSERT_EQ(shell(scratch, lines).code, 0) << content(scratch / "stderr");
     int clocks = 0, references = 0;
@@ -111,26 +114,34 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
     close(watch);
     EXPECT_EQ(clocks, 4);
     EXPECT_EQ(references,
-              18);  // of each scene the truth, those with fewer modes that bound it, and one with a cell's own modes and compliance
+              // of each scene the truth, those with fewer modes that bound it, and one with a
+              // cell's own modes and compliance
+              18);
     const std::vector<int> shared = numbers_before("run,", scratch, 3);
     ASSERT_EQ(shared.size(), 6u);
     EXPECT_EQ(shared[0] + shared[2] + shared[4], alone[0]);
     EXPECT_EQ(shared[1] + shared[3] + shared[5], alone[1]);
     EXPECT_EQ(alone[1], 16);
     const std::vector<int> timed = numbers_before("timed,", scratch, 3);
-    EXPECT_EQ(std::set<int>(timed.begin(), timed.end()), (std::set<int>{0, 4}));  // all by one of them
+    // all by one of them
+    EXPECT_EQ(std::set<int>(timed.begin(), timed.end()), (std::set<int>{0, 4}));
     EXPECT_EQ(locks_below(scratch.path), std::vector<std::string>());
-    for (const char* name : {"errors.csv", "convergence.csv", "maps.csv", "boundaries.csv", "failures/index.csv"})
-        EXPECT_EQ(content(scratch.path / "all" / name), content(scratch.path / "whole" / name)) << name;
+    for (const char* name :
+         {"errors.csv", "convergence.csv", "maps.csv", "boundaries.csv", "failures/index.csv"})
+        EXPECT_EQ(content(scratch.path / "all" / name), content(scratch.path / "whole" / name))
+            << name;
     EXPECT_GT(bench::store::read_csv(content(scratch / "all/boundaries.csv")).rows.size(), 0u);
     EXPECT_GT(bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size(), 0u);
     std::map<fs::path, fs::file_time_type> minimised;  // kept beside the points
     for (const auto& entry : fs::directory_iterator(scratch / "all/points"))
-        if (const fs::path index = entry.path() / "index.csv"; fs::exists(index)) minimised[index] = fs::last_write_time(index);
-    EXPECT_EQ(minimised.size(), bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size());
+        if (const fs::path index = entry.path() / "index.csv"; fs::exists(index))
+            minimised[index] = fs::last_write_time(index);
+    EXPECT_EQ(minimised.size(),
+              bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size());
     const Outcome again = shell(scratch, "$J suite a.toml --out all --resume");
     EXPECT_EQ(again.code, 0);
-    for (const auto& [index, written] : minimised) EXPECT_EQ(fs::last_write_time(index), written) << "minimised again: " << index;
+    for (const auto& [index, written] : minimised)
+        EXPECT_EQ(fs::last_write_time(index), written) << "minimised again: " << index;
     EXPECT_FALSE(says(again.err, "holds what is not of a suite"));
     EXPECT_TRUE(says(again.out, "16 cells, 0 run, 0 timed, 16 read back"));
 }
@@ -138,10 +149,14 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
 TEST(SharedFolder, WhoIsKilledHoldsNobodyUp) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")  // cells of some tenths of a second
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\", \"modal_quadratised\"]\nrates = [1411200]\n"
-           "modes = 100\nreference_modes = \"cell\"\nduration = 0.4\nsweep = { \"string.0.tension\" = [30, 31, 32, 33] }\n";
-    ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole --quiet").code, 0) << content(scratch / "stderr");
-    // One of the three is stopped while it runs a cell; the others run all that is left, say for whom they wait, and see it die.
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\", "
+           "\"modal_quadratised\"]\nrates = [1411200]\n"
+           "modes = 100\nreference_modes = \"cell\"\nduration = 0.4\nsweep = { "
+           "\"string.0.tension\" = [30, 31, 32, 33] }\n";
+    ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole --quiet").code, 0)
+        << content(scratch / "stderr");
+    // One of the three is stopped while it runs a cell; the others run all that is left, say for
+    // whom they wait, and see it die.
     const Outcome o = shell(scratch, R"sh(
 for k in 1 2 3; do $J suite a.toml --out all --resume --jobs 1 >out$k 2>err$k & all="$all $!"; done
 stopped() { [ "$(sed -n 's/^State:.\(.\).*/\1/p' /proc/$1/status)" = T ]; }
@@ -162,35 +177,45 @@ done
 kill -KILL $held
 for p in $others; do wait $p || exit 6; done
 )sh");
-    EXPECT_EQ(o.code, 0) << o.err << content(scratch / "err1") << content(scratch / "err2") << content(scratch / "err3");
+    EXPECT_EQ(o.code, 0) << o.err << content(scratch / "err1") << content(scratch / "err2")
+                         << content(scratch / "err3");
     EXPECT_EQ(content(scratch / "all/errors.csv"), content(scratch / "whole/errors.csv"));
     EXPECT_EQ(locks_below(scratch.path), std::vector<std::string>());
 }
 
 TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\", \"two_point_bridge\"]\nschemes = [\"modal_two_point\", "
-                                         "\"modal_quadratised\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\nduration = 0.01\n";
+    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\", "
+                                         "\"two_point_bridge\"]\nschemes = [\"modal_two_point\", "
+                                         "\"modal_quadratised\"]\nrates = [44100, "
+                                         "88200]\nreference_modes = \"cell\"\nduration = 0.01\n";
     const std::string suite = "$J suite a.toml --out ",
-                      plugin = " --plugin " JVARI_HONEST;  // another program: its plugin counts into the key
+                      // another program: its plugin counts into the key
+        plugin = " --plugin " JVARI_HONEST;
     ASSERT_EQ(shell(scratch, suite + "whole --quiet").code, 0) << content(scratch / "stderr");
-    ASSERT_EQ(shell(scratch, suite + "all --resume >out1 & " + suite + "all --resume" + plugin + " >out2 && wait $!").code, 0);
+    ASSERT_EQ(shell(scratch, suite + "all --resume >out1 & " + suite + "all --resume" + plugin +
+                                 " >out2 && wait $!")
+                  .code,
+              0);
     EXPECT_EQ(numbers_before("run,", scratch, 2), (std::vector<int>{8, 8}));
-    EXPECT_TRUE(says(shell(scratch, suite + "all --resume" + plugin).out, " 0 run, 0 timed, 8 read back"));
+    EXPECT_TRUE(
+        says(shell(scratch, suite + "all --resume" + plugin).out, " 0 run, 0 timed, 8 read back"));
     EXPECT_TRUE(says(shell(scratch, suite + "all --resume").out, " 0 run, 0 timed, 8 read back"));
     EXPECT_EQ(content(scratch / "all/errors.csv"), content(scratch / "whole/errors.csv"));
 }
 
 TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
-                                         "[44100]\nreference_modes = \"cell\"\nduration = 0.01\n";
+    std::ofstream(scratch / "a.toml")
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
+           "[44100]\nreference_modes = \"cell\"\nduration = 0.01\n";
     const std::string suite = "timeout 60 $J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, suite).code, 0) << content(scratch / "stderr");
     const std::string table = content(scratch / "all/errors.csv");
     std::vector<fs::path> made;
     for (const char* name : {"cells", "references"})
-        for (const auto& entry : fs::directory_iterator(scratch.path / "all" / name)) made.push_back(entry.path());
+        for (const auto& entry : fs::directory_iterator(scratch.path / "all" / name))
+            made.push_back(entry.path());
     ASSERT_EQ(made.size(), 3u);
     for (const fs::path& file : made) {
         fs::remove(file);
@@ -198,27 +223,33 @@ TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
         else fs::create_directory(file.string() + ".lock");
     }
     EXPECT_FALSE(says(shell(scratch, suite).err, "no file can be locked here"));
-    for (const fs::path& file : made) EXPECT_TRUE(fs::exists(file) && fs::exists(file.string() + ".lock")) << file;
+    for (const fs::path& file : made)
+        EXPECT_TRUE(fs::exists(file) && fs::exists(file.string() + ".lock")) << file;
     EXPECT_EQ(content(scratch / "all/errors.csv"), table);
     fs::create_directory(scratch / "all/cells/any.lock");
-    EXPECT_TRUE(says(shell(scratch, suite).err, "all: no file can be locked here. Processes that share this folder"));
+    EXPECT_TRUE(says(shell(scratch, suite).err,
+                     "all: no file can be locked here. Processes that share this folder"));
 }
 
 TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\n"
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
+           "[44100, 88200]\nreference_modes = \"cell\"\n"
            "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
     fs::create_directories(scratch / "all/cells");
     const auto files = [&](const char* extension) {
-        return std::count_if(fs::directory_iterator(scratch / "all/cells"), fs::directory_iterator(),
-                             [&](const auto& entry) { return entry.path().extension() == extension; });
+        return std::count_if(
+            fs::directory_iterator(scratch / "all/cells"), fs::directory_iterator(),
+            [&](const auto& entry) { return entry.path().extension() == extension; });
     };
-    std::optional<bench::store::FileLock> other(std::in_place, scratch / "all/cells/clock", "times the cells");
+    std::optional<bench::store::FileLock> other(std::in_place, scratch / "all/cells/clock",
+                                                "times the cells");
     Outcome o{};
     std::atomic<bool> ended = false;
     std::jthread suite([&] {
-        o = jvari(scratch, "suite " + (scratch / "a.toml") + " --resume --out " + (scratch / "all"));
+        o = jvari(scratch,
+                  "suite " + (scratch / "a.toml") + " --resume --out " + (scratch / "all"));
         ended = true;
     });
     const std::string waits = "waiting for process " + std::to_string(getpid()) + " on ";
@@ -236,13 +267,17 @@ TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
 TEST(Machines, AFolderHasTheCostsOfOne) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = [44100, 88200]\nreference_modes = \"cell\"\n"
+        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
+           "[44100, 88200]\nreference_modes = \"cell\"\n"
            "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
     const std::string resume = "$J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, resume + " --quiet").code, 0) << content(scratch / "stderr");
     const bench::study::Plan plan =
-        bench::suite::plan_of(bench::suite::parse_suite(content(scratch / "a.toml"), "a.toml"), bench::compare::Catalogue{}, {});
-    const auto file = [&](std::size_t i) { return scratch.path / "all/cells" / bench::study::clock_file(plan.jobs[i]); };
+        bench::suite::plan_of(bench::suite::parse_suite(content(scratch / "a.toml"), "a.toml"),
+                              bench::compare::Catalogue{}, {});
+    const auto file = [&](std::size_t i) {
+        return scratch.path / "all/cells" / bench::study::clock_file(plan.jobs[i]);
+    };
     auto clock = bench::study::read_clock(file(0), plan.jobs[0].identity);
     ASSERT_TRUE(clock);
     EXPECT_GT(clock->wall.median, 0);
@@ -257,7 +292,9 @@ TEST(Machines, AFolderHasTheCostsOfOne) {
     fs::remove(scratch.path / "all/cells" / (plan.jobs[1].id + ".json"));
     const Outcome o = shell(scratch, resume);
     EXPECT_TRUE(ends(o, 0, "2 cells, 1 run, 0 timed"));  // the errors are no machine's
-    EXPECT_TRUE(says(o.err, "the costs in all/cells come from another machine, another CPU, 64 cores; cells without a cost are not timed"));
+    EXPECT_TRUE(says(o.err,
+                     "the costs in all/cells come from another machine, another CPU, 64 cores; "
+                     "cells without a cost are not timed"));
     const bench::store::Table t = bench::store::read_csv(content(scratch / "all/cells.csv"));
     EXPECT_EQ(t.number(0, "wall_seconds"), 77);
     EXPECT_EQ(t.at(1, "cost_s_per_s"), "");

@@ -1,4 +1,5 @@
-// Things side by side: each once, as many at a time as asked for, and failures as if they had gone one by one.
+// Things side by side: each once, as many at a time as asked for, and failures as if they had gone
+// one by one.
 #include "bench/store/system/side_by_side.hpp"
 #include "tests/says.hpp"
 
@@ -22,22 +23,19 @@ TEST(SideBySide, EachIsDoneOnceOnAsManyThreadsAsAskedFor) {
     for (const int jobs : {0, 1, 3, 100}) {
         std::vector<std::atomic<int>> times(20);
         std::atomic<int> together = 0, most = 0;
-        bench::store::side_by_side(std::vector<double>(20, 1), jobs, quiet, "", [&](std::size_t i, bench::store::Done& done) {
-            const int n = ++together;
-            for (int seen = most; n > seen && !most.compare_exchange_weak(seen, n);) {
-            }
-            EXPECT_EQ(done, 0);
-            wait(5);
-            ++times[i];
-            --together;
-        });
+        bench::store::side_by_side(std::vector<double>(20, 1), jobs, quiet, "",
+                                   [&](std::size_t i, bench::store::Done& done) {
+                                       const int n = ++together;
+                                       for (int seen = most;
+                                            n > seen && !most.compare_exchange_weak(seen, n);) {}
+                                       EXPECT_EQ(done, 0);
+                                       wait(5);
+                                       ++times[i];
+                                       --together;
+                                   });
         for (const auto& t : times) EXPECT_EQ(t, 1);
-        if (jobs > 0) {
-            EXPECT_LE(most, jobs);
-        }
-        if (jobs > 1) {
-            EXPECT_GE(most, 2);
-        }
+        if (jobs > 0) { EXPECT_LE(most, jobs); }
+        if (jobs > 1) { EXPECT_GE(most, 2); }
     }
     bench::store::side_by_side({}, 4, quiet, "", [](std::size_t, bench::store::Done&) { FAIL(); });
 }
@@ -47,20 +45,19 @@ TEST(SideBySide, TheFirstFailureInOrderIsThrownWhicheverComesFirstAndEndsTheRest
         std::set<std::size_t> begun;
         std::mutex mutex;
         try {
-            bench::store::side_by_side(std::vector<double>(50, 1), 3, quiet, "", [&](std::size_t i, bench::store::Done&) {
-                {
-                    const std::lock_guard lock(mutex);
-                    begun.insert(i);
-                }
-                if (i >= 4) {
-                    wait(i == late ? 80 : 20);
-                    throw std::runtime_error(std::to_string(i));
-                }
-            });
+            bench::store::side_by_side(std::vector<double>(50, 1), 3, quiet, "",
+                                       [&](std::size_t i, bench::store::Done&) {
+                                           {
+                                               const std::lock_guard lock(mutex);
+                                               begun.insert(i);
+                                           }
+                                           if (i >= 4) {
+                                               wait(i == late ? 80 : 20);
+                                               throw std::runtime_error(std::to_string(i));
+                                           }
+                                       });
             FAIL();
-        } catch (const std::runtime_error& e) {
-            EXPECT_STREQ(e.what(), "4");
-        }
+        } catch (const std::runtime_error& e) { EXPECT_STREQ(e.what(), "4"); }
         EXPECT_LE(begun.size(), 8u);
     }
 }
@@ -73,10 +70,13 @@ TEST(SideBySide, TheLineSaysHowManyAreDoneHowLongItTakesAndWhichTookLongest) {
     };
     struct Ear : bench::store::Listener {
         mutable std::string last;
-        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Kept>(last); }
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+            return std::make_unique<Kept>(last);
+        }
     } ear;
     bench::store::side_by_side(
-        {1, 1, 1, 1}, 1, ear, "", [](std::size_t i, bench::store::Done& done) { done = 0.5, wait(i == 1 ? 1300 : 5); },
+        {1, 1, 1, 1}, 1, ear, "",
+        [](std::size_t i, bench::store::Done& done) { done = 0.5, wait(i == 1 ? 1300 : 5); },
         [](std::size_t i) { return "number " + std::to_string(i); });
     EXPECT_TRUE(says(ear.last, " of 4, about "));
     EXPECT_TRUE(says(ear.last, "longest 1 s: number 1"));
@@ -87,13 +87,16 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThoseThatRunAndBeginsNoOther) {
         void show(double, const std::string&) override { throw std::runtime_error("enough"); }
     };
     struct Ear : bench::store::Listener {
-        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Weary>(); }
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+            return std::make_unique<Weary>();
+        }
     };
     std::atomic<int> begun = 0, to_the_end = 0;
     EXPECT_THROW(bench::store::side_by_side(std::vector<double>(20, 1), 2, Ear(), "",
                                             [&](std::size_t, bench::store::Done& done) {
                                                 ++begun;
-                                                for (int k = 0; k < 3000; ++k) wait(10), done = k / 3000.0;
+                                                for (int k = 0; k < 3000; ++k)
+                                                    wait(10), done = k / 3000.0;
                                                 ++to_the_end;
                                             }),
                  std::runtime_error);
@@ -106,7 +109,9 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThePartsOfThoseThatRunAndWhoWaitsForTh
         void show(double, const std::string&) override { throw std::runtime_error("enough"); }
     };
     struct Ear : bench::store::Listener {
-        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Weary>(); }
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+            return std::make_unique<Weary>();
+        }
     };
     std::once_flag once;  // of the two things one makes the parts of both
     std::atomic<int> to_the_end = 0;
@@ -115,7 +120,9 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThePartsOfThoseThatRunAndWhoWaitsForTh
         ++to_the_end;
     };
     const auto thing = [&](std::size_t, bench::store::Done& done) {
-        std::call_once(once, [&] { bench::store::side_by_side({1, 1}, 2, bench::store::PartOf(done), "", part); });
+        std::call_once(once, [&] {
+            bench::store::side_by_side({1, 1}, 2, bench::store::PartOf(done), "", part);
+        });
         ++to_the_end;
     };
     EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, Ear(), "", thing), std::runtime_error);
@@ -125,13 +132,14 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThePartsOfThoseThatRunAndWhoWaitsForTh
 TEST(SideBySide, WhatIsBusyIsBegunAgainWhenTheOthersAreDone) {
     for (const int jobs : {1, 3}) {
         std::atomic<int> times = 0, others = 0;
-        bench::store::side_by_side(std::vector<double>(10, 1), jobs, quiet, "", [&](std::size_t i, bench::store::Done& done) {
-            EXPECT_EQ(done, 0);
-            done = 0.5;
-            if (i != 2) ++others;
-            else if (++times < 4) throw bench::store::Busy{"somebody"};
-            else EXPECT_EQ(others, 9);
-        });
+        bench::store::side_by_side(std::vector<double>(10, 1), jobs, quiet, "",
+                                   [&](std::size_t i, bench::store::Done& done) {
+                                       EXPECT_EQ(done, 0);
+                                       done = 0.5;
+                                       if (i != 2) ++others;
+                                       else if (++times < 4) throw bench::store::Busy{"somebody"};
+                                       else EXPECT_EQ(others, 9);
+                                   });
         EXPECT_EQ(times, 4);
         EXPECT_EQ(others, 9);
     }
@@ -141,9 +149,10 @@ TEST(SideBySide, WhatIsBusyInAPartIsBusyAsAWhole) {
     int times = 0, parts = 0;
     bench::store::side_by_side({1}, 1, quiet, "", [&](std::size_t, bench::store::Done& done) {
         ++times;
-        bench::store::side_by_side({1}, 1, bench::store::PartOf(done), "", [&](std::size_t, bench::store::Done&) {
-            if (++parts < 3) throw bench::store::Busy{"somebody"};
-        });
+        bench::store::side_by_side({1}, 1, bench::store::PartOf(done), "",
+                                   [&](std::size_t, bench::store::Done&) {
+                                       if (++parts < 3) throw bench::store::Busy{"somebody"};
+                                   });
     });
     EXPECT_EQ(times, 3);
     EXPECT_EQ(parts, 3);
@@ -153,7 +162,8 @@ TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
     struct Weary : bench::store::Progress {
         void show(double, const std::string& what) override {
             EXPECT_EQ(what, "0 of 2, waiting for process 7 on node, which works");
-            if (Clock::now() - begun > std::chrono::milliseconds(3500)) throw std::runtime_error("enough");
+            if (Clock::now() - begun > std::chrono::milliseconds(3500))
+                throw std::runtime_error("enough");
         }
         using Clock = std::chrono::steady_clock;
         Clock::time_point begun = Clock::now();
@@ -161,9 +171,13 @@ TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
     struct Ear : bench::store::Listener {
         mutable std::vector<std::string> said;
         void note(const std::string& text) const override { said.push_back(text); }
-        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override { return std::make_unique<Weary>(); }
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+            return std::make_unique<Weary>();
+        }
     } ear;
-    const auto busy = [](std::size_t, bench::store::Done&) { throw bench::store::Busy{"process 7 on node, which works"}; };
+    const auto busy = [](std::size_t, bench::store::Done&) {
+        throw bench::store::Busy{"process 7 on node, which works"};
+    };
     EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, ear, "", busy), std::runtime_error);
     EXPECT_EQ(ear.said, std::vector<std::string>{"waiting for process 7 on node, which works"});
 }

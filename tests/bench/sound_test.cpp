@@ -19,7 +19,8 @@ namespace {
 
 std::vector<double> sine(double amplitude, double offset, int count) {
     std::vector<double> signal;
-    for (int n = 0; n < count; ++n) signal.push_back(offset + amplitude * std::sin(2 * M_PI * 441.0 * n / 44100));
+    for (int n = 0; n < count; ++n)
+        signal.push_back(offset + amplitude * std::sin(2 * M_PI * 441.0 * n / 44100));
     return signal;
 }
 
@@ -46,17 +47,20 @@ TEST(Played, TakesTheSteadyPartAwayAndLowersTheHighs) {
     const bench::sound::Played still = played(std::vector<double>(1000, 5.0), 44100);
     EXPECT_EQ(bench::sound::level_text(still), "silence");
     EXPECT_EQ(still.channels[0], std::vector<double>(1000, 0.0));
-    const bench::sound::Played beside = played(sine(1, 100, 44100), 44100);  // on a steady 100 N, which is there from the start
+    // on a steady 100 N, which is there from the start
+    const bench::sound::Played beside = played(sine(1, 100, 44100), 44100);
     EXPECT_NEAR(beside.full_scale, played(sine(1, 0, 44100), 44100).full_scale, 1e-9);
 }
 
 TEST(Played, StandsOneDecibelBelowFullScaleWhateverItsForce) {
-    const bench::sound::Played p = played(sine(1, 0, 4410), 44100), loud = played(sine(1e3, 0, 4410), 44100);
+    const bench::sound::Played p = played(sine(1, 0, 4410), 44100),
+                               loud = played(sine(1e3, 0, 4410), 44100);
     EXPECT_NEAR(p.peak, std::pow(10, -1 / 20.0), 1e-15);
     EXPECT_NEAR(p.rms * p.full_scale, std::sqrt(0.5), 0.02);
     EXPECT_EQ(p.clipped, 0);
     EXPECT_NEAR(loud.full_scale, 1e3 * p.full_scale, 1e-9);
-    for (std::size_t n = 0; n < p.channels[0].size(); ++n) ASSERT_NEAR(loud.channels[0][n], p.channels[0][n], 1e-12);
+    for (std::size_t n = 0; n < p.channels[0].size(); ++n)
+        ASSERT_NEAR(loud.channels[0][n], p.channels[0][n], 1e-12);
     bench::sound::Played over = p;
     over.clipped = 3;
     EXPECT_TRUE(says(bench::sound::level_text(over), "3 samples clipped"));
@@ -64,7 +68,8 @@ TEST(Played, StandsOneDecibelBelowFullScaleWhateverItsForce) {
 
 TEST(Played, ReadsBackToTheLastBit) {
     const bench::sound::Played p = played(sine(1, 0, 4410), 48000);
-    const auto folder = std::filesystem::temp_directory_path() / ("jvari-played-" + std::to_string(getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("jvari-played-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const auto path = folder / "x.wav";
     bench::sound::write_audio(path, 48000, p.channels);
@@ -89,8 +94,13 @@ TEST(Played, IsTheDrivingForceWhereSomethingIsDrivenElseTheForceOnTheNut) {
 }
 
 TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
-    const std::pair<const char*, const char*> vectors[] = {
-        {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+    const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                           {"f", "Zg=="},
+                                                           {"fo", "Zm8="},
+                                                           {"foo", "Zm9v"},
+                                                           {"foob", "Zm9vYg=="},
+                                                           {"fooba", "Zm9vYmE="},
+                                                           {"foobar", "Zm9vYmFy"}};
     for (const auto& [bytes, text] : vectors) {
         EXPECT_EQ(bench::store::base64(bytes), text);
         EXPECT_EQ(bench::store::bytes_of_base64(text), bytes);
@@ -100,14 +110,16 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
     EXPECT_EQ(bench::store::bytes_of_base64(bench::store::base64(all)), all);
     EXPECT_THROW(bench::store::bytes_of_base64("abc"), std::runtime_error);
     EXPECT_THROW(bench::store::bytes_of_base64("ab!d"), std::runtime_error);
-    EXPECT_THROW(bench::store::bytes_of_base64("Zg==Zg=="), std::runtime_error);  // it ends at its padding
+    // it ends at its padding
+    EXPECT_THROW(bench::store::bytes_of_base64("Zg==Zg=="), std::runtime_error);
 }
 
 TEST(Sounds, APeakAndSixteenBitsGiveTheSignalBack) {
     const auto signal = sine(3e-4, 1e-4, 4410);
     const bench::store::Sound s = bench::store::sound_of(signal, 44100);
     ASSERT_EQ(s.samples.size(), signal.size());
-    for (std::size_t n = 0; n < signal.size(); ++n) EXPECT_NEAR(s.samples[n] * s.peak / 32767, signal[n], 0.51 * s.peak / 32767);
+    for (std::size_t n = 0; n < signal.size(); ++n)
+        EXPECT_NEAR(s.samples[n] * s.peak / 32767, signal[n], 0.51 * s.peak / 32767);
 }
 
 TEST(Sounds, WhatCannotBeHeardIsNone) {

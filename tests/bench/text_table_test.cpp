@@ -12,15 +12,17 @@
 namespace jvari::bench::command {
 namespace {
 
-const TextTable table{{{"scheme", true}, {"rate"}, {"modes", false, 1}, {"cost"}, {"ns/step", false, 2}},
-                      {{'*', {"modal_two_point", "44100", "133", "0.0069", "156.6"}},
-                       {' ', {"modal_two_point", "88200", "133", "\u2264 0.01", ""}},
-                       {'!', {"sitar_fdm", "44100", "", "1", "-"}}}};
+const TextTable table{
+    {{"scheme", true}, {"rate"}, {"modes", false, 1}, {"cost"}, {"ns/step", false, 2}},
+    {{'*', {"modal_two_point", "44100", "133", "0.0069", "156.6"}},
+     {' ', {"modal_two_point", "88200", "133", "\u2264 0.01", ""}},
+     {'!', {"sitar_fdm", "44100", "", "1", "-"}}}};
 
 std::size_t longest_line(const std::string& text) {
     std::istringstream lines(text);
     std::size_t longest = 0;
-    for (std::string line; std::getline(lines, line) && !line.starts_with("Not shown");) longest = std::max(longest, line.size());
+    for (std::string line; std::getline(lines, line) && !line.starts_with("Not shown");)
+        longest = std::max(longest, line.size());
     return longest;
 }
 
@@ -37,8 +39,10 @@ TEST(TextTable, LosesTheHighestRankFirstAndSaysWhich) {
     EXPECT_FALSE(says(table.text(48), "Not shown"));
     EXPECT_TRUE(says(table.text(47), "narrow: ns/step. "));
     EXPECT_TRUE(says(table.text(35), "narrow: modes, ns/step. "));
-    for (std::size_t width = 32; width < 60; ++width) EXPECT_LE(longest_line(table.text(width)), width + 2) << width;
-    for (std::size_t width = 1; width < 60; ++width) EXPECT_TRUE(says(table.text(width), "0.0069")) << width;
+    for (std::size_t width = 32; width < 60; ++width)
+        EXPECT_LE(longest_line(table.text(width)), width + 2) << width;
+    for (std::size_t width = 1; width < 60; ++width)
+        EXPECT_TRUE(says(table.text(width), "0.0069")) << width;
 }
 
 TEST(TextTable, PutsItsFirstColumnOnALineAboveWhereNothingMoreCanGo) {
@@ -55,12 +59,15 @@ TEST(TextTable, PutsItsFirstColumnOnALineAboveWhereNothingMoreCanGo) {
 TEST(Wrapped, GoesOnBelowItsLastColumn) {
     EXPECT_EQ(wrapped("  name   what it is and does, and for whom\n  other  short", 33),
               "  name   what it is and does, and\n         for whom\n  other  short");
-    EXPECT_EQ(wrapped("  a_name_that_is_long  what it is", 30), "  a_name_that_is_long  what it\n  is");  // too far right to go on below
+    // too far right to go on below
+    EXPECT_EQ(wrapped("  a_name_that_is_long  what it is", 30),
+              "  a_name_that_is_long  what it\n  is");
     EXPECT_EQ(wrapped("a \u2264 b c", 5), "a \u2264 b\nc");
 }
 
 TEST(Wrapped, LosesNoWordAtAnyWidth) {
-    const std::string text = "title\n  modal_two_point  energy balance exact; represents damping\n\n  x  -> y";
+    const std::string text =
+        "title\n  modal_two_point  energy balance exact; represents damping\n\n  x  -> y";
     const auto words = [](const std::string& all) {
         std::istringstream in(all);
         return std::vector<std::string>(std::istream_iterator<std::string>(in), {});
@@ -68,9 +75,7 @@ TEST(Wrapped, LosesNoWordAtAnyWidth) {
     EXPECT_EQ(wrapped(text, 1000), text);
     for (std::size_t width = 1; width < 70; ++width) {
         EXPECT_EQ(words(wrapped(text, width)), words(text)) << width;
-        if (width > 40) {
-            EXPECT_LE(longest_line(wrapped(text, width)), width);
-        }
+        if (width > 40) { EXPECT_LE(longest_line(wrapped(text, width)), width); }
     }
 }
 

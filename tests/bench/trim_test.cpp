@@ -1,5 +1,5 @@
-// jvari trim: what is judged, what is searched, and that nothing on a grid is cheaper by a fifth. Costs are counted, not timed: values of
-// state moved in a second.
+// jvari trim: what is judged, what is searched, and that nothing on a grid is cheaper by a fifth.
+// Costs are counted, not timed: values of state moved in a second.
 #include "bench/trim/trim.hpp"
 
 #include <gtest/gtest.h>
@@ -62,19 +62,25 @@ TEST(Target, IsReadWithTheUnitOfItsMeasureAlone) {
 TEST(Measures, AreZeroForTheTruthItselfAndGrowWithWhatIsChanged) {
     std::vector<double> truth, little, much;
     for (int n = 0; n < 8192; ++n) {
-        const double t = n / 44100.0, x = std::exp(-20 * t) * (std::sin(2800 * t) + 0.3 * std::sin(9000 * t));
+        const double t = n / 44100.0,
+                     x = std::exp(-20 * t) * (std::sin(2800 * t) + 0.3 * std::sin(9000 * t));
         truth.push_back(x);
         little.push_back(x * std::exp(-1 * t));
         much.push_back(std::exp(-60 * t) * std::sin(2800 * t));
     }
     for (const trim::Measure& m : trim::measures()) {
-        const auto error = [&](const std::vector<double>& x) { return study::error_of(m.place, x, truth, 44100); };
+        const auto error = [&](const std::vector<double>& x) {
+            return study::error_of(m.place, x, truth, 44100);
+        };
         EXPECT_LT(error(truth), 1e-12) << m.name;
         EXPECT_GT(error(little), 0) << m.name;
         EXPECT_GT(error(much), 2 * error(little)) << m.name;
     }
-    // exp(-2 t) more of the energy is gone after t: the curves part by 8.7 dB a second, and a little less at the end
-    EXPECT_NEAR(study::error_of(trim::target_of("decay", "1dB").measure->place, little, truth, 44100), 1.0, 0.4);
+    // exp(-2 t) more of the energy is gone after t: the curves part by 8.7 dB a second, and a
+    // little less at the end
+    EXPECT_NEAR(
+        study::error_of(trim::target_of("decay", "1dB").measure->place, little, truth, 44100), 1.0,
+        0.4);
 }
 
 TEST(Starts, OthersAreScenesWithAnotherShape) {
@@ -98,7 +104,8 @@ TEST(Starts, AreOfAnotherFamily) {
     EXPECT_GE(std::get<ModeInitial>(initial(2)).number, 5);
     const Scene plucked = read_scene("nylon_guitar");
     for (int s = 1; s < trim::starts; ++s) {
-        const Pluck &was = *plucked.strings[0].pluck, now = *trim::started(plucked, s).strings[0].pluck;
+        const Pluck &was = *plucked.strings[0].pluck,
+                    now = *trim::started(plucked, s).strings[0].pluck;
         EXPECT_GE(std::abs(now.position - was.position), 0.04 * plucked.strings[0].length) << s;
     }
 }
@@ -110,13 +117,16 @@ TEST(Judge, KeepsWhatIsListenedTo) {
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
         const Reduction& x = judge.reductions()[k];
         const bool loss = x.part == Part::damping || x.part == Part::damping_term;
-        EXPECT_EQ(judge.may_go(k), !loss && x.key != "tap.thread" && x.part != Part::thread && x.part != Part::barrier) << x.said();
+        EXPECT_EQ(judge.may_go(k), !loss && x.key != "tap.thread" && x.part != Part::thread &&
+                                       x.part != Part::barrier)
+            << x.said();
     }
     r.tap = "nuts";
     EXPECT_THROW(trim::Judge(r, catalogue(), silent), store::UsageError);
 }
 
-// Fifty milliseconds hardly hear a loss. Where the decay is judged it is judged to the end of the scene, and losses may go.
+// Fifty milliseconds hardly hear a loss. Where the decay is judged it is judged to the end of the
+// scene, and losses may go.
 TEST(Judge, LeavesOutLossesByTheDecayAlone) {
     trim::Request r = request("tanpura_c3_release", "1dB");
     r.duration.reset();
@@ -129,7 +139,8 @@ TEST(Judge, LeavesOutLossesByTheDecayAlone) {
         EXPECT_DOUBLE_EQ(judge.scene().duration, decay ? 0.2 : 0.05);
         int losses = 0;
         for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
-            losses += judge.may_go(k) && judge.reductions()[k].key.find("damping") != std::string::npos;
+            losses +=
+                judge.may_go(k) && judge.reductions()[k].key.find("damping") != std::string::npos;
         EXPECT_EQ(losses > 0, decay) << measure;
     }
 }
@@ -142,15 +153,18 @@ TEST(Judge, KeepsThreadAndBarriersWhereTheirForcesAreListenedTo) {
         const trim::Judge judge(r, catalogue(), silent, counted);
         int parts = 0;
         for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
-            if (const Reduction& x = judge.reductions()[k]; x.part == Part::thread || x.part == Part::barrier) {
-                EXPECT_EQ(judge.may_go(k), quantity == std::string("nut_force")) << quantity << " without " << x.said();
+            if (const Reduction& x = judge.reductions()[k];
+                x.part == Part::thread || x.part == Part::barrier) {
+                EXPECT_EQ(judge.may_go(k), quantity == std::string("nut_force"))
+                    << quantity << " without " << x.said();
                 ++parts;
             }
         EXPECT_EQ(parts, 2);
     }
 }
 
-// Every number of modes at every rate, own and matched: with the parts that the search left out, and with all parts.
+// Every number of modes at every rate, own and matched: with the parts that the search left out,
+// and with all parts.
 struct Cheapest {
     double cost = HUGE_VAL;
     std::string what;
@@ -164,7 +178,8 @@ Cheapest of_grid(trim::Judge& judge, const std::vector<int>& left_out) {
                     trim::Model m{left_out, &catalogue().find(scheme), {rate, 44100, modes, {}}};
                     if (matched) m.settings.options = {{"compliance", "matched"}};
                     const double cost = counted(m, judge.scene_of(m));
-                    if (cost < best.cost && judge.within(judge.verdict(m, 0), 0)) best = {cost, m.settings_text()};
+                    if (cost < best.cost && judge.within(judge.verdict(m, 0), 0))
+                        best = {cost, m.settings_text()};
                 }
     return best;
 }
@@ -173,8 +188,9 @@ class NothingIsCheaper : public testing::TestWithParam<std::pair<const char*, co
 
 TEST_P(NothingIsCheaper, OnAGridByMoreThanAFifth) {
     trim::Judge judge(request(GetParam().first, GetParam().second), catalogue(), silent, counted);
-    const trim::Path path =
-        trim::search(judge, {&catalogue().find("modal_two_point"), &catalogue().find("modal_quadratised")}, {0}, silent);
+    const trim::Path path = trim::search(
+        judge, {&catalogue().find("modal_two_point"), &catalogue().find("modal_quadratised")}, {0},
+        silent);
     ASSERT_TRUE(path.found);
     const trim::Step& last = path.steps.back();
     EXPECT_LE(last.error, judge.target().most);
@@ -184,7 +200,8 @@ TEST_P(NothingIsCheaper, OnAGridByMoreThanAFifth) {
     EXPECT_LT(last.cost, path.steps.front().cost);
 }
 INSTANTIATE_TEST_SUITE_P(TwoScenes, NothingIsCheaper,
-                         testing::Values(std::pair{"tanpura_c3_release", "5%"}, std::pair{"two_point_bridge", "20%"}));
+                         testing::Values(std::pair{"tanpura_c3_release", "5%"},
+                                         std::pair{"two_point_bridge", "20%"}));
 
 TEST(Judge, CountsTheCertificateWithTheError) {
     trim::Request r = request("tanpura_c3_release", "5%");
@@ -210,22 +227,28 @@ TEST(Judge, CountsTheCertificateWithTheError) {
 
 TEST(Search, IsWithinAtEachStepWhichSavesAndKeepsNothingThatWouldSave) {
     trim::Judge judge(request("tanpura_c3_release", "5%"), catalogue(), silent, counted);
-    const trim::Path path = trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent);
+    const trim::Path path =
+        trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent);
     ASSERT_TRUE(path.found);
     const trim::Step& last = path.steps.back();
     EXPECT_EQ(judge.scene_of(last.model).taps.size(), 1u);
     for (std::size_t k = 1; k < path.steps.size(); ++k) {
         EXPECT_TRUE(path.steps[k].within) << path.steps[k].change;
         EXPECT_TRUE(judge.within(judge.verdict(path.steps[k].model, 0), 0)) << path.steps[k].change;
-        EXPECT_TRUE(k == 1 || path.steps[k].cost <= trim::worth * path.steps[k - 1].cost) << path.steps[k].change;
+        EXPECT_TRUE(k == 1 || path.steps[k].cost <= trim::worth * path.steps[k - 1].cost)
+            << path.steps[k].change;
     }
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
         const Reduction& r = judge.reductions()[k];
-        if (!judge.may_go(k) || r.part == Part::contact_stiffness || std::ranges::count(last.model.left_out, k)) continue;
+        if (!judge.may_go(k) || r.part == Part::contact_stiffness ||
+            std::ranges::count(last.model.left_out, k))
+            continue;
         trim::Model m = last.model;
         m.left_out.insert(std::ranges::lower_bound(m.left_out, k), k);
         if (judge.scene_of(m) == judge.scene_of(last.model)) continue;  // it went with another
-        EXPECT_FALSE(judge.cost(m) <= trim::worth * last.cost && judge.within(judge.verdict(m, 0), 0)) << r.said();
+        EXPECT_FALSE(judge.cost(m) <= trim::worth * last.cost &&
+                     judge.within(judge.verdict(m, 0), 0))
+            << r.said();
     }
 }
 
@@ -235,19 +258,26 @@ TEST(Search, FindsTheSameModelWhateverAClocksNoise) {
         std::mt19937 random(seed);
         std::normal_distribution<double> normal;
         trim::Judge judge(request("tanpura_c3_release", "10%"), catalogue(), silent,
-                          [&](const trim::Model& m, const Scene& left) { return counted(m, left) * std::exp(noise * normal(random)); });
-        const trim::Model m = trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent).steps.back().model;
+                          [&](const trim::Model& m, const Scene& left) {
+                              return counted(m, left) * std::exp(noise * normal(random));
+                          });
+        const trim::Model m =
+            trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent)
+                .steps.back()
+                .model;
         return std::pair(m.settings_text(), m.left_out);
     };
     const auto quiet = found(0, 0);
     for (unsigned seed = 1; seed < 5; ++seed) EXPECT_EQ(found(seed, 0.02), quiet) << seed;
 }
 
-// Of all schemes the same is found as of the one that is found, and what is passed over serves at no rate.
+// Of all schemes the same is found as of the one that is found, and what is passed over serves at
+// no rate.
 TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
     trim::Judge judge(request("tanpura_c3_release", "2%"), catalogue(), silent, counted);
     std::vector<const Descriptor*> any;
-    for (const char* name : {"finite_difference_explicit", "finite_difference_hamiltonian", "modal_quadratised", "modal_two_point"})
+    for (const char* name : {"finite_difference_explicit", "finite_difference_hamiltonian",
+                             "modal_quadratised", "modal_two_point"})
         any.push_back(&catalogue().find(name));
     const trim::Path path = trim::search(judge, any, {0}, silent);
     ASSERT_TRUE(path.found);
@@ -259,14 +289,16 @@ TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
             continue;
         }
         for (const double rate : {44100.0, 176400.0, 1411200.0})
-            EXPECT_FALSE(judge.within(judge.verdict({{}, d, {rate, 44100, 0, {}}}, 0), 0)) << d->name << " " << rate;
+            EXPECT_FALSE(judge.within(judge.verdict({{}, d, {rate, 44100, 0, {}}}, 0), 0))
+                << d->name << " " << rate;
     }
     EXPECT_LE(path.steps.back().cost, 1.05 * cheapest);
     ASSERT_FALSE(path.passed_over.empty());
     EXPECT_EQ(path.passed_over.front().find("finite_difference"), 0u) << path.passed_over.front();
 }
 
-// No doubling and no certificate: what is within cannot be decided, and that is said instead of "none" or "certain to 0 %".
+// No doubling and no certificate: what is within cannot be decided, and that is said instead of
+// "none" or "certain to 0 %".
 TEST(Trim, AnUnknownOrATooLargeUncertaintyDecidesNothing) {
     trim::Request r = request("tanpura_c3_release", "0.0001%");
     r.scheme = "modal_two_point";
@@ -298,7 +330,8 @@ TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {
     EXPECT_EQ(names({}), (Names{"modal_two_point", "modal_two_point compliance=matched"}));
     EXPECT_EQ(names({{"", "compliance", "own"}, {"", "compliance", "matched"}}),
               (Names{"modal_two_point compliance=own", "modal_two_point compliance=matched"}));
-    EXPECT_EQ(names({{"modal_two_point", "compliance", "matched"}}), Names{"modal_two_point compliance=matched"});
+    EXPECT_EQ(names({{"modal_two_point", "compliance", "matched"}}),
+              Names{"modal_two_point compliance=matched"});
     EXPECT_EQ(names({{"modal_quadratised", "compliance", "own"}}).size(), 2u);  // of another
     trim::Request r = request("tanpura_c3_release", "5%");
     r.scheme = "modal_two_point";
@@ -307,20 +340,22 @@ TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {
     const trim::Path path = trim::search(judge, {&d}, {0}, silent);
     ASSERT_TRUE(path.found);
     for (std::size_t k = 1; k < path.steps.size(); ++k)
-        EXPECT_EQ(path.steps[k].model.settings.options, (OptionValues{{"compliance", "own"}})) << path.steps[k].change;
+        EXPECT_EQ(path.steps[k].model.settings.options, (OptionValues{{"compliance", "own"}}))
+            << path.steps[k].change;
     r.options = {{"", "compliances", "own"}};
     EXPECT_THROW(trim::trimmed(judge, r, catalogue(), silent), store::UsageError);
 }
 
-// A number of modes that serves a first mode does not serve a triangle: the search learns of it by the verification, and each start that
-// is told has its own truth, error and name.
+// A number of modes that serves a first mode does not serve a triangle: the search learns of it by
+// the verification, and each start that is told has its own truth, error and name.
 TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     trim::Request r = request("tanpura_c3_release", "3%");
     r.scheme = "modal_two_point";
     trim::Judge judge(r, catalogue(), silent, counted);
     const trim::Path by_one = trim::search(judge, {&catalogue().find(r.scheme)}, {0}, silent);
     ASSERT_TRUE(by_one.found);
-    ASSERT_FALSE(judge.within(judge.verdict(by_one.steps.back().model, 1), 1)) << "another tolerance is needed for this test";
+    ASSERT_FALSE(judge.within(judge.verdict(by_one.steps.back().model, 1), 1))
+        << "another tolerance is needed for this test";
     const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
     ASSERT_TRUE(t.path.found);
     ASSERT_GT(t.independent(), 0);
@@ -334,20 +369,25 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
         EXPECT_EQ(v.said, trim::name_of_start(scene));
         names.insert(v.said), errors.insert(v.error);
         // by hand: the trimmed model against the whole scene, both from this start
-        const jvari::Run truth = run(catalogue().find("exact_contact"), scene, {0, 44100, r.reference_modes, {{"compliance", "matched"}}});
+        const jvari::Run truth = run(catalogue().find("exact_contact"), scene,
+                                     {0, 44100, r.reference_modes, {{"compliance", "matched"}}});
         const trim::Model& m = t.last().model;
         const jvari::Run made = run(*m.scheme, judge.scene_of(m, v.start), m.settings);
-        EXPECT_NEAR(relative_l2(made.trace.column(0), truth.trace.column(0), 44100), v.error, 1e-6) << v.said;
+        EXPECT_NEAR(relative_l2(made.trace.column(0), truth.trace.column(0), 44100), v.error, 1e-6)
+            << v.said;
     }
     EXPECT_EQ(names.size(), t.verified.size());
     EXPECT_EQ(errors.size(), t.verified.size());
     const std::string toml = trim::trimmed_toml(t, judge);
     for (const trim::Verified& v : t.verified)
-        EXPECT_EQ(toml.find(v.said + ", which the search did not know") != std::string::npos, !v.judged_by) << toml;
+        EXPECT_EQ(toml.find(v.said + ", which the search did not know") != std::string::npos,
+                  !v.judged_by)
+            << toml;
 }
 
 TEST(Trim, WritesASceneThatIsReadWhateverItsNameHolds) {
-    const auto folder = std::filesystem::temp_directory_path() / ("jvari-trim-names-" + std::to_string(getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("jvari-trim-names-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     Scene scene = read_scene("free_string");
     scene.name = "x\" duration = 7 [[string]] #";
@@ -364,7 +404,8 @@ TEST(Trim, WritesASceneThatIsReadWhateverItsNameHolds) {
 }
 
 TEST(Trim, IsTakenUpWhereItWasStoppedAndVerifiedByAnotherStart) {
-    const auto folder = std::filesystem::temp_directory_path() / ("jvari-trim-" + std::to_string(getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("jvari-trim-" + std::to_string(getpid()));
     trim::Request r = request("free_string", "10%");
     r.scheme = "modal_two_point";
     r.out = folder.string();
@@ -379,7 +420,8 @@ TEST(Trim, IsTakenUpWhereItWasStoppedAndVerifiedByAnotherStart) {
         const std::string toml = trim::trimmed_toml(t, judge);
         const Scene back = parse_scene(toml, "trimmed.toml");
         EXPECT_EQ(back.strings, t.scene.strings);
-        for (const int part : t.last().model.left_out) EXPECT_TRUE(says(toml, judge.reductions()[part].said()));
+        for (const int part : t.last().model.left_out)
+            EXPECT_TRUE(says(toml, judge.reductions()[part].said()));
         EXPECT_TRUE(says(toml, trim::command_of(t, "trimmed.toml")));
         EXPECT_EQ(trim::path_table(t, judge).rows.size(), t.path.steps.size());
         if (k == 0) first = trim::command_of(t, "");

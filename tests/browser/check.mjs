@@ -1,8 +1,18 @@
-// check.mjs PROGRAM RESULTS NODE_MODULES DEMO: makes a comparison, a suite and a page of made-up numbers with the built program, opens them and the
-// demo's in Chromium, wide and as a phone, light and dark, and asks what a reader would: is the verdict the first thing, is everything drawn for every
-// scene, has a scheme one look, do the menus act, does it sound, does it fit, can every text be read, is it accessible (axe-core), is the console clean.
+// check.mjs PROGRAM RESULTS NODE_MODULES DEMO: makes a comparison, a suite and a page of made-up
+// numbers with the built program, opens them and the demo's in Chromium, wide and as a phone, light
+// and dark, and asks what a reader would: is the verdict the first thing, is everything drawn for
+// every scene, has a scheme one look, do the menus act, does it sound, does it fit, can every text
+// be read, is it accessible (axe-core), is the console clean.
 import {spawnSync} from "node:child_process";
-import {cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
+import {
+  cpSync,
+  mkdtempSync,
+  readFileSync,
+  readdirSync,
+  rmSync,
+  statSync,
+  writeFileSync,
+} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
 import {pathToFileURL} from "node:url";
@@ -13,14 +23,15 @@ const axe = readFileSync(join(modules, "axe-core/axe.min.js"), "utf8");
 const scratch = mkdtempSync(join(tmpdir(), "jvari-browser-"));
 let failures = 0;
 const expect = (holds, what) => {
-    if (!holds) ++failures;
-    if (!holds) console.log(`  FAILED: ${what}`);
+  if (!holds) ++failures;
+  if (!holds) console.log(`  FAILED: ${what}`);
 };
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
 function jvari(...words) {
-    const run = spawnSync(program, words, {encoding: "utf8"});
-    if (run.status !== 0) throw new Error(`jvari ${words.join(" ")} ended with ${run.status}: ${run.stderr}`);
+  const run = spawnSync(program, words, {encoding: "utf8"});
+  if (run.status !== 0)
+    throw new Error(`jvari ${words.join(" ")} ended with ${run.status}: ${run.stderr}`);
 }
 
 const suite = `name = "of the browser's test"
@@ -46,14 +57,34 @@ measure = ["errors", "cost"]
 `;
 
 function make_folders() {
-    const folders = Object.fromEntries(["comparison", "suite", "made-up"].map(name => [name, join(scratch, name)]));
-    jvari("compare", "tanpura_c3_release", "--schemes", "modal_two_point,modal_two_point_trapezoidal,modal_explicit_penalty", "--rates", "44100,88200",
-        "--modes", "10", "--option", "compliance=own", "--reference-modes", "266", "--duration", "0.06", "--repeats", "1", "--out", folders.comparison);
-    writeFileSync(join(scratch, "suite.toml"), suite);
-    jvari("suite", join(scratch, "suite.toml"), "--out", folders.suite);
-    cpSync(results, folders["made-up"], {recursive: true});
-    jvari("report", folders["made-up"]);
-    return folders;
+  const folders = Object.fromEntries(
+    ["comparison", "suite", "made-up"].map(name => [name, join(scratch, name)]),
+  );
+  jvari(
+    "compare",
+    "tanpura_c3_release",
+    "--schemes",
+    "modal_two_point,modal_two_point_trapezoidal,modal_explicit_penalty",
+    "--rates",
+    "44100,88200",
+    "--modes",
+    "10",
+    "--option",
+    "compliance=own",
+    "--reference-modes",
+    "266",
+    "--duration",
+    "0.06",
+    "--repeats",
+    "1",
+    "--out",
+    folders.comparison,
+  );
+  writeFileSync(join(scratch, "suite.toml"), suite);
+  jvari("suite", join(scratch, "suite.toml"), "--out", folders.suite);
+  cpSync(results, folders["made-up"], {recursive: true});
+  jvari("report", folders["made-up"]);
+  return folders;
 }
 
 // In the page. What a chart shows: the marks of its SVG, or the pixels of its canvas.
@@ -71,8 +102,10 @@ const helpers = `
 `;
 
 const in_page = {
-    drawn: `(() => {${helpers} return [...document.querySelectorAll(".chart")].map(c => ({name: c.getAttribute("aria-label"), marks: marks(c)})); })()`,
-    menus: `(async () => {${helpers}
+  drawn:
+    `(() => {${helpers} return [...document.querySelectorAll(".chart")].map(c => ({name: ` +
+    `c.getAttribute("aria-label"), marks: marks(c)})); })()`,
+  menus: `(async () => {${helpers}
         const dead = [];
         for (const select of document.querySelectorAll(".menus[data-chart] select")) {
             const chart = document.getElementById(select.closest(".menus").dataset.chart), before = picture(chart);
@@ -85,8 +118,9 @@ const in_page = {
         }
         return {menus: document.querySelectorAll(".menus[data-chart] select").length, dead};
     })()`,
-    // The player: it sounds, another key is heard in the middle of the sound and at once, nothing but the scene's own sounds is offered.
-    sound: `(async () => {
+  // The player: it sounds, another key is heard in the middle of the sound and at once, nothing
+  // but the scene's own sounds is offered.
+  sound: `(async () => {
         const press = key => document.body.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true})), wait = ms => new Promise(resolve => setTimeout(resolve, ms));
         const heard = () => player.playing?.filter(p => p.gain.gain.value === 1).map(p => player.shown.indexOf(p.sound)) ?? [];
         press(" ");
@@ -105,13 +139,13 @@ const in_page = {
         return {first, second, took, goes_on, loudness: Math.max(...rms) / Math.min(...rms), ended: player.playing === null, hidden, listen: document.querySelectorAll(".listen").length,
                 found: report.verdicts.find(v => v.scene === scene_shown()).answers.filter(a => player.sounds.some(s => s.name === a.scheme && s.detail === a.rate && s.problem === scene_shown())).length, shown: player.shown.length, length: player.shown.map(s => s.buffer?.duration)};
     })()`,
-    table: `(async () => {
+  table: `(async () => {
         const table = [...document.querySelectorAll("#cells table")].at(-1), heading = name => [...table.querySelectorAll("th")].find(th => th.textContent.startsWith(name));
         const column = () => { const k = [...table.querySelectorAll("th")].indexOf(heading("rate")); return [...table.querySelectorAll("tbody tr")].map(tr => Number(tr.cells[k].textContent)); };
         return {button: document.activeElement === heading("rate").querySelector("button"), sort: heading("rate").getAttribute("aria-sort"), column: column()};
     })()`,
-    // The first chart's axes after each zoom button, and after the wheel with Ctrl.
-    zoom: `(async () => {
+  // The first chart's axes after each zoom button, and after the wheel with Ctrl.
+  zoom: `(async () => {
         const chart = document.querySelector("#work-precision .chart"), buttons = [...document.querySelectorAll("#work-precision .zoom button")];
         const ticks = () => [...chart.querySelectorAll(".role-axis-label text")].map(t => t.textContent + t.getAttribute("transform")).sort().join("|");
         const changed = async (act, wanted) => {  // what the axes say then
@@ -123,14 +157,16 @@ const in_page = {
         const seen = [ticks()];
         for (const [k, button] of buttons.entries()) seen.push(await changed(() => button.click(), k === 2 ? seen[0] : undefined));
         const plot = chart.querySelector("svg"), at = plot.getBoundingClientRect();
-        const under = document.elementFromPoint(at.left + 300, at.top + 150);  // what a mouse would turn its wheel over
+        // what a mouse would turn its wheel over
+        const under = document.elementFromPoint(at.left + 300, at.top + 150);
         const wheel = await changed(() => under.dispatchEvent(new WheelEvent("wheel", {deltaY: -240, ctrlKey: true, bubbles: true, cancelable: true, clientX: at.left + 300, clientY: at.top + 150})));
         await changed(() => buttons.at(-1).click(), seen[0]);
         return {buttons: buttons.length, zoomed: seen[1] !== seen[0], out: seen[2] !== seen[1], whole: seen[3] === seen[0], wheel: wheel !== seen[0], back: ticks() === seen[0], named: document.querySelectorAll("#work-precision .zoom button[aria-label]").length};
     })()`,
-    width: "document.documentElement.scrollWidth",
-    // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that failed, and whether the error is one that the scene has.
-    scenes: `(async () => {${helpers}
+  width: "document.documentElement.scrollWidth",
+  // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that
+  // failed, and whether the error is one that the scene has.
+  scenes: `(async () => {${helpers}
         // Parts of the page that show another scene than the menu says.
         const behind = name => name === null ? [] : [
             ...[...document.querySelectorAll(".chart")].filter(c => c.dataset.scene !== name && !c.closest("section, details").textContent.includes("No runs of " + name)).map(c => c.getAttribute("aria-label") + " shows " + c.dataset.scene),
@@ -146,7 +182,8 @@ const in_page = {
                 await select.onchange();
             }
             const data = report.sections.find(s => s.id === "work-precision")?.charts[0], chart = document.querySelector("#work-precision .chart");
-            if (!chart || (name !== null && !data.scenes.includes(name))) continue;  // it has other charts alone
+            // it has other charts alone
+            if (!chart || (name !== null && !data.scenes.includes(name))) continue;
             const scene = name ?? data.scenes[0], rows = of_scene(cells(), scene).filter(c => c.line), menus = data.menus(scene).filter(menu => menu.choices.length > 1);
             const chosen = key => { const k = menus.findIndex(menu => menu.key === key); return k < 0 ? undefined : menus[k].choices[document.querySelectorAll("#work-precision .menus select")[k].selectedIndex][0]; };
             const offers = errors_in(of_scene(cells(), scene)).map(e => e.column), error = (chosen("measure_field") ?? offers[0]) + (chosen("tap_field") ? "_" + chosen("tap_field") : "");
@@ -166,8 +203,8 @@ const in_page = {
         else await every?.onchange();
         return told;
     })()`,
-    // The first chart as it is first seen: its names, in the legend and beside the lines.
-    names: `(() => {
+  // The first chart as it is first seen: its names, in the legend and beside the lines.
+  names: `(() => {
         const chart = document.querySelector("#work-precision .chart"), box = e => e.getBoundingClientRect();
         const legend = [...document.querySelectorAll("#work-precision .legend button")].map(t => t.textContent);
         const samples = [...document.querySelectorAll("#work-precision .legend svg")].filter(s => s.querySelector("line") && s.querySelector("path"));
@@ -178,13 +215,14 @@ const in_page = {
         const series = [...document.querySelectorAll("#work-precision .legend button")].map(b => b.dataset.series);
         return {legend, samples: samples.length, labels: labels.length, idle: series.filter(name => !drawn(name)), overlaps: labels.flatMap((a, k) => labels.slice(k + 1).filter(b => overlap(box(a), box(b))).map(b => a.textContent + " and " + b.textContent))};
     })()`,
-    fold: `(() => {
+  fold: `(() => {
         scrollTo(0, 0);
         const bottom = e => e.getBoundingClientRect().bottom, plot = document.querySelector("#work-precision .chart .mark-group.role-frame .background") ?? document.querySelector("#work-precision .chart svg");
         return {title: bottom(document.querySelector("h1")), chart: bottom(plot), answers: bottom([...document.querySelectorAll("#verdict .card")].at(-1)), screens: document.documentElement.scrollHeight / innerHeight};
     })()`,
-    // Rows of a table that look like one before them are left out: half of all processor time went into their contrasts.
-    axe: `(() => {
+  // Rows of a table that look like one before them are left out: half of all processor time went
+  // into their contrasts.
+  axe: `(() => {
         for (const table of document.querySelectorAll("table")) {
             const seen = new Map();
             for (const row of table.tBodies[0].rows) {
@@ -195,8 +233,9 @@ const in_page = {
         return axe.run({exclude: [["[data-like-others]"]]}, {resultTypes: ["violations"]})
             .then(r => r.violations.filter(v => v.impact === "serious" || v.impact === "critical").map(v => v.id + ": " + v.nodes.slice(0, 3).map(n => n.target.join(" ") + " " + n.failureSummary.slice(0, 160)).join(" | ")));
     })()`,
-    // How well the edges of the front are seen, and the texts of the charts that are fainter than 4.5 : 1 on the page, as they are blended with it. A cross is a mark.
-    faint: `(() => {
+  // How well the edges of the front are seen, and the texts of the charts that are fainter than
+  // 4.5 : 1 on the page, as they are blended with it. A cross is a mark.
+  faint: `(() => {
         const numbers = colour => colour.match(/[\\d.]+/g).map(Number), linear = c => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
         const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
         const paper = numbers(getComputedStyle(document.body).backgroundColor).slice(0, 3), faint = [];
@@ -215,8 +254,8 @@ const in_page = {
         }
         return {texts: document.querySelectorAll(".chart svg.marks text").length, faint, front: front.length ? Math.min(...front) : 0};
     })()`,
-    // The table of cells: what the filter leaves, and what the button saves.
-    filter: `(async () => {
+  // The table of cells: what the filter leaves, and what the button saves.
+  filter: `(async () => {
         const section = document.getElementById("cells"), table = report.sections.find(s => s.id === "cells").table, search = section.querySelector("input[type=search]");
         [...section.querySelectorAll("button")].find(b => b.textContent === "all rows" && !b.hidden)?.click();
         const rows = () => section.querySelectorAll("tbody tr").length, all = rows(), schemes = table.rows.map(row => row[table.columns.indexOf("scheme")]);
@@ -237,23 +276,27 @@ const in_page = {
         return {left, right, expected: schemes.filter(name => name.includes(one)).length, all, again: rows(),
                 header: text.split("\\n")[0] === table.columns.join(","), saved: text.trim().split("\\n").length - 1, rows: table.rows.length};
     })()`,
-    // On a phone: the first row of the cells, each number with its name before it.
-    card: `(() => {
+  // On a phone: the first row of the cells, each number with its name before it.
+  card: `(() => {
         const fields = [...document.querySelector("#cells tbody tr").cells].filter(td => getComputedStyle(td).display !== "none");
         const named = fields.every(td => getComputedStyle(td, "::before").content.length > 2 && td.getBoundingClientRect().right <= 390);
         return {named, numbers: fields.filter(td => td.textContent !== "" && !Number.isNaN(Number(td.textContent))).length, stacked: new Set(fields.map(td => td.getBoundingClientRect().top)).size === fields.length};
     })()`,
-    // Maps: a tile for each run of the scheme that is shown, side by side without a gap, and a unit on each axis that has one.
-    tiles: `(() => [...document.querySelectorAll("#maps .chart")].map(chart => {
+  // Maps: a tile for each run of the scheme that is shown, side by side without a gap, and a unit
+  // on each axis that has one.
+  tiles: `(() => [...document.querySelectorAll("#maps .chart")].map(chart => {
         const boxes = [...chart.querySelectorAll(".mark-rect.role-mark path")].map(p => p.getBBox ? p.getBoundingClientRect() : null);
         const lefts = [...new Set(boxes.map(b => Math.round(b.left)))].sort((a, b) => a - b), widths = new Map(boxes.map(b => [Math.round(b.left), b.width]));
         return {name: chart.getAttribute("aria-label"), tiles: boxes.length, gap: Math.max(0, ...lefts.slice(1).map((left, k) => Math.abs(left - lefts[k] - widths.get(lefts[k])))),
                 text: [...chart.querySelectorAll("svg.marks text")].map(t => t.textContent).join(" ")};
     }))()`,
-    menu_lengths: `[...document.querySelectorAll(".menus select")].map(s => [s.closest("label").firstChild.textContent.trim(), s.options.length])`,
-    // The lines of a trace in the order of its legend, scene by scene: their colours, and of the points of all three how far the third is from being the
-    // second less the first, in pixels, and how high it is.
-    lines: `(async () => {
+  menu_lengths:
+    `[...document.querySelectorAll(".menus select")].map(s => ` +
+    `[s.closest("label").firstChild.textContent.trim(), s.options.length])`,
+  // The lines of a trace in the order of its legend, scene by scene: their colours, and of the
+  // points of all three how far the third is from being the second less the first, in pixels, and
+  // how high it is.
+  lines: `(async () => {
         const chart = document.querySelector("#sounds .chart"), scenes = document.getElementById("scene"), told = [];
         for (const name of scenes ? [...scenes.options].map(o => o.value) : [null]) {
             if (name !== null && !report.sections.find(s => s.id === "sounds").charts[0].scenes.includes(name)) continue;
@@ -268,8 +311,9 @@ const in_page = {
         if (scenes) { scenes.selectedIndex = 0; await scenes.onchange(); }
         return told;
     })()`,
-    // Spectrograms as they are seen: of each panel which part is not background, and which is warm or cold, beside what its tiles cover.
-    panels: `(async () => {
+  // Spectrograms as they are seen: of each panel which part is not background, and which is warm
+  // or cold, beside what its tiles cover.
+  panels: `(async () => {
         const section = document.getElementById("spectrograms");
         const data = report.sections.find(s => s.id === "spectrograms").charts[0], seen = {level: [], difference: []}, menu = document.getElementById("scene");
         let chart, expected = 0;
@@ -316,8 +360,8 @@ const in_page = {
         if (menu) { menu.selectedIndex = 0; await menu.onchange(); }
         return {expected, ...seen};
     })()`,
-    // The look of each name in the legends of the page's charts, then of the pictures beside it.
-    looks: files => `(() => {
+  // The look of each name in the legends of the page's charts, then of the pictures beside it.
+  looks: files => `(() => {
         const look = (where, root) => [...root.querySelectorAll(".role-legend-entry")].flatMap(entry => {
             const symbols = [...entry.querySelectorAll(".role-legend-symbol path")], labels = [...entry.querySelectorAll(".role-legend-label text")];
             return labels.map((label, k) => ({where, name: label.textContent, look: [symbols[k]?.getAttribute("d"), symbols[k]?.getAttribute("fill"), symbols[k]?.getAttribute("stroke")].join(" ")}));
@@ -326,173 +370,386 @@ const in_page = {
         const samples = [...document.querySelectorAll(".legend button")].map(b => ({where: "the page, " + b.closest("section, details").id, name: b.textContent,
             look: [b.querySelector("path").getAttribute("d"), b.querySelector("path").getAttribute("fill")].join(" ")}));
         return [...samples, ...pictures.flatMap(([name, text]) => look(name, new DOMParser().parseFromString(text, "image/svg+xml")))];
-    })()`
+    })()`,
 };
 const known = /^(modal|finite_difference|sitar)_/;
 
-function one_look(looks) {  // of each scheme: the same marker and colour wherever it is
-    const first = new Map(), other = [];
-    for (const l of looks.filter(l => known.test(l.name))) {
-        const scheme = l.name.split(/[ ,:]/)[0];
-        if (!first.has(scheme)) first.set(scheme, l);
-        else if (first.get(scheme).look !== l.look) other.push(`${scheme} in ${l.where} is not as in ${first.get(scheme).where}`);
-    }
-    return {schemes: first.size, other};
+function one_look(looks) {
+  // of each scheme: the same marker and colour wherever it is
+  const first = new Map(),
+    other = [];
+  for (const l of looks.filter(l => known.test(l.name))) {
+    const scheme = l.name.split(/[ ,:]/)[0];
+    if (!first.has(scheme)) first.set(scheme, l);
+    else if (first.get(scheme).look !== l.look)
+      other.push(`${scheme} in ${l.where} is not as in ${first.get(scheme).where}`);
+  }
+  return {schemes: first.size, other};
 }
 
 async function ready(browser) {
-    for (let k = 0; k < 600; ++k) {
-        if (await browser.evaluate("document.documentElement?.dataset.ready === 'true' && ![...document.querySelectorAll('.chart')].some(c => c.dataset.drawn === 'false')")) return;
-        await pause(50);
-    }
-    expect(false, "the page comes to rest within half a minute");
+  for (let k = 0; k < 600; ++k) {
+    if (
+      await browser.evaluate(
+        "document.documentElement?.dataset.ready === 'true' && " +
+          "![...document.querySelectorAll('.chart')].some(c => c.dataset.drawn === 'false')",
+      )
+    )
+      return;
+    await pause(50);
+  }
+  expect(false, "the page comes to rest within half a minute");
 }
-const enter = browser => browser.page("Input.dispatchKeyEvent", {type: "keyDown", key: "Enter", code: "Enter", text: "\r", windowsVirtualKeyCode: 13})
-    .then(() => browser.page("Input.dispatchKeyEvent", {type: "keyUp", key: "Enter", code: "Enter", windowsVirtualKeyCode: 13}));
-const sorted = numbers => numbers.every((x, k) => k === 0 || Number.isNaN(x) || numbers[k - 1] <= x);
+const enter = browser =>
+  browser
+    .page("Input.dispatchKeyEvent", {
+      type: "keyDown",
+      key: "Enter",
+      code: "Enter",
+      text: "\r",
+      windowsVirtualKeyCode: 13,
+    })
+    .then(() =>
+      browser.page("Input.dispatchKeyEvent", {
+        type: "keyUp",
+        key: "Enter",
+        code: "Enter",
+        windowsVirtualKeyCode: 13,
+      }),
+    );
+const sorted = numbers =>
+  numbers.every((x, k) => k === 0 || Number.isNaN(x) || numbers[k - 1] <= x);
 
-// In this order each differs from the one before in colours or in width, and its charts are drawn once.
-const views = {"light, 1400 px": [1400, "light"], "dark, 1400 px": [1400, "dark"], "dark, 390 px": [390, "dark"], "light, 390 px": [390, "light"]};
+// In this order each differs from the one before in colours or in width, and its charts are drawn
+// once.
+const views = {
+  "light, 1400 px": [1400, "light"],
+  "dark, 1400 px": [1400, "dark"],
+  "dark, 390 px": [390, "dark"],
+  "light, 390 px": [390, "light"],
+};
 async function view(browser, name) {
-    const [width, scheme] = views[name];
-    await browser.page("Emulation.setDeviceMetricsOverride", {width, height: width === 390 ? 844 : 900, deviceScaleFactor: width === 390 ? 2 : 1, mobile: width === 390});
-    await browser.page("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: scheme}]});
-    await browser.evaluate("new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)))");  // the page has been told
-    if (await browser.evaluate("!!document.querySelector('main')")) await ready(browser);
+  const [width, scheme] = views[name];
+  await browser.page("Emulation.setDeviceMetricsOverride", {
+    width,
+    height: width === 390 ? 844 : 900,
+    deviceScaleFactor: width === 390 ? 2 : 1,
+    mobile: width === 390,
+  });
+  await browser.page("Emulation.setEmulatedMedia", {
+    features: [{name: "prefers-color-scheme", value: scheme}],
+  });
+  // the page has been told
+  await browser.evaluate(
+    "new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve)))",
+  );
+  if (await browser.evaluate("!!document.querySelector('main')")) await ready(browser);
 }
-let seen_closed;  // how much of the page is there before a section is opened
+let seen_closed; // how much of the page is there before a section is opened
 async function go(browser, address) {
-    await browser.page("Page.navigate", {url: "about:blank"});
-    await view(browser, "light, 1400 px");
-    await browser.page("Page.navigate", {url: address});
-    await ready(browser);
-    seen_closed = await browser.evaluate("({later: document.querySelectorAll('.chart[data-drawn=later]').length, screens: document.documentElement.scrollHeight / innerHeight})");
-    await browser.evaluate("document.querySelectorAll('details').forEach(d => { d.open = true; })");
-    for (let k = 0; k < 600 && await browser.evaluate("!!document.querySelector('.chart[data-drawn=later]')"); ++k) await pause(50);
-    await ready(browser);
+  await browser.page("Page.navigate", {url: "about:blank"});
+  await view(browser, "light, 1400 px");
+  await browser.page("Page.navigate", {url: address});
+  await ready(browser);
+  seen_closed = await browser.evaluate(
+    "({later: document.querySelectorAll('.chart[data-drawn=later]').length, screens: " +
+      "document.documentElement.scrollHeight / innerHeight})",
+  );
+  await browser.evaluate("document.querySelectorAll('details').forEach(d => { d.open = true; })");
+  for (
+    let k = 0;
+    k < 600 && (await browser.evaluate("!!document.querySelector('.chart[data-drawn=later]')"));
+    ++k
+  )
+    await pause(50);
+  await ready(browser);
 }
-const in_folder = (file, table) => readFileSync(join(dirname(file), table), "utf8").trim().split("\n").slice(1).map(line => line.split(","));
+const in_folder = (file, table) =>
+  readFileSync(join(dirname(file), table), "utf8")
+    .trim()
+    .split("\n")
+    .slice(1)
+    .map(line => line.split(","));
 
-async function read_in(browser, name) {  // what must hold however the page is looked at
-    await view(browser, name);
-    for (const told of await browser.evaluate(in_page.scenes)) {
-        expect(told.offered, `${name}, ${told.name}: the error that is chosen is one of the scene's`);
-        expect(told.empty.length === 0, `${name}, ${told.name}: every chart is drawn: ${told.empty.join("; ")}`);
-        expect(told.crosses === told.failed, `${name}, ${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`);
-        expect(told.points >= told.drawable && told.drawable > 0, `${name}, ${told.name}: ${told.points} points for ${told.drawable} runs that have the error`);
-        expect(told.behind.length === 0, `${name}, ${told.name}: no part of the page shows another scene: ${told.behind.join("; ")}`);
-        expect(told.verdict > 0 && told.title !== "", `${name}, ${told.name}: there is an answer, and a title`);
-        expect(told.heard, `${name}, ${told.name}: the player has the scene's sounds alone`);
-    }
-    const {texts, faint, front} = await browser.evaluate(in_page.faint);
-    expect(texts > 20 && faint.length === 0, `${name}: the ${texts} texts of charts can be read: ${faint.slice(0, 5).join("; ")}`);
-    expect(front >= 3, `${name}: the front is seen: its edges have a contrast of ${front.toFixed(2)}`);
-    const serious = await browser.evaluate(in_page.axe);
-    expect(serious.length === 0, `${name}: axe finds nothing serious: ${serious.join("\n    ")}`);
-    const fold = await browser.evaluate(in_page.fold), [width] = views[name], height = width === 390 ? 844 : 800;
-    expect(fold.title < fold.chart && fold.chart <= height && fold.answers <= height, `${name}: title, chart and answers stand above the fold: ${JSON.stringify(fold)}`);
-    const wide = await browser.evaluate(in_page.width);
-    expect(wide <= width, `${name}: nothing overflows: ${wide}`);
+async function read_in(browser, name) {
+  // what must hold however the page is looked at
+  await view(browser, name);
+  for (const told of await browser.evaluate(in_page.scenes)) {
+    expect(told.offered, `${name}, ${told.name}: the error that is chosen is one of the scene's`);
+    expect(
+      told.empty.length === 0,
+      `${name}, ${told.name}: every chart is drawn: ${told.empty.join("; ")}`,
+    );
+    expect(
+      told.crosses === told.failed,
+      `${name}, ${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`,
+    );
+    expect(
+      told.points >= told.drawable && told.drawable > 0,
+      `${name}, ${told.name}: ${told.points} points for ${told.drawable} runs that have the error`,
+    );
+    expect(
+      told.behind.length === 0,
+      `${name}, ${told.name}: no part of the page shows another scene: ${told.behind.join("; ")}`,
+    );
+    expect(
+      told.verdict > 0 && told.title !== "",
+      `${name}, ${told.name}: there is an answer, and a title`,
+    );
+    expect(told.heard, `${name}, ${told.name}: the player has the scene's sounds alone`);
+  }
+  const {texts, faint, front} = await browser.evaluate(in_page.faint);
+  expect(
+    texts > 20 && faint.length === 0,
+    `${name}: the ${texts} texts of charts can be read: ${faint.slice(0, 5).join("; ")}`,
+  );
+  expect(
+    front >= 3,
+    `${name}: the front is seen: its edges have a contrast of ${front.toFixed(2)}`,
+  );
+  const serious = await browser.evaluate(in_page.axe);
+  expect(serious.length === 0, `${name}: axe finds nothing serious: ${serious.join("\n    ")}`);
+  const fold = await browser.evaluate(in_page.fold),
+    [width] = views[name],
+    height = width === 390 ? 844 : 800;
+  expect(
+    fold.title < fold.chart && fold.chart <= height && fold.answers <= height,
+    `${name}: title, chart and answers stand above the fold: ${JSON.stringify(fold)}`,
+  );
+  const wide = await browser.evaluate(in_page.width);
+  expect(wide <= width, `${name}: nothing overflows: ${wide}`);
 }
 
-// The reference differs from nothing; of each other panel as much is painted as its tiles cover, warm where it is louder, cold where quieter.
+// The reference differs from nothing; of each other panel as much is painted as its tiles cover,
+// warm where it is louder, cold where quieter.
 function see_panels({expected, level, difference}) {
-    expect(level.length === expected && difference.length === expected, `${expected} spectrograms are seen: ${level.length}, as differences ${difference.length}`);
-    const near = (a, b) => Math.abs(a - b) < 0.02 + 0.25 * b;  // edges are blended
-    for (const p of [...level, ...difference]) expect(near(p.painted, p.tiles), `${p.name}: its tiles are seen: ${JSON.stringify(p)}`);
-    for (const p of level) expect(p.painted > 0.05, `${p.name}: levels are seen: ${JSON.stringify(p)}`);
-    for (const p of difference) expect(near(p.warm, p.louder) && near(p.cold, p.quieter), `${p.name}: louder is orange, quieter purple: ${JSON.stringify(p)}`);
-    expect(difference.filter(p => p.name.includes("reference")).every(p => p.painted === 0), "a reference differs from nothing");
-    expect(difference.some(p => p.painted > 0.05 && p.warm > 0.01 && p.cold > 0.01), `a difference is seen: ${JSON.stringify(difference)}`);
+  expect(
+    level.length === expected && difference.length === expected,
+    `${expected} spectrograms are seen: ${level.length}, as differences ${difference.length}`,
+  );
+  const near = (a, b) => Math.abs(a - b) < 0.02 + 0.25 * b; // edges are blended
+  for (const p of [...level, ...difference])
+    expect(near(p.painted, p.tiles), `${p.name}: its tiles are seen: ${JSON.stringify(p)}`);
+  for (const p of level)
+    expect(p.painted > 0.05, `${p.name}: levels are seen: ${JSON.stringify(p)}`);
+  for (const p of difference)
+    expect(
+      near(p.warm, p.louder) && near(p.cold, p.quieter),
+      `${p.name}: louder is orange, quieter purple: ${JSON.stringify(p)}`,
+    );
+  expect(
+    difference.filter(p => p.name.includes("reference")).every(p => p.painted === 0),
+    "a reference differs from nothing",
+  );
+  expect(
+    difference.some(p => p.painted > 0.05 && p.warm > 0.01 && p.cold > 0.01),
+    `a difference is seen: ${JSON.stringify(difference)}`,
+  );
 }
 
 async function check(browser, name, file, charts) {
-    console.log(name);
-    expect(statSync(file).size < 5e6, `the page is below 5 MB: ${statSync(file).size}`);
-    await go(browser, pathToFileURL(file).href);
-    const drawn = await browser.evaluate(in_page.drawn);
-    expect(drawn.length === charts, `${charts} charts stand there: ${drawn.length}`);
-    expect(seen_closed.later === charts - 1 && seen_closed.screens < 4, `one chart is drawn at first, the others when they are asked for: ${JSON.stringify(seen_closed)}`);
-    for (const chart of drawn) expect(chart.marks > 0, `${chart.name} is drawn`);
-    const pictures = readdirSync(dirname(file)).filter(f => f.endsWith(".svg")).map(f => [f, readFileSync(join(dirname(file), f), "utf8")]);
-    const {schemes, other} = one_look(await browser.evaluate(in_page.looks(pictures)));
-    expect(other.length === 0 && (name === "made-up" || schemes >= 2), `each of ${schemes} schemes looks the same everywhere: ${other.join("; ")}`);
-    await browser.evaluate(axe + ";axe.configure({noHtml: true});0");
-    const names = await browser.evaluate(in_page.names);
-    expect(names.legend.length >= (name === "made-up" ? 1 : 2) && names.legend.length <= 8 && names.samples === names.legend.length && names.idle.length === 0, `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`);
-    expect(names.labels > 0 && names.overlaps.length === 0, `names beside the lines do not overlap: ${JSON.stringify(names)}`);
-    const zoom = await browser.evaluate(in_page.zoom);
-    expect(zoom.buttons === 3 && zoom.named === 3 && zoom.zoomed && zoom.out && zoom.whole && zoom.wheel && zoom.back, `the first chart zooms by button and by wheel, and back: ${JSON.stringify(zoom)}`);
-    await read_in(browser, "light, 1400 px");
-    const lengths = await browser.evaluate(in_page.menu_lengths);
-    for (const label of ["error", "cost"]) expect(lengths.some(([text, length]) => text === label && length <= 12), `a menu of its own, and short, for ${label}: ${lengths.join("; ")}`);
-    if (name !== "made-up") {
-        const lines = await browser.evaluate(in_page.lines);
-        expect(lines.length > 0 && lines.every(l => l.names === "reference,scheme,difference" && l.colours === 3), `a trace has three lines, each with its colour: ${JSON.stringify(lines)}`);
-        expect(lines.every(l => l.points[0] > 100 && l.points.every(n => n === l.points[0]) && l.open < 0.1) && lines.some(l => l.height > 5),
-               `the third line is the second less the first: ${JSON.stringify(lines)}`);
+  console.log(name);
+  expect(statSync(file).size < 5e6, `the page is below 5 MB: ${statSync(file).size}`);
+  await go(browser, pathToFileURL(file).href);
+  const drawn = await browser.evaluate(in_page.drawn);
+  expect(drawn.length === charts, `${charts} charts stand there: ${drawn.length}`);
+  expect(
+    seen_closed.later === charts - 1 && seen_closed.screens < 4,
+    "one chart is drawn at first, the others when they are asked for: " +
+      `${JSON.stringify(seen_closed)}`,
+  );
+  for (const chart of drawn) expect(chart.marks > 0, `${chart.name} is drawn`);
+  const pictures = readdirSync(dirname(file))
+    .filter(f => f.endsWith(".svg"))
+    .map(f => [f, readFileSync(join(dirname(file), f), "utf8")]);
+  const {schemes, other} = one_look(await browser.evaluate(in_page.looks(pictures)));
+  expect(
+    other.length === 0 && (name === "made-up" || schemes >= 2),
+    `each of ${schemes} schemes looks the same everywhere: ${other.join("; ")}`,
+  );
+  await browser.evaluate(axe + ";axe.configure({noHtml: true});0");
+  const names = await browser.evaluate(in_page.names);
+  expect(
+    names.legend.length >= (name === "made-up" ? 1 : 2) &&
+      names.legend.length <= 8 &&
+      names.samples === names.legend.length &&
+      names.idle.length === 0,
+    `the legend has at most 8 names, all drawn: ${JSON.stringify(names)}`,
+  );
+  expect(
+    names.labels > 0 && names.overlaps.length === 0,
+    `names beside the lines do not overlap: ${JSON.stringify(names)}`,
+  );
+  const zoom = await browser.evaluate(in_page.zoom);
+  expect(
+    zoom.buttons === 3 &&
+      zoom.named === 3 &&
+      zoom.zoomed &&
+      zoom.out &&
+      zoom.whole &&
+      zoom.wheel &&
+      zoom.back,
+    `the first chart zooms by button and by wheel, and back: ${JSON.stringify(zoom)}`,
+  );
+  await read_in(browser, "light, 1400 px");
+  const lengths = await browser.evaluate(in_page.menu_lengths);
+  for (const label of ["error", "cost"])
+    expect(
+      lengths.some(([text, length]) => text === label && length <= 12),
+      `a menu of its own, and short, for ${label}: ${lengths.join("; ")}`,
+    );
+  if (name !== "made-up") {
+    const lines = await browser.evaluate(in_page.lines);
+    expect(
+      lines.length > 0 &&
+        lines.every(l => l.names === "reference,scheme,difference" && l.colours === 3),
+      `a trace has three lines, each with its colour: ${JSON.stringify(lines)}`,
+    );
+    expect(
+      lines.every(
+        l => l.points[0] > 100 && l.points.every(n => n === l.points[0]) && l.open < 0.1,
+      ) && lines.some(l => l.height > 5),
+      `the third line is the second less the first: ${JSON.stringify(lines)}`,
+    );
+  }
+  if (name === "suite" || name === "demo") see_panels(await browser.evaluate(in_page.panels));
+  const filter = await browser.evaluate(in_page.filter);
+  expect(
+    filter.left === filter.expected &&
+      filter.right &&
+      filter.again === filter.all &&
+      filter.all > filter.left,
+    `a filter leaves the rows that have the word: ${JSON.stringify(filter)}`,
+  );
+  expect(
+    filter.header && filter.saved === filter.rows,
+    `the CSV button saves every column and row: ${JSON.stringify(filter)}`,
+  );
+  if (name === "made-up")
+    for (const map of await browser.evaluate(in_page.tiles)) {
+      const rows = in_folder(file, "maps.csv").filter(
+        row => map.name.endsWith(row[0]) && row[2] === "one",
+      ).length;
+      expect(
+        map.tiles === rows && map.gap < 1.5,
+        `${map.name}: ${map.tiles} tiles for ${rows} runs, ${map.gap} pixels between`,
+      );
+      expect(
+        !map.name.includes("rate") ||
+          (map.text.includes("[Hz]") && map.text.includes("[N/m^exponent]")),
+        `${map.name}: its axes have their units`,
+      );
     }
-    if (name === "suite" || name === "demo") see_panels(await browser.evaluate(in_page.panels));
-    const filter = await browser.evaluate(in_page.filter);
-    expect(filter.left === filter.expected && filter.right && filter.again === filter.all && filter.all > filter.left, `a filter leaves the rows that have the word: ${JSON.stringify(filter)}`);
-    expect(filter.header && filter.saved === filter.rows, `the CSV button saves every column and row: ${JSON.stringify(filter)}`);
-    if (name === "made-up")
-        for (const map of await browser.evaluate(in_page.tiles)) {
-            const rows = in_folder(file, "maps.csv").filter(row => map.name.endsWith(row[0]) && row[2] === "one").length;
-            expect(map.tiles === rows && map.gap < 1.5, `${map.name}: ${map.tiles} tiles for ${rows} runs, ${map.gap} pixels between`);
-            expect(!map.name.includes("rate") || (map.text.includes("[Hz]") && map.text.includes("[N/m^exponent]")), `${map.name}: its axes have their units`);
-        }
-    const menus = await browser.evaluate(in_page.menus);
-    expect(menus.menus > 0 && menus.dead.length === 0, `each of ${menus.menus} menus redraws its chart: ${menus.dead.join("; ")}`);
-    expect(await browser.evaluate("[...document.querySelectorAll('select, input')].every(e => e.closest('label'))"), "each menu has a label");
-    if (name !== "made-up") {
-        const sound = await browser.evaluate(in_page.sound);
-        expect(String(sound.first) === "0" && String(sound.second) === "1" && sound.goes_on && sound.took < 50 && sound.ended, `another scheme is heard within 50 ms in the middle of the sound: ${JSON.stringify(sound)}`);
-        expect(sound.loudness < 1.05, `all sounds are as loud, but for the 5 ms of their fades: ${JSON.stringify(sound)}`);
-        expect(sound.listen === sound.found && (name !== "demo" || sound.found >= 2), `each answer that was heard can be listened to: ${JSON.stringify(sound)}`);
-        expect(sound.shown >= 3 && sound.length.every(s => Math.abs(s - (name === "demo" ? 1 : 0.06)) < 0.001) && sound.hidden, `${sound.shown} sounds are whole, and without names where names are hidden: ${JSON.stringify(sound)}`);
-    }
-    await browser.evaluate("[...document.querySelectorAll('#cells th button')].find(b => b.textContent.startsWith('rate')).focus()");
-    const before = await browser.evaluate(in_page.table);
-    await enter(browser);
-    const after = await browser.evaluate(in_page.table);
-    expect(before.button && before.sort === "none" && after.button && after.sort === "ascending", "a heading sorts by keyboard and keeps the focus");
-    expect(!sorted(before.column) && sorted(after.column), "the rows are sorted then");
-    if (name === "made-up") {
-        await browser.evaluate("[...document.querySelectorAll('#cells button')].find(b => b.textContent === 'all rows' && !b.hidden)?.click()");
-        expect(await browser.evaluate("[...document.querySelectorAll('#cells td')].some(td => td.textContent === '\\u22645.56e-03')"), "an error is no more than it and its certificate together");
-    }
-    await read_in(browser, "dark, 1400 px");
-    await read_in(browser, "dark, 390 px");
-    const card = await browser.evaluate(in_page.card);
-    expect(card.named && card.numbers >= 2 && card.stacked, `on a phone a row of the table is a card with numbers: ${JSON.stringify(card)}`);
-    await read_in(browser, "light, 390 px");
-    if (name !== "suite") return;
-    await browser.evaluate("(async () => { const s = document.getElementById('scene'); s.selectedIndex = 1; await s.onchange(); })()");
-    const address = await browser.evaluate("location.href");
-    await go(browser, address);
-    expect(await browser.evaluate("document.getElementById('scene').selectedIndex === 1"), `a view can be linked to: ${address}`);
+  const menus = await browser.evaluate(in_page.menus);
+  expect(
+    menus.menus > 0 && menus.dead.length === 0,
+    `each of ${menus.menus} menus redraws its chart: ${menus.dead.join("; ")}`,
+  );
+  expect(
+    await browser.evaluate(
+      "[...document.querySelectorAll('select, input')].every(e => e.closest('label'))",
+    ),
+    "each menu has a label",
+  );
+  if (name !== "made-up") {
+    const sound = await browser.evaluate(in_page.sound);
+    expect(
+      String(sound.first) === "0" &&
+        String(sound.second) === "1" &&
+        sound.goes_on &&
+        sound.took < 50 &&
+        sound.ended,
+      `another scheme is heard within 50 ms in the middle of the sound: ${JSON.stringify(sound)}`,
+    );
+    expect(
+      sound.loudness < 1.05,
+      `all sounds are as loud, but for the 5 ms of their fades: ${JSON.stringify(sound)}`,
+    );
+    expect(
+      sound.listen === sound.found && (name !== "demo" || sound.found >= 2),
+      `each answer that was heard can be listened to: ${JSON.stringify(sound)}`,
+    );
+    expect(
+      sound.shown >= 3 &&
+        sound.length.every(s => Math.abs(s - (name === "demo" ? 1 : 0.06)) < 0.001) &&
+        sound.hidden,
+      `${sound.shown} sounds are whole, and without names where names are hidden: ` +
+        `${JSON.stringify(sound)}`,
+    );
+  }
+  await browser.evaluate(
+    "[...document.querySelectorAll('#cells th button')].find(b => " +
+      "b.textContent.startsWith('rate')).focus()",
+  );
+  const before = await browser.evaluate(in_page.table);
+  await enter(browser);
+  const after = await browser.evaluate(in_page.table);
+  expect(
+    before.button && before.sort === "none" && after.button && after.sort === "ascending",
+    "a heading sorts by keyboard and keeps the focus",
+  );
+  expect(!sorted(before.column) && sorted(after.column), "the rows are sorted then");
+  if (name === "made-up") {
+    await browser.evaluate(
+      "[...document.querySelectorAll('#cells button')].find(b => b.textContent === 'all " +
+        "rows' && !b.hidden)?.click()",
+    );
+    expect(
+      await browser.evaluate(
+        "[...document.querySelectorAll('#cells td')].some(td => td.textContent === " +
+          "'\\u22645.56e-03')",
+      ),
+      "an error is no more than it and its certificate together",
+    );
+  }
+  await read_in(browser, "dark, 1400 px");
+  await read_in(browser, "dark, 390 px");
+  const card = await browser.evaluate(in_page.card);
+  expect(
+    card.named && card.numbers >= 2 && card.stacked,
+    `on a phone a row of the table is a card with numbers: ${JSON.stringify(card)}`,
+  );
+  await read_in(browser, "light, 390 px");
+  if (name !== "suite") return;
+  await browser.evaluate(
+    "(async () => { const s = document.getElementById('scene'); s.selectedIndex = 1; await " +
+      "s.onchange(); })()",
+  );
+  const address = await browser.evaluate("location.href");
+  await go(browser, address);
+  expect(
+    await browser.evaluate("document.getElementById('scene').selectedIndex === 1"),
+    `a view can be linked to: ${address}`,
+  );
 }
 
 let browser;
 try {
-    const folders = make_folders();
-    browser = await open();
-    browser.listen(({method, params}) => {
-        if (method === "Runtime.exceptionThrown") expect(false, `no exception: ${params.exceptionDetails.exception?.description ?? params.exceptionDetails.text}`);
-        if (method === "Runtime.consoleAPICalled" && params.type === "error") expect(false, `no console error: ${JSON.stringify(params.args)}`);
-        if (method === "Log.entryAdded" && params.entry.level === "error") expect(false, `no error in the log: ${params.entry.text}`);
-        if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url)) expect(false, `no network: ${params.request.url}`);
-    });
-    await check(browser, "comparison", join(folders.comparison, "report.html"), 3);
-    await check(browser, "suite", join(folders.suite, "report.html"), 4);
-    await check(browser, "made-up", join(folders["made-up"], "report.html"), 7);
-    if (demo) await check(browser, "demo", join(demo, "report.html"), 4);
+  const folders = make_folders();
+  browser = await open();
+  browser.listen(({method, params}) => {
+    if (method === "Runtime.exceptionThrown")
+      expect(
+        false,
+        "no exception: " +
+          `${params.exceptionDetails.exception?.description ?? params.exceptionDetails.text}`,
+      );
+    if (method === "Runtime.consoleAPICalled" && params.type === "error")
+      expect(false, `no console error: ${JSON.stringify(params.args)}`);
+    if (method === "Log.entryAdded" && params.entry.level === "error")
+      expect(false, `no error in the log: ${params.entry.text}`);
+    if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url))
+      expect(false, `no network: ${params.request.url}`);
+  });
+  await check(browser, "comparison", join(folders.comparison, "report.html"), 3);
+  await check(browser, "suite", join(folders.suite, "report.html"), 4);
+  await check(browser, "made-up", join(folders["made-up"], "report.html"), 7);
+  if (demo) await check(browser, "demo", join(demo, "report.html"), 4);
 } catch (error) {
-    expect(false, error.stack);
+  expect(false, error.stack);
 } finally {
-    await browser?.close();
-    rmSync(scratch, {recursive: true, force: true});
+  await browser?.close();
+  rmSync(scratch, {recursive: true, force: true});
 }
 console.log(failures ? `${failures} failures` : "all holds");
 process.exit(failures ? 1 : 0);

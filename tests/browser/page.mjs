@@ -1,423 +1,944 @@
-// page.mjs PROGRAM RESULTS SOURCES NODE_MODULES: the JavaScript that draws the report, under node, on the data of pages that the built program makes of
-// made-up results: which rows each chart is given, under which names and looks; and that Vega draws it where it is installed. One line per test.
+// page.mjs PROGRAM RESULTS SOURCES NODE_MODULES: the JavaScript that draws the report, under node,
+// on the data of pages that the built program makes of made-up results: which rows each chart is
+// given, under which names and looks; and that Vega draws it where it is installed. One line per
+// test.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 
-const [program, results, sources, modules] = process.argv.slice(2), only = process.argv[6];
+const [program, results, sources, modules] = process.argv.slice(2),
+  only = process.argv[6];
 const scratch = mkdtempSync(join(tmpdir(), "jvari-page-"));
-const files = ["data", "looks", "work_precision", "along", "maps", "sound_charts", "run", "verdict", "plot"].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
+const files = [
+  "data",
+  "looks",
+  "work_precision",
+  "along",
+  "maps",
+  "sound_charts",
+  "run",
+  "verdict",
+  "plot",
+].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
 const css = readFileSync(join(sources, "page.css"), "utf8");
-let folders = 0, failures = 0;
+let folders = 0,
+  failures = 0;
 
 // The functions of the page on a page's data: of("sections_of()").
-const on = page => new Function("page", `"use strict"; ${files.join("\n")}; return code => eval(code);`)(page);
+const on = page =>
+  new Function("page", `"use strict"; ${files.join("\n")}; return code => eval(code);`)(page);
 function report(folder, allowed = 0) {
-    const run = spawnSync(program, ["report", folder], {encoding: "utf8", env: {...process.env, JVARI_NODE_MODULES: "/nowhere"}});
-    assert.equal(run.status, allowed, run.stderr);
-    const page = readFileSync(join(folder, "report.html"), "utf8"), from = page.indexOf('id="data">') + 10;
-    return {...JSON.parse(page.slice(from, page.indexOf("</script>", from))), missing: ""};
+  const run = spawnSync(program, ["report", folder], {
+    encoding: "utf8",
+    env: {...process.env, JVARI_NODE_MODULES: "/nowhere"},
+  });
+  assert.equal(run.status, allowed, run.stderr);
+  const page = readFileSync(join(folder, "report.html"), "utf8"),
+    from = page.indexOf('id="data">') + 10;
+  return {...JSON.parse(page.slice(from, page.indexOf("</script>", from))), missing: ""};
 }
 function folder_of(names, made = {}) {
-    const folder = mkdtempSync(join(scratch, `${++folders}-`));
-    for (const name of names) copyFileSync(join(results, name), join(folder, name));
-    for (const [name, text] of Object.entries(made)) writeFileSync(join(folder, name), text);
-    return folder;
+  const folder = mkdtempSync(join(scratch, `${++folders}-`));
+  for (const name of names) copyFileSync(join(results, name), join(folder, name));
+  for (const [name, text] of Object.entries(made)) writeFileSync(join(folder, name), text);
+  return folder;
 }
-const every_file = ["manifest.json", "cells.csv", "dispersion.csv", "convergence.csv", "maps.csv", "boundaries.csv", "others.svg"];
+const every_file = [
+  "manifest.json",
+  "cells.csv",
+  "dispersion.csv",
+  "convergence.csv",
+  "maps.csv",
+  "boundaries.csv",
+  "others.svg",
+];
 const whole = () => on(report(folder_of(every_file)));
-const of_cells = (cells, manifest = '{"suite": "made up"}') => on(report(folder_of([], {"manifest.json": manifest, "cells.csv": cells})));
+const of_cells = (cells, manifest = '{"suite": "made up"}') =>
+  on(report(folder_of([], {"manifest.json": manifest, "cells.csv": cells})));
 const section = (of, id) => of("sections_of()").find(s => s.id === id);
-const first = (chart, scene = chart.scenes?.[0]) => Object.assign({scene}, ...chart.menus(scene).map(menu => ({[menu.key]: menu.choices[0][0]})));
-const choices = (chart, key, scene) => chart.menus(scene).find(menu => menu.key === key).choices.map(([value]) => value);
-const layers = spec => [spec, ...(spec.layer ?? []), ...(spec.hconcat ?? []), ...(spec.vconcat ?? []), ...(spec.spec ? [spec.spec] : [])].flatMap((part, k) => k ? layers(part) : [part]);
-const rows_of = (spec, mark) => layers(spec).filter(layer => layer.data?.values && (layer.mark?.type ?? layer.mark) === mark).flatMap(layer => layer.data.values);
+const first = (chart, scene = chart.scenes?.[0]) =>
+  Object.assign({scene}, ...chart.menus(scene).map(menu => ({[menu.key]: menu.choices[0][0]})));
+const choices = (chart, key, scene) =>
+  chart
+    .menus(scene)
+    .find(menu => menu.key === key)
+    .choices.map(([value]) => value);
+const layers = spec =>
+  [
+    spec,
+    ...(spec.layer ?? []),
+    ...(spec.hconcat ?? []),
+    ...(spec.vconcat ?? []),
+    ...(spec.spec ? [spec.spec] : []),
+  ].flatMap((part, k) => (k ? layers(part) : [part]));
+const rows_of = (spec, mark) =>
+  layers(spec)
+    .filter(layer => layer.data?.values && (layer.mark?.type ?? layer.mark) === mark)
+    .flatMap(layer => layer.data.values);
 function test(name, run) {
-    if (only && !name.includes(only)) return;
-    try {
-        run();
-        console.log(`ok ${name}`);
-    } catch (error) {
-        ++failures;
-        console.log(`FAILED ${name}\n${error.stack}`);
-    }
+  if (only && !name.includes(only)) return;
+  try {
+    run();
+    console.log(`ok ${name}`);
+  } catch (error) {
+    ++failures;
+    console.log(`FAILED ${name}\n${error.stack}`);
+  }
 }
 
 // ---- Tables
-test("a field with commas, quotes and lines is read as it was written, and an apostrophe in front is none of it", () => {
+test(
+  "a field with commas, quotes and lines is read as it was written, and an apostrophe in " +
+    "front is none of it",
+  () => {
     const read = on({tables: {}})("read_csv");
-    assert.deepEqual(read('a,b\n"x, ""y""\nz",\'=1\n,\n'), {columns: ["a", "b"], rows: [['x, "y"\nz', "=1"], ["", ""]]});
+    assert.deepEqual(read('a,b\n"x, ""y""\nz",\'=1\n,\n'), {
+      columns: ["a", "b"],
+      rows: [
+        ['x, "y"\nz', "=1"],
+        ["", ""],
+      ],
+    });
     assert.deepEqual(read("a\n1"), {columns: ["a"], rows: [["1"]]});
     assert.deepEqual(read(""), {columns: [], rows: []});
-});
+  },
+);
 
 // ---- Sections
 test("sections stand in their order, and those without data do not appear", () => {
-    const of = whole();
-    assert.deepEqual(of("sections_of()").map(s => s.id), ["work-precision", "sweep", "dispersion", "convergence", "overview", "maps", "figures", "cells"]);
-    assert.deepEqual(on(report(folder_of(["manifest.json", "maps.csv"])))("sections_of()").map(s => s.id), ["overview", "maps"]);
-    const bare = on({...report(folder_of(every_file)), missing: "no charts"})("sections_of()");  // nothing draws: tables alone
-    assert.deepEqual(bare.map(s => s.heading), ["Convergence", "How often each scheme stays sound", "Where methods fail", "Figures", "Cells"]);
+  const of = whole();
+  assert.deepEqual(
+    of("sections_of()").map(s => s.id),
+    [
+      "work-precision",
+      "sweep",
+      "dispersion",
+      "convergence",
+      "overview",
+      "maps",
+      "figures",
+      "cells",
+    ],
+  );
+  assert.deepEqual(
+    on(report(folder_of(["manifest.json", "maps.csv"])))("sections_of()").map(s => s.id),
+    ["overview", "maps"],
+  );
+  // nothing draws: tables alone
+  const bare = on({...report(folder_of(every_file)), missing: "no charts"})("sections_of()");
+  assert.deepEqual(
+    bare.map(s => s.heading),
+    ["Convergence", "How often each scheme stays sound", "Where methods fail", "Figures", "Cells"],
+  );
 });
 test("pictures of others stand in the page and its own do not", () => {
-    const folder = folder_of(every_file, {"dispersion.svg": "<svg/>"});
-    assert.deepEqual(section(on(report(folder)), "figures").pictures.map(p => p.name), ["others"]);
+  const folder = folder_of(every_file, {"dispersion.svg": "<svg/>"});
+  assert.deepEqual(
+    section(on(report(folder)), "figures").pictures.map(p => p.name),
+    ["others"],
+  );
 });
 test("an overview counts sound runs among those that were not refused", () => {
-    const of = on(report(folder_of(["manifest.json", "maps.csv"])));
-    assert.deepEqual(section(of, "overview").table.rows, [["one", "stiffness x rate", "13", "32"], ["one", "exponent x modes", "9", "12"], ["two", "stiffness x rate", "15", "29"]]);
-    assert.equal(of("finding_of_maps()"), "2 of 2 schemes fail somewhere; one stays sound on 0 of its 2 maps");
+  const of = on(report(folder_of(["manifest.json", "maps.csv"])));
+  assert.deepEqual(section(of, "overview").table.rows, [
+    ["one", "stiffness x rate", "13", "32"],
+    ["one", "exponent x modes", "9", "12"],
+    ["two", "stiffness x rate", "15", "29"],
+  ]);
+  assert.equal(
+    of("finding_of_maps()"),
+    "2 of 2 schemes fail somewhere; one stays sound on 0 of its 2 maps",
+  );
 });
 test("an overview of many schemes is as high as a screen lets it be", () => {
-    const [head, row] = readFileSync(join(results, "maps.csv"), "utf8").split("\n"), at = head.split(",").indexOf("scheme"), named = (text, k) => text.split(",").map((field, n) => n === at ? `modal_${k}` : field).join();
-    const page_of = n => on(report(folder_of(["manifest.json"], {"maps.csv": [head, ...Array.from({length: n}, (_, k) => named(row, k)), ""].join("\n")})));
-    const height = (n, print) => n * layers(section(page_of(n), "overview").charts[0].spec({}, print).spec).find(l => l.height?.step).height.step;
-    assert.equal(height(10, false), 200);
-    for (const n of [21, 26, 35]) assert.ok(height(n, false) <= 401, `${n} schemes: ${height(n, false)}`);
-    assert.equal(height(26, true), 520);  // on paper nothing is below the fold
+  const [head, row] = readFileSync(join(results, "maps.csv"), "utf8").split("\n"),
+    at = head.split(",").indexOf("scheme"),
+    named = (text, k) =>
+      text
+        .split(",")
+        .map((field, n) => (n === at ? `modal_${k}` : field))
+        .join();
+  const page_of = n =>
+    on(
+      report(
+        folder_of(["manifest.json"], {
+          "maps.csv": [head, ...Array.from({length: n}, (_, k) => named(row, k)), ""].join("\n"),
+        }),
+      ),
+    );
+  const height = (n, print) =>
+    n *
+    layers(section(page_of(n), "overview").charts[0].spec({}, print).spec).find(l => l.height?.step)
+      .height.step;
+  assert.equal(height(10, false), 200);
+  for (const n of [21, 26, 35])
+    assert.ok(height(n, false) <= 401, `${n} schemes: ${height(n, false)}`);
+  assert.equal(height(26, true), 520); // on paper nothing is below the fold
 });
 test("pictures of different problems have different names", () => {
-    const start = "a, " + "x".repeat(200);
-    const problems = ["a, height = -0.001", "a, height = 0.001", "a, k = 1e-05", "a, k = 1e+05", "a, name = (x)", "a, name = [x]", start + " = 1", start + " = 2", "a, n = a b", "a, n = a,b"];
-    const twin = on({tables: {}})("twin_file"), names = problems.map(p => twin("map", p, problems));
-    assert.equal(new Set(names).size, problems.length);
-    for (const name of names) assert.match(name, /^[A-Za-z0-9_.+-]{1,108}$/);
-    for (const name of ["map-a-height--0.001.svg", "map-a-height-0.001.svg", "map-a-k-1e+05.svg"]) assert.ok(names.includes(name), name);
+  const start = "a, " + "x".repeat(200);
+  const problems = [
+    "a, height = -0.001",
+    "a, height = 0.001",
+    "a, k = 1e-05",
+    "a, k = 1e+05",
+    "a, name = (x)",
+    "a, name = [x]",
+    start + " = 1",
+    start + " = 2",
+    "a, n = a b",
+    "a, n = a,b",
+  ];
+  const twin = on({tables: {}})("twin_file"),
+    names = problems.map(p => twin("map", p, problems));
+  assert.equal(new Set(names).size, problems.length);
+  for (const name of names) assert.match(name, /^[A-Za-z0-9_.+-]{1,108}$/);
+  for (const name of ["map-a-height--0.001.svg", "map-a-height-0.001.svg", "map-a-k-1e+05.svg"])
+    assert.ok(names.includes(name), name);
 });
 
 // ---- Error and cost
-const problems = ["a, string.0.tension = 30", "a, string.0.tension = 31", "b, string.0.tension = 30", "b, string.0.tension = 31"];
+const problems = [
+  "a, string.0.tension = 30",
+  "a, string.0.tension = 31",
+  "b, string.0.tension = 30",
+  "b, string.0.tension = 31",
+];
 test("only runs of one scene at one swept point are compared", () => {
-    const of = whole(), [chart] = section(of, "work-precision").charts;
-    assert.deepEqual(chart.scenes, problems);
-    // "one" has the least error at each rate and the least cost: it alone is on the front of each problem, with that problem's errors
-    const front = of("front_of")(of("of_scene(cells(), " + JSON.stringify(problems[2]) + ")"), "error_l2_50ms", "cost_s_per_s");
-    assert.deepEqual(front.map(p => [p.series, p.y]), [0.15, 0.0375, 0.009375, 0.00234375].map(y => ["one", y]));
-    assert.deepEqual(chart.twins.map(t => t.file)[2], "work_precision-b-string.0.tension-30.svg");
-    assert.equal(chart.twins.length, 4);
-    const drawn = rows_of(chart.spec(chart.twins[2].choice, true).spec, "point").filter(p => p.problem);
-    assert.ok(drawn.length > 0 && drawn.every(p => p.problem === problems[2]));
+  const of = whole(),
+    [chart] = section(of, "work-precision").charts;
+  assert.deepEqual(chart.scenes, problems);
+  // "one" has the least error at each rate and the least cost: it alone is on the front of each
+  // problem, with that problem's errors
+  const front = of("front_of")(
+    of("of_scene(cells(), " + JSON.stringify(problems[2]) + ")"),
+    "error_l2_50ms",
+    "cost_s_per_s",
+  );
+  assert.deepEqual(
+    front.map(p => [p.series, p.y]),
+    [0.15, 0.0375, 0.009375, 0.00234375].map(y => ["one", y]),
+  );
+  assert.deepEqual(chart.twins.map(t => t.file)[2], "work_precision-b-string.0.tension-30.svg");
+  assert.equal(chart.twins.length, 4);
+  const drawn = rows_of(chart.spec(chart.twins[2].choice, true).spec, "point").filter(
+    p => p.problem,
+  );
+  assert.ok(drawn.length > 0 && drawn.every(p => p.problem === problems[2]));
 });
 test("noise floor and certificate are of the scene and the error that is shown", () => {
-    const of = whole(), bands = (problem, error) => of("bands_of")(of("of_scene")(of("cells()"), problem), error);
-    assert.deepEqual(bands(problems[0], "error_l2_50ms"), {floor: 2e-3, certificate: 4e-3});
-    assert.deepEqual(bands(problems[2], "error_l2_50ms"), {floor: 1e-12, certificate: null});
-    assert.deepEqual(bands(problems[0], "error_l2_10ms"), {floor: null, certificate: null});
+  const of = whole(),
+    bands = (problem, error) => of("bands_of")(of("of_scene")(of("cells()"), problem), error);
+  assert.deepEqual(bands(problems[0], "error_l2_50ms"), {floor: 2e-3, certificate: 4e-3});
+  assert.deepEqual(bands(problems[2], "error_l2_50ms"), {floor: 1e-12, certificate: null});
+  assert.deepEqual(bands(problems[0], "error_l2_10ms"), {floor: null, certificate: null});
 });
 test("a band is of the reference of all points or not there", () => {
-    const bands = second => {
-        const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
-            `1,a,modal_quadratised,,44100,10,ok,,0.1,0.002,1,1,1\n2,a,exact_contact,,,10,ok,,0.0007,${second},1,1,1\n`);
-        return of("bands_of(cells(), 'error_l2_50ms')").certificate;
-    };
-    assert.equal(bands("0.002"), 0.002);
-    assert.equal(bands("0.0002"), null);  // 0.07 % is known of the second, and not of the first
+  const bands = second => {
+    const of = of_cells(
+      "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
+        `1,a,modal_quadratised,,44100,10,ok,,0.1,0.002,1,1,1\n2,a,exact_contact,,,10,ok,,0.0007,${second},1,1,1\n`,
+    );
+    return of("bands_of(cells(), 'error_l2_50ms')").certificate;
+  };
+  assert.equal(bands("0.002"), 0.002);
+  assert.equal(bands("0.0002"), null); // 0.07 % is known of the second, and not of the first
 });
 test("the cheapest that reaches an accuracy is named where some reach it and some do not", () => {
-    const of = whole(), goals = problem => of("goals_of")(of("of_scene")(of("cells()"), problem), problem, "error_l2_50ms").map(g => g.text);
-    assert.deepEqual(goals(problems[2]), []);  // no certificate there: nothing is certain
-    // there the reference is certain to 4e-3: 0.1 at 44.1 kHz is not known to be within 10 %, 6.25e-3 at 176.4 kHz not within 1 %
-    assert.deepEqual(goals(problems[0]), ["10 %: one, 40 modes at 88.2 kHz", "1 %: one, 40 modes at 352.8 kHz"]);
+  const of = whole(),
+    goals = problem =>
+      of("goals_of")(of("of_scene")(of("cells()"), problem), problem, "error_l2_50ms").map(
+        g => g.text,
+      );
+  assert.deepEqual(goals(problems[2]), []); // no certificate there: nothing is certain
+  // there the reference is certain to 4e-3: 0.1 at 44.1 kHz is not known to be within 10 %,
+  // 6.25e-3 at 176.4 kHz not within 1 %
+  assert.deepEqual(goals(problems[0]), [
+    "10 %: one, 40 modes at 88.2 kHz",
+    "1 %: one, 40 modes at 352.8 kHz",
+  ]);
 });
 
-const sample_head = "scheme,rate,modes,status,error_l2_50ms,third_octave_db,cost_s_per_s,cost_lower,cost_upper,ns_per_step,dofs,below_floor,reason";
-const sample_rows = ["a,44100,133,ok,1e-2,3,0.01,0.009,0.011,100,266,,", "a,88200,133,ok,1e-3,2,0.02,0.019,0.021,100,266,,", "b,44100,133,ok,5e-3,4,0.03,0.029,0.031,200,266,,",
-                     "b,88200,133,diverged,inf,,0.05,0.05,0.05,200,266,,diverged at step 7", "c,44100,133,refused,,,,,,,,,has no </script> thread"];
-function sample({names = {}, more = "", certificate = "1e-9", manifest = '{"suite": "a scene"}'} = {}) {
-    const rows = sample_rows.map(row => (row[0] in names ? names[row[0]] + row.slice(1) : row));
-    return of_cells(`scene,${sample_head},certificate_l2_50ms,floor_error_l2_50ms${more && ",flags"}\n` + rows.map((row, k) => `s,${row},${certificate},1e-12${more && "," + more[k]}\n`).join(""), manifest);
+const sample_head =
+  "scheme,rate,modes,status,error_l2_50ms,third_octave_db,cost_s_per_s,cost_lower,cost_upper,ns_per_step,dofs,below_floor,reason";
+const sample_rows = [
+  "a,44100,133,ok,1e-2,3,0.01,0.009,0.011,100,266,,",
+  "a,88200,133,ok,1e-3,2,0.02,0.019,0.021,100,266,,",
+  "b,44100,133,ok,5e-3,4,0.03,0.029,0.031,200,266,,",
+  "b,88200,133,diverged,inf,,0.05,0.05,0.05,200,266,,diverged at step 7",
+  "c,44100,133,refused,,,,,,,,,has no </script> thread",
+];
+function sample({
+  names = {},
+  more = "",
+  certificate = "1e-9",
+  manifest = '{"suite": "a scene"}',
+} = {}) {
+  const rows = sample_rows.map(row => (row[0] in names ? names[row[0]] + row.slice(1) : row));
+  return of_cells(
+    `scene,${sample_head},certificate_l2_50ms,floor_error_l2_50ms${more && ",flags"}\n` +
+      rows.map((row, k) => `s,${row},${certificate},1e-12${more && "," + more[k]}\n`).join(""),
+    manifest,
+  );
 }
 test("every cell that ran is drawn once, at its cost and error, with the quartiles of its cost", () => {
-    const of = sample(), all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')");
-    assert.equal(all.length, 4);
-    assert.deepEqual([all[1].series, all[1].rate, all[1].y, all[1].x, all[1].label], ["a", 88200, 1e-3, 0.02, "88.2 kHz"]);
-    assert.ok(Math.abs(all[1].from - 0.019) < 1e-9 && Math.abs(all[1].to - 0.021) < 1e-9);
-    assert.equal(all[3].y, null);
-    assert.deepEqual(of("bands_of(cells(), 'error_l2_50ms')"), {floor: 1e-12, certificate: 1e-9});
+  const of = sample(),
+    all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')");
+  assert.equal(all.length, 4);
+  assert.deepEqual(
+    [all[1].series, all[1].rate, all[1].y, all[1].x, all[1].label],
+    ["a", 88200, 1e-3, 0.02, "88.2 kHz"],
+  );
+  assert.ok(Math.abs(all[1].from - 0.019) < 1e-9 && Math.abs(all[1].to - 0.021) < 1e-9);
+  assert.equal(all[3].y, null);
+  assert.deepEqual(of("bands_of(cells(), 'error_l2_50ms')"), {floor: 1e-12, certificate: 1e-9});
 });
 test("the front is of sound cells and of each choice", () => {
-    const front = (error, cost) => sample()("front_of")(sample()("cells()"), error, cost).map(p => p.x);
-    assert.deepEqual(front("error_l2_50ms", "cost_s_per_s"), [0.01, 0.02]);
-    assert.deepEqual(front("third_octave_db", "cost_s_per_s"), [0.01, 0.02]);
-    assert.ok(front("third_octave_db", "ns_per_step").length > 0);
+  const front = (error, cost) =>
+    sample()("front_of")(sample()("cells()"), error, cost).map(p => p.x);
+  assert.deepEqual(front("error_l2_50ms", "cost_s_per_s"), [0.01, 0.02]);
+  assert.deepEqual(front("third_octave_db", "cost_s_per_s"), [0.01, 0.02]);
+  assert.ok(front("third_octave_db", "ns_per_step").length > 0);
 });
 test("a control is on the front, and in the verdict, only where it competes", () => {
-    const made = manifest => sample({names: {a: "modal_explicit_penalty"}, manifest}), front = of => of("front_of(cells(), 'error_l2_50ms', 'cost_s_per_s')").map(p => p.x);
-    const beside = made('{"suite": "a scene"}'), competing = made('{"suite": "a scene", "controls": true}');
-    assert.deepEqual(front(beside), [0.03]);
-    assert.deepEqual(front(competing), [0.01, 0.02]);
-    assert.equal(beside("verdicts()")[0].answers[0].scheme, "b");
-    assert.equal(competing("verdicts()")[0].answers[0].scheme, "modal_explicit_penalty");
+  const made = manifest => sample({names: {a: "modal_explicit_penalty"}, manifest}),
+    front = of => of("front_of(cells(), 'error_l2_50ms', 'cost_s_per_s')").map(p => p.x);
+  const beside = made('{"suite": "a scene"}'),
+    competing = made('{"suite": "a scene", "controls": true}');
+  assert.deepEqual(front(beside), [0.03]);
+  assert.deepEqual(front(competing), [0.01, 0.02]);
+  assert.equal(beside("verdicts()")[0].answers[0].scheme, "b");
+  assert.equal(competing("verdicts()")[0].answers[0].scheme, "modal_explicit_penalty");
 });
-test("an error stands at error and certificate together, and what is flagged is hollow and on no front", () => {
-    const of = sample({certificate: "6e-4", more: ["", "", "adhesion", "", ""]}), all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s', 'line')");
-    assert.deepEqual(all.slice(0, 2).map(p => p.y.toFixed(9)), ["0.010000000", "0.001600000"]);  // 6 %: as measured
+test(
+  "an error stands at error and certificate together, and what is flagged is hollow and on " +
+    "no front",
+  () => {
+    const of = sample({certificate: "6e-4", more: ["", "", "adhesion", "", ""]}),
+      all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s', 'line')");
+    // 6 %: as measured
+    assert.deepEqual(
+      all.slice(0, 2).map(p => p.y.toFixed(9)),
+      ["0.010000000", "0.001600000"],
+    );
     assert.ok(!all[0].told.error.includes("\u2264") && all[1].told.error.startsWith("\u2264"));
-    assert.deepEqual(of("front_of(cells(), 'error_l2_50ms', 'cost_s_per_s')").map(p => [p.series, p.y.toFixed(9)]), [["a", "0.010000000"], ["a", "0.001600000"]]);
-    const [chart] = section(of, "work-precision").charts, hollow = layers(chart.spec(first(chart), false).spec).filter(l => l.mark?.type === "point" && l.mark.filled === false);
-    assert.deepEqual(hollow.flatMap(l => l.data.values).map(p => p.flags), ["adhesion"]);
-});
+    assert.deepEqual(
+      of("front_of(cells(), 'error_l2_50ms', 'cost_s_per_s')").map(p => [p.series, p.y.toFixed(9)]),
+      [
+        ["a", "0.010000000"],
+        ["a", "0.001600000"],
+      ],
+    );
+    const [chart] = section(of, "work-precision").charts,
+      hollow = layers(chart.spec(first(chart), false).spec).filter(
+        l => l.mark?.type === "point" && l.mark.filled === false,
+      );
+    assert.deepEqual(
+      hollow.flatMap(l => l.data.values).map(p => p.flags),
+      ["adhesion"],
+    );
+  },
+);
 test("what ended well is never drawn as failed", () => {
-    const of = sample(), [chart] = section(of, "work-precision").charts, crosses = layers(chart.spec(first(chart), false).spec).filter(l => l.mark?.text === "\u2715");
-    assert.deepEqual(crosses.flatMap(l => l.data.values).map(p => p.status), ["diverged"]);
+  const of = sample(),
+    [chart] = section(of, "work-precision").charts,
+    crosses = layers(chart.spec(first(chart), false).spec).filter(l => l.mark?.text === "\u2715");
+  assert.deepEqual(
+    crosses.flatMap(l => l.data.values).map(p => p.status),
+    ["diverged"],
+  );
 });
 test("errors are offered only where there is a finite value, and the headline comes first", () => {
-    assert.deepEqual(sample()("errors_in(cells())").map(e => e.column), ["error_l2_50ms", "third_octave_db"]);
-    assert.deepEqual(sample()("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')")[0].told, {scheme: "a", rate: "44.1 kHz", modes: "133", error: "1\u00a0%", cost: "10 ms per second (100 \u00d7 faster than real time)", quartiles: "9 ms to 11 ms"});
+  assert.deepEqual(
+    sample()("errors_in(cells())").map(e => e.column),
+    ["error_l2_50ms", "third_octave_db"],
+  );
+  assert.deepEqual(sample()("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')")[0].told, {
+    scheme: "a",
+    rate: "44.1 kHz",
+    modes: "133",
+    error: "1\u00a0%",
+    cost: "10 ms per second (100 \u00d7 faster than real time)",
+    quartiles: "9 ms to 11 ms",
+  });
 });
 test("of modes and rates the best of each scheme are one line", () => {
-    const row = (cell, modes, rate, status, error, cost) => `${cell},a,modal_quadratised,compliance=own,${rate},${modes},${status},,${error},0,${cost},${cost},${cost}\n`;
-    const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
-        row(1, 10, 44100, "ok", 0.1, 1) + row(2, 10, 88200, "ok", 0.08, 2) + row(3, 20, 88200, "ok", 0.02, 1.9) /* beats the second */ + row(4, 20, 176400, "not_needed", 0.03, ""));
-    const all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s', 'line')");
-    assert.deepEqual(all.map(p => [p.series, p.label]), [["modal_quadratised compliance=own", "10 modes, 44.1 kHz"], ["modal_quadratised compliance=own", "20 modes, 88.2 kHz"]]);
-    assert.ok(of("verdicts()")[0].sentences.some(s => s.startsWith("3 of 4 runs succeeded, 1 left out")));
+  const row = (cell, modes, rate, status, error, cost) =>
+    `${cell},a,modal_quadratised,compliance=own,${rate},${modes},${status},,${error},0,${cost},${cost},${cost}\n`;
+  const of = of_cells(
+    "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
+      row(1, 10, 44100, "ok", 0.1, 1) +
+      row(2, 10, 88200, "ok", 0.08, 2) +
+      row(3, 20, 88200, "ok", 0.02, 1.9) /* beats the second */ +
+      row(4, 20, 176400, "not_needed", 0.03, ""),
+  );
+  const all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s', 'line')");
+  assert.deepEqual(
+    all.map(p => [p.series, p.label]),
+    [
+      ["modal_quadratised compliance=own", "10 modes, 44.1 kHz"],
+      ["modal_quadratised compliance=own", "20 modes, 88.2 kHz"],
+    ],
+  );
+  assert.ok(
+    of("verdicts()")[0].sentences.some(s => s.startsWith("3 of 4 runs succeeded, 1 left out")),
+  );
 });
 test("the legend has what is drawn and nothing else", () => {
-    const of = sample(), [chart] = section(of, "work-precision").charts;
-    assert.deepEqual(chart.spec(first(chart), false).legend, ["a", "b"]);  // c was refused
+  const of = sample(),
+    [chart] = section(of, "work-precision").charts;
+  assert.deepEqual(chart.spec(first(chart), false).legend, ["a", "b"]); // c was refused
 });
 
 // ---- The verdict
 test("errors of a plucked string are said to be of what follows the pluck: title, card and axis", () => {
-    for (const [from, said] of [["0", false], ["0.05", true]]) {
-        const of = of_cells(`scene,${sample_head},certificate_l2_50ms,free_from_s\n` + sample_rows.map(row => `s,${row},1e-9,${from}\n`).join("")), [v] = of("verdicts()");
-        for (const text of [v.finding, v.answers[0].within, of("errors_in(cells())")[0].title]) assert.equal(text.includes(" after the last pluck"), said, text);
-    }
+  for (const [from, said] of [
+    ["0", false],
+    ["0.05", true],
+  ]) {
+    const of = of_cells(
+        `scene,${sample_head},certificate_l2_50ms,free_from_s\n` +
+          sample_rows.map(row => `s,${row},1e-9,${from}\n`).join(""),
+      ),
+      [v] = of("verdicts()");
+    for (const text of [v.finding, v.answers[0].within, of("errors_in(cells())")[0].title])
+      assert.equal(text.includes(" after the last pluck"), said, text);
+  }
 });
 test("the verdict names scheme, rate, error, cost and certainty of each scene", () => {
-    const verdicts = whole()("verdicts()");
-    assert.deepEqual(verdicts.map(v => v.scene), problems);
-    const answer = verdicts[0].answers[0];  // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
-    assert.deepEqual([answer.within, answer.scheme, answer.modes, answer.rate, answer.error, answer.cost], ["waveform within 10 %, first 50 ms", "one", "40", "88.2 kHz", "\u2264 2.9\u00a0%", "20 ms"]);
-    assert.ok(answer.certain.startsWith("upper bound"));
-    assert.match(verdicts[0].finding, /^one errs by at most .* at 352\.8 kHz, /);  // of the cheapest within 1 %
-    assert.equal(verdicts[2].answers[1].scheme, "cannot be decided");  // no certificate there
-    assert.ok(verdicts[2].answers[1].certain.startsWith("the uncertainty of the reference is unknown;"));
-    assert.ok(!verdicts[2].finding.includes("errs by"));
-    assert.ok(verdicts[0].sentences[0].startsWith("Reference: truth"));
+  const verdicts = whole()("verdicts()");
+  assert.deepEqual(
+    verdicts.map(v => v.scene),
+    problems,
+  );
+  const answer = verdicts[0].answers[0]; // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
+  assert.deepEqual(
+    [answer.within, answer.scheme, answer.modes, answer.rate, answer.error, answer.cost],
+    ["waveform within 10 %, first 50 ms", "one", "40", "88.2 kHz", "\u2264 2.9\u00a0%", "20 ms"],
+  );
+  assert.ok(answer.certain.startsWith("upper bound"));
+  // of the cheapest within 1 %
+  assert.match(verdicts[0].finding, /^one errs by at most .* at 352\.8 kHz, /);
+  assert.equal(verdicts[2].answers[1].scheme, "cannot be decided"); // no certificate there
+  assert.ok(
+    verdicts[2].answers[1].certain.startsWith("the uncertainty of the reference is unknown;"),
+  );
+  assert.ok(!verdicts[2].finding.includes("errs by"));
+  assert.ok(verdicts[0].sentences[0].startsWith("Reference: truth"));
 });
 
 // ---- Along something
 test("what is swept has a chart of error along it", () => {
-    const of = whole(), {charts} = section(of, "sweep");
-    assert.equal(charts.length, 1);
-    assert.deepEqual(choices(charts[0], "base_field"), ["a", "b"]);
-    assert.deepEqual(charts[0].twins.map(t => t.file), ["sweep-string.0.tension-a.svg", "sweep-string.0.tension-b.svg"]);
-    const drawn = new Set();
-    for (const base of ["a", "b"])
-        for (const rate of choices(charts[0], "rate_field")) {
-            const {spec} = charts[0].spec({...first(charts[0]), base_field: base, rate_field: rate, measure_field: "error_l2_10ms", tap_field: ""}, false);
-            assert.equal(spec.encoding.x.axis.title, "tension [N]");
-            for (const p of rows_of(spec, "line")) drawn.add([base, p.at, p.series, rate, p.y].join());
-        }
-    const expected = of("cells()").filter(c => c.status === "ok" && Number.isFinite(of("number")(c.error_l2_10ms))).map(c => [c.scene, Number(c["string.0.tension"]), c.scheme, Number(c.rate), of("error_of")(c, "error_l2_10ms")].join());
-    assert.deepEqual([...drawn].sort(), expected.sort());
+  const of = whole(),
+    {charts} = section(of, "sweep");
+  assert.equal(charts.length, 1);
+  assert.deepEqual(choices(charts[0], "base_field"), ["a", "b"]);
+  assert.deepEqual(
+    charts[0].twins.map(t => t.file),
+    ["sweep-string.0.tension-a.svg", "sweep-string.0.tension-b.svg"],
+  );
+  const drawn = new Set();
+  for (const base of ["a", "b"])
+    for (const rate of choices(charts[0], "rate_field")) {
+      const {spec} = charts[0].spec(
+        {
+          ...first(charts[0]),
+          base_field: base,
+          rate_field: rate,
+          measure_field: "error_l2_10ms",
+          tap_field: "",
+        },
+        false,
+      );
+      assert.equal(spec.encoding.x.axis.title, "tension [N]");
+      for (const p of rows_of(spec, "line")) drawn.add([base, p.at, p.series, rate, p.y].join());
+    }
+  const expected = of("cells()")
+    .filter(c => c.status === "ok" && Number.isFinite(of("number")(c.error_l2_10ms)))
+    .map(c =>
+      [
+        c.scene,
+        Number(c["string.0.tension"]),
+        c.scheme,
+        Number(c.rate),
+        of("error_of")(c, "error_l2_10ms"),
+      ].join(),
+    );
+  assert.deepEqual([...drawn].sort(), expected.sort());
 });
 test("error falls along modes in one line for each scheme", () => {
-    const of = of_cells("cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n1,a,modal_quadratised,,88200,10,ok,,0.1\n2,a,modal_quadratised,,88200,20,ok,,0.01\n" +
-        "3,a,finite_difference_theta,,88200,155,ok,,0.1\n4,a,finite_difference_theta,,176400,225,ok,,0.05\n");  // a grid: its nodes go with the rate
-    const {charts} = section(of, "sweep"), {spec} = charts[0].spec(first(charts[0]), false);
-    assert.equal(charts.length, 1);
-    assert.equal(spec.encoding.x.axis.title, "modes");
-    assert.deepEqual(rows_of(spec, "line").map(p => [p.series, p.at, p.y]), [["modal_quadratised", 10, 0.1], ["modal_quadratised", 20, 0.01]]);
-    assert.equal(charts[0].twins[0].file, "sweep-modes.svg");
+  const of = of_cells(
+    "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n1,a,modal_quadratised,,88200,10,ok,,0.1\n2,a,modal_quadratised,,88200,20,ok,,0.01\n" +
+      // a grid: its nodes go with the rate
+      "3,a,finite_difference_theta,,88200,155,ok,,0.1\n4,a,finite_difference_theta,,176400,225,ok,,0.05\n",
+  );
+  const {charts} = section(of, "sweep"),
+    {spec} = charts[0].spec(first(charts[0]), false);
+  assert.equal(charts.length, 1);
+  assert.equal(spec.encoding.x.axis.title, "modes");
+  assert.deepEqual(
+    rows_of(spec, "line").map(p => [p.series, p.at, p.y]),
+    [
+      ["modal_quadratised", 10, 0.1],
+      ["modal_quadratised", 20, 0.01],
+    ],
+  );
+  assert.equal(charts[0].twins[0].file, "sweep-modes.svg");
 });
 test("orders are those of the file where it has them, else of the cells", () => {
-    const of = whole(), orders = of("orders()"), s = section(of, "convergence");
-    assert.equal(orders.get("a, string.0.tension = 30|one|error_l2_50ms"), "1.99 \u00b1 0.05");  // convergence.csv
-    assert.ok(orders.get("b, string.0.tension = 31|one|error_l2_50ms").startsWith("2.00 "));  // 0.15 x 4^-k
-    assert.ok(orders.get("a, string.0.tension = 31|three <b>|error_l2_50ms").startsWith("1.00 "));  // 0.1 x 2^-k
-    assert.ok(!s.table.columns.includes("series"));
-    assert.equal(s.table.rows.length, 4);
+  const of = whole(),
+    orders = of("orders()"),
+    s = section(of, "convergence");
+  // convergence.csv
+  assert.equal(orders.get("a, string.0.tension = 30|one|error_l2_50ms"), "1.99 \u00b1 0.05");
+  // 0.15 x 4^-k
+  assert.ok(orders.get("b, string.0.tension = 31|one|error_l2_50ms").startsWith("2.00 "));
+  // 0.1 x 2^-k
+  assert.ok(orders.get("a, string.0.tension = 31|three <b>|error_l2_50ms").startsWith("1.00 "));
+  assert.ok(!s.table.columns.includes("series"));
+  assert.equal(s.table.rows.length, 4);
 });
 test("no order stands where its interval is wider than the order, or where there is none", () => {
-    const text = on({tables: {}})("order_text");
-    assert.equal(text(0.84, 2.9), "");
-    assert.equal(text(1, Infinity), "");
-    assert.equal(text(1, NaN), "");
-    assert.equal(text(1.99, 0.05), "1.99 \u00b1 0.05");
-    assert.equal(text(2, 1), "2.00 \u00b1 1");
+  const text = on({tables: {}})("order_text");
+  assert.equal(text(0.84, 2.9), "");
+  assert.equal(text(1, Infinity), "");
+  assert.equal(text(1, NaN), "");
+  assert.equal(text(1.99, 0.05), "1.99 \u00b1 0.05");
+  assert.equal(text(2, 1), "2.00 \u00b1 1");
 });
 test("errors below their noise floor have no order", () => {
-    const s = section(on(report(folder_of(["manifest.json", "cells.csv"]))), "convergence"), at = name => s.table.columns.indexOf(name);
-    const rows = s.table.rows.filter(row => row[at("scene")] === problems[0] && row[at("scheme")] === "one" && row[at("error")] === "error_l2_50ms");
-    assert.deepEqual(rows.map(row => row[at("points")]), ["3"]);  // 0.1 x 4^-3 = 1.56e-3 lies below the floor of 2e-3
+  const s = section(on(report(folder_of(["manifest.json", "cells.csv"]))), "convergence"),
+    at = name => s.table.columns.indexOf(name);
+  const rows = s.table.rows.filter(
+    row =>
+      row[at("scene")] === problems[0] &&
+      row[at("scheme")] === "one" &&
+      row[at("error")] === "error_l2_50ms",
+  );
+  // 0.1 x 4^-3 = 1.56e-3 lies below the floor of 2e-3
+  assert.deepEqual(
+    rows.map(row => row[at("points")]),
+    ["3"],
+  );
 });
 test("dispersion is drawn rate by rate, with decays relative to the true ones", () => {
-    const of = whole(), [chart] = section(of, "dispersion").charts, rows = of("dispersion_rows()");
-    assert.deepEqual(choices(chart, "rate_field", chart.scenes[0]), ["44100", "88200"]);
-    assert.equal(rows.length, 120);
-    assert.ok(Math.abs(rows[70].own.decay + 1e-3 * rows[70].mode) < 2e-5);
-    assert.equal(rows[4].trace.decay, null);  // an empty field
+  const of = whole(),
+    [chart] = section(of, "dispersion").charts,
+    rows = of("dispersion_rows()");
+  assert.deepEqual(choices(chart, "rate_field", chart.scenes[0]), ["44100", "88200"]);
+  assert.equal(rows.length, 120);
+  assert.ok(Math.abs(rows[70].own.decay + 1e-3 * rows[70].mode) < 2e-5);
+  assert.equal(rows[4].trace.decay, null); // an empty field
 });
 test("maps hold their boundaries and theory, and their tiles meet half-way", () => {
-    const page = report(folder_of(every_file)), of = on(page), {charts, table} = section(of, "maps"), [map, other] = charts.map(c => c.spec(first(c), false).spec);
-    assert.equal(charts.length, 2);
-    assert.deepEqual(choices(charts[0], "series_field"), ["one", "two"]);
-    assert.equal(map.encoding.x.scale.type, "log");
-    assert.equal(other.encoding.x.scale.type, "linear");
-    assert.ok(map.encoding.y.axis.title.includes("[Hz]"));
-    assert.equal(table.rows.length, 8);
-    const lines = of("map_rows('stiffness x rate')").rows.filter(r => r.kind === "line");
-    assert.equal(lines.length, 8);
-    for (const line of lines) assert.ok(Math.abs(line.theory / line.x - 1.2) < 1e-3);
-    const uneven = on({...page, tables: {...page.tables, maps: page.tables.maps.split("\n").filter(row => !row.includes(",1e+06,")).join("\n")}});
-    for (const [where, has] of [[of, true], [uneven, false]]) {
-        const tiles = new Map(where("map_rows('stiffness x rate')").rows.filter(r => r.kind === "tile").map(t => [t.x, t])), places = [...tiles.keys()].sort((a, b) => a - b);
-        assert.equal(tiles.has(1e6), has);
-        for (let k = 0; k + 1 < places.length; ++k) {
-            const {right} = tiles.get(places[k]), {left} = tiles.get(places[k + 1]);
-            assert.ok(Math.abs(right / Math.sqrt(places[k] * places[k + 1]) - 1) < 1e-12 && Math.abs(right / left - 1) < 1e-12, `${places[k]}`);  // on a logarithmic axis
-        }
-        assert.ok(tiles.get(places[0]).left < places[0]);
+  const page = report(folder_of(every_file)),
+    of = on(page),
+    {charts, table} = section(of, "maps"),
+    [map, other] = charts.map(c => c.spec(first(c), false).spec);
+  assert.equal(charts.length, 2);
+  assert.deepEqual(choices(charts[0], "series_field"), ["one", "two"]);
+  assert.equal(map.encoding.x.scale.type, "log");
+  assert.equal(other.encoding.x.scale.type, "linear");
+  assert.ok(map.encoding.y.axis.title.includes("[Hz]"));
+  assert.equal(table.rows.length, 8);
+  const lines = of("map_rows('stiffness x rate')").rows.filter(r => r.kind === "line");
+  assert.equal(lines.length, 8);
+  for (const line of lines) assert.ok(Math.abs(line.theory / line.x - 1.2) < 1e-3);
+  const uneven = on({
+    ...page,
+    tables: {
+      ...page.tables,
+      maps: page.tables.maps
+        .split("\n")
+        .filter(row => !row.includes(",1e+06,"))
+        .join("\n"),
+    },
+  });
+  for (const [where, has] of [
+    [of, true],
+    [uneven, false],
+  ]) {
+    const tiles = new Map(
+        where("map_rows('stiffness x rate')")
+          .rows.filter(r => r.kind === "tile")
+          .map(t => [t.x, t]),
+      ),
+      places = [...tiles.keys()].sort((a, b) => a - b);
+    assert.equal(tiles.has(1e6), has);
+    for (let k = 0; k + 1 < places.length; ++k) {
+      const {right} = tiles.get(places[k]),
+        {left} = tiles.get(places[k + 1]);
+      // on a logarithmic axis
+      assert.ok(
+        Math.abs(right / Math.sqrt(places[k] * places[k + 1]) - 1) < 1e-12 &&
+          Math.abs(right / left - 1) < 1e-12,
+        `${places[k]}`,
+      );
     }
+    assert.ok(tiles.get(places[0]).left < places[0]);
+  }
 });
 test("steps to a trimmed scene have the look of their schemes", () => {
-    const path = "step,change,scheme,options,modes,rate,error,certificate,within,cost_s_per_s,measure,target\n0,whole,modal_two_point,,,88200,0.03,0.001,no,0.2,L2 error,0.01\n" +
-        "1,less,modal_two_point,compliance=matched,20,44100,0.009,0.001,yes,0.1,L2 error,0.01\n2,least,finite_difference_theta,,,44100,0.009,0.001,yes,0.05,L2 error,0.01\n";
-    const of = on(report(folder_of([], {"manifest.json": '{"suite": "trim a"}', "path.csv": path}))), names = ["modal_two_point", "modal_two_point compliance=matched", "finite_difference_theta"], looks = of("looks_of")(names);
-    assert.equal(of("finding_of_trim()"), "a within 1 %: the trimmed model costs 4 times less than the whole scene as published");
-    const [chart] = section(of, "path").charts;
-    for (const print of [false, true]) {
-        const {hconcat: [left, right]} = chart.spec({}, print).spec.vconcat?.[0] ?? chart.spec({}, print).spec, dashes = left.layer.map(l => l.encoding.strokeDash).filter(Boolean);
-        for (const [encoding, what] of [[left.encoding.color, "colour"], [right.encoding.color, "colour"], [left.layer.at(-1).encoding.shape, "shape"], [right.layer.at(-1).encoding.shape, "shape"], ...dashes.map(d => [d, "dash"])]) {
-            assert.deepEqual(encoding.scale.domain, names);
-            assert.deepEqual(encoding.scale.range, names.map(name => looks.get(name)[what]), what);
-        }
-        assert.equal(dashes.length, 2);
-        assert.deepEqual(left.data.values.map(r => r.series), names);
+  const path =
+    "step,change,scheme,options,modes,rate,error,certificate,within,cost_s_per_s,measure,target\n0,whole,modal_two_point,,,88200,0.03,0.001,no,0.2,L2 " +
+    "error,0.01\n" +
+    "1,less,modal_two_point,compliance=matched,20,44100,0.009,0.001,yes,0.1,L2 " +
+    "error,0.01\n2,least,finite_difference_theta,,,44100,0.009,0.001,yes,0.05,L2 " +
+    "error,0.01\n";
+  const of = on(report(folder_of([], {"manifest.json": '{"suite": "trim a"}', "path.csv": path}))),
+    names = ["modal_two_point", "modal_two_point compliance=matched", "finite_difference_theta"],
+    looks = of("looks_of")(names);
+  assert.equal(
+    of("finding_of_trim()"),
+    "a within 1 %: the trimmed model costs 4 times less than the whole scene as published",
+  );
+  const [chart] = section(of, "path").charts;
+  for (const print of [false, true]) {
+    const {
+        hconcat: [left, right],
+      } = chart.spec({}, print).spec.vconcat?.[0] ?? chart.spec({}, print).spec,
+      dashes = left.layer.map(l => l.encoding.strokeDash).filter(Boolean);
+    for (const [encoding, what] of [
+      [left.encoding.color, "colour"],
+      [right.encoding.color, "colour"],
+      [left.layer.at(-1).encoding.shape, "shape"],
+      [right.layer.at(-1).encoding.shape, "shape"],
+      ...dashes.map(d => [d, "dash"]),
+    ]) {
+      assert.deepEqual(encoding.scale.domain, names);
+      assert.deepEqual(
+        encoding.scale.range,
+        names.map(name => looks.get(name)[what]),
+        what,
+      );
     }
-    globalThis.innerWidth = 390;
-    const {vconcat} = chart.spec({narrow: true}, false).spec;
-    assert.ok(vconcat.length === 2 && vconcat.every(part => part.width <= 300 && /split/.test(part.encoding.y.axis.labelExpr)), "on a phone one above the other, named by the steps' numbers");
-    for (const axis of vconcat.map(part => part.layer.at(-1).encoding.x.axis)) assert.ok(!/domain/.test(axis.labelExpr), "labels of a part do not ask for the whole's scale");
+    assert.equal(dashes.length, 2);
+    assert.deepEqual(
+      left.data.values.map(r => r.series),
+      names,
+    );
+  }
+  globalThis.innerWidth = 390;
+  const {vconcat} = chart.spec({narrow: true}, false).spec;
+  assert.ok(
+    vconcat.length === 2 &&
+      vconcat.every(part => part.width <= 300 && /split/.test(part.encoding.y.axis.labelExpr)),
+    "on a phone one above the other, named by the steps' numbers",
+  );
+  for (const axis of vconcat.map(part => part.layer.at(-1).encoding.x.axis))
+    assert.ok(!/domain/.test(axis.labelExpr), "labels of a part do not ask for the whole's scale");
 });
 
 // ---- Looks
-const registry = [["modal_two_point", false], ["modal_quadratised", false], ["modal_spatial_newton", false], ["finite_difference_theta", false], ["finite_difference_explicit", false],
-                  ["sitar_fdm", false], ["modal_explicit_penalty", true], ["exact_contact", false]];
-const linear = hex => [1, 3, 5].map(k => parseInt(hex.slice(k, k + 2), 16) / 255).map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);  // sRGB, IEC 61966-2-1
+const registry = [
+  ["modal_two_point", false],
+  ["modal_quadratised", false],
+  ["modal_spatial_newton", false],
+  ["finite_difference_theta", false],
+  ["finite_difference_explicit", false],
+  ["sitar_fdm", false],
+  ["modal_explicit_penalty", true],
+  ["exact_contact", false],
+];
+// sRGB, IEC 61966-2-1
+const linear = hex =>
+  [1, 3, 5]
+    .map(k => parseInt(hex.slice(k, k + 2), 16) / 255)
+    .map(x => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4));
 const times = (m, v) => m.map(row => row.reduce((sum, x, k) => sum + x * v[k], 0));
-const to_xyz = [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]];
-function lab(rgb) {  // CIELAB under D65
-    const f = times(to_xyz, rgb.map(x => Math.min(1, Math.max(0, x)))).map((x, k) => x / [0.95047, 1, 1.08883][k]).map(x => x > 0.008856 ? Math.cbrt(x) : 7.787 * x + 16 / 116);
-    return [116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])];
+const to_xyz = [
+  [0.4124564, 0.3575761, 0.1804375],
+  [0.2126729, 0.7151522, 0.072175],
+  [0.0193339, 0.119192, 0.9503041],
+];
+function lab(rgb) {
+  // CIELAB under D65
+  const f = times(
+    to_xyz,
+    rgb.map(x => Math.min(1, Math.max(0, x))),
+  )
+    .map((x, k) => x / [0.95047, 1, 1.08883][k])
+    .map(x => (x > 0.008856 ? Math.cbrt(x) : 7.787 * x + 16 / 116));
+  return [116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])];
 }
-// Sight without the cones for long, middle and short waves: Machado, Oliveira & Fernandes 2009, severity 1.
-const sights = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
-                [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]], [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]];
-function contrast(a, b) {  // WCAG 2
-    const [p, q] = [a, b].map(hex => times(to_xyz, linear(hex))[1] + 0.05);
-    return Math.max(p, q) / Math.min(p, q);
+// Sight without the cones for long, middle and short waves: Machado, Oliveira & Fernandes 2009,
+// severity 1.
+const sights = [
+  [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+  [
+    [0.152286, 1.052583, -0.204868],
+    [0.114503, 0.786281, 0.099216],
+    [-0.003882, -0.048116, 1.051998],
+  ],
+  [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.01182, 0.04294, 0.968881],
+  ],
+  [
+    [1.255528, -0.076749, -0.178779],
+    [-0.078411, 0.930809, 0.147602],
+    [0.004733, 0.691367, 0.3039],
+  ],
+];
+function contrast(a, b) {
+  // WCAG 2
+  const [p, q] = [a, b].map(hex => times(to_xyz, linear(hex))[1] + 0.05);
+  return Math.max(p, q) / Math.min(p, q);
 }
 function css_colour(name, dark) {
-    const hex = css.slice(dark ? css.indexOf("prefers-color-scheme: dark") : 0).match(new RegExp(`--${name}: (#[0-9a-f]+);`))[1];
-    return hex.length === 4 ? "#" + [...hex.slice(1)].map(x => x + x).join("") : hex;
+  const hex = css
+    .slice(dark ? css.indexOf("prefers-color-scheme: dark") : 0)
+    .match(new RegExp(`--${name}: (#[0-9a-f]+);`))[1];
+  return hex.length === 4 ? "#" + [...hex.slice(1)].map(x => x + x).join("") : hex;
 }
 const looks = on({schemes: registry, tables: {}});
 test("families are told apart by every kind of sight and seen on their page", () => {
-    for (const dark of [0, 1]) {
-        const colours = looks("families").map(f => f[2 + dark]);
-        colours.forEach((one, i) => {
-            assert.ok(contrast(one, css_colour("paper", dark)) >= 3, one);
-            for (const other of colours.slice(0, i))
-                for (const sight of sights) {
-                    const [p, q] = [one, other].map(hex => lab(times(sight, linear(hex))));
-                    assert.ok(Math.hypot(...p.map((x, k) => x - q[k])) >= 15, `${one} and ${other}`);
-                }
-        });
-    }
+  for (const dark of [0, 1]) {
+    const colours = looks("families").map(f => f[2 + dark]);
+    colours.forEach((one, i) => {
+      assert.ok(contrast(one, css_colour("paper", dark)) >= 3, one);
+      for (const other of colours.slice(0, i))
+        for (const sight of sights) {
+          const [p, q] = [one, other].map(hex => lab(times(sight, linear(hex))));
+          assert.ok(Math.hypot(...p.map((x, k) => x - q[k])) >= 15, `${one} and ${other}`);
+        }
+    });
+  }
 });
 test("text of the page has a contrast of four and a half", () => {
-    for (const dark of [false, true]) for (const ink of ["ink", "soft", "bad", "key"]) for (const ground of ["paper", "raised"]) assert.ok(contrast(css_colour(ink, dark), css_colour(ground, dark)) >= 4.5, ink + ground);
+  for (const dark of [false, true])
+    for (const ink of ["ink", "soft", "bad", "key"])
+      for (const ground of ["paper", "raised"])
+        assert.ok(contrast(css_colour(ink, dark), css_colour(ground, dark)) >= 4.5, ink + ground);
 });
 test("the front is seen on its page and the lines on it too", () => {
-    for (const dark of [0, 1]) {
-        assert.ok(contrast(looks("front_edge")[dark], css_colour("paper", dark)) >= 3);
-        assert.equal(looks("ink")[dark], css_colour("ink", dark));
-        for (const family of looks("families")) assert.ok(contrast(looks("front_track")[dark], family[2 + dark]) >= 2.5, family[0]);
-    }
-    for (const tone of ["ink", "front_edge", "front_track"]) assert.equal(looks("dark_of")[looks(tone)[0]], looks(tone)[1]);
-    const of = sample(), [chart] = section(of, "work-precision").charts, tracks = layers(chart.spec(first(chart), false).spec).filter(l => l.mark?.strokeCap);
-    assert.deepEqual(tracks.map(l => [l.mark.color, l.mark.opacity]), [[looks("front_edge")[0], undefined], [looks("front_track")[0], undefined]]);
+  for (const dark of [0, 1]) {
+    assert.ok(contrast(looks("front_edge")[dark], css_colour("paper", dark)) >= 3);
+    assert.equal(looks("ink")[dark], css_colour("ink", dark));
+    for (const family of looks("families"))
+      assert.ok(contrast(looks("front_track")[dark], family[2 + dark]) >= 2.5, family[0]);
+  }
+  for (const tone of ["ink", "front_edge", "front_track"])
+    assert.equal(looks("dark_of")[looks(tone)[0]], looks(tone)[1]);
+  const of = sample(),
+    [chart] = section(of, "work-precision").charts,
+    tracks = layers(chart.spec(first(chart), false).spec).filter(l => l.mark?.strokeCap);
+  assert.deepEqual(
+    tracks.map(l => [l.mark.color, l.mark.opacity]),
+    [
+      [looks("front_edge")[0], undefined],
+      [looks("front_track")[0], undefined],
+    ],
+  );
 });
-test("no chart has a hue of its own", () => {  // outcomes of a map are no schemes, and looks.js holds them all
-    for (const name of ["work_precision", "along", "sound_charts", "run", "verdict"])
-        for (const [, hex] of readFileSync(join(sources, `${name}.js`), "utf8").matchAll(/"#([0-9a-f]{6}|[0-9a-f]{3})"/g)) {
-            const wide = hex.length / 3, parts = [0, 1, 2].map(k => hex.slice(k * wide, (k + 1) * wide));
-            assert.ok(new Set(parts).size === 1 || ["440154", "56b4e9"].includes(hex), `${name}: #${hex}`);  // the ground of viridis, the band of the reference
-        }
+// outcomes of a map are no schemes, and looks.js holds them all
+test("no chart has a hue of its own", () => {
+  for (const name of ["work_precision", "along", "sound_charts", "run", "verdict"])
+    for (const [, hex] of readFileSync(join(sources, `${name}.js`), "utf8").matchAll(
+      /"#([0-9a-f]{6}|[0-9a-f]{3})"/g,
+    )) {
+      const wide = hex.length / 3,
+        parts = [0, 1, 2].map(k => hex.slice(k * wide, (k + 1) * wide));
+      // the ground of viridis, the band of the reference
+      assert.ok(
+        new Set(parts).size === 1 || ["440154", "56b4e9"].includes(hex),
+        `${name}: #${hex}`,
+      );
+    }
 });
 test("a scheme looks the same in any company and like no other", () => {
-    const {schemes} = report(folder_of(["manifest.json", "maps.csv"])), of = on({schemes, tables: {}}), names = schemes.map(([name]) => name), all = of("looks_of")(names);
-    assert.ok(names.length > 15 && schemes.some(([, control]) => control));
-    const own = names.filter(name => all.get(name).family !== of("other_family"));
-    assert.equal(new Set(own.map(name => all.get(name).colour + all.get(name).shape)).size, own.length);
-    for (const [name, control] of schemes) {
-        const alone = of("looks_of")(["a plugin", name + " compliance=matched"]).get(name + " compliance=matched"), look = all.get(name);
-        assert.deepEqual([alone.colour, alone.shape, alone.control], [look.colour, look.shape, control], name);
-        assert.notDeepEqual(alone.dash, look.dash);
-        if (control) assert.equal(look.colour, of("families").at(-2)[2]);
-    }
-    const beside_others = name => of("looks_of")(["another plugin", "a plugin", name]).get(name).colour;
-    assert.equal(beside_others("finite_difference_theta_quadratised"), all.get("finite_difference_theta").colour);
-    assert.equal(beside_others("modal_three_point_moreau_jean"), of("families").at(-1)[2]);  // no family begins like it
-    const dash = name => of("looks_of")([name]).get(name).dash, forms = ["", " compliance=own", " compliance=matched", " compliance=own tolerance=1e-6", " compliance=matched tolerance=1e-6"];
-    assert.equal(new Set(forms.map(form => dash("exact_contact" + form).join())).size, forms.length);
-    for (const form of [" compliance=own", " compliance=matched"]) assert.deepEqual(dash(`exact_contact${form} tolerance=1e-6`).slice(0, 2), dash("modal_two_point" + form));
-    assert.deepEqual(of("in_order")(["modal_explicit_penalty", "a plugin", "finite_difference_theta", "modal_two_point"]), ["modal_two_point", "finite_difference_theta", "a plugin", "modal_explicit_penalty"]);
+  const {schemes} = report(folder_of(["manifest.json", "maps.csv"])),
+    of = on({schemes, tables: {}}),
+    names = schemes.map(([name]) => name),
+    all = of("looks_of")(names);
+  assert.ok(names.length > 15 && schemes.some(([, control]) => control));
+  const own = names.filter(name => all.get(name).family !== of("other_family"));
+  assert.equal(
+    new Set(own.map(name => all.get(name).colour + all.get(name).shape)).size,
+    own.length,
+  );
+  for (const [name, control] of schemes) {
+    const alone = of("looks_of")(["a plugin", name + " compliance=matched"]).get(
+        name + " compliance=matched",
+      ),
+      look = all.get(name);
+    assert.deepEqual(
+      [alone.colour, alone.shape, alone.control],
+      [look.colour, look.shape, control],
+      name,
+    );
+    assert.notDeepEqual(alone.dash, look.dash);
+    if (control) assert.equal(look.colour, of("families").at(-2)[2]);
+  }
+  const beside_others = name =>
+    of("looks_of")(["another plugin", "a plugin", name]).get(name).colour;
+  assert.equal(
+    beside_others("finite_difference_theta_quadratised"),
+    all.get("finite_difference_theta").colour,
+  );
+  // no family begins like it
+  assert.equal(beside_others("modal_three_point_moreau_jean"), of("families").at(-1)[2]);
+  const dash = name => of("looks_of")([name]).get(name).dash,
+    forms = [
+      "",
+      " compliance=own",
+      " compliance=matched",
+      " compliance=own tolerance=1e-6",
+      " compliance=matched tolerance=1e-6",
+    ];
+  assert.equal(new Set(forms.map(form => dash("exact_contact" + form).join())).size, forms.length);
+  for (const form of [" compliance=own", " compliance=matched"])
+    assert.deepEqual(
+      dash(`exact_contact${form} tolerance=1e-6`).slice(0, 2),
+      dash("modal_two_point" + form),
+    );
+  assert.deepEqual(
+    of("in_order")([
+      "modal_explicit_penalty",
+      "a plugin",
+      "finite_difference_theta",
+      "modal_two_point",
+    ]),
+    ["modal_two_point", "finite_difference_theta", "a plugin", "modal_explicit_penalty"],
+  );
 });
 
 // ---- Sounds
 const base64 = numbers => Buffer.from(new Int16Array(numbers).buffer).toString("base64");
-const sound = (samples, more = {}) => ({rate: 44100, peak: 32767, samples: base64(samples), ...more});
-test("samples are read as they were written", () => assert.deepEqual(on({tables: {}})("integers")(base64([0, 1, -1, 32767, -32768])), [0, 1, -1, 32767, -32768]));
-test("a trace is drawn from where its reference is liveliest, with the difference", () => {
-    const n = 4410, truth = Array.from({length: n}, (_, k) => k < 1900 ? Math.round(k / 10) : Math.round(3000 * Math.sin(k))), own = truth.map(x => x + 7);
-    const csv = "problem,series,scheme,rate,tap,quantity,file,reference_file\ns,reference,reference,,nut,nut_force,r.wav,\ns,a,a,44100,nut,nut_force,a.wav,r.wav\n";
-    const of = on({title: "t", schemes: registry, measures: [], tables: {sounds: csv, cells: ""}, sounds: [sound(truth, {row: 0}), sound(own, {row: 1})], left_out: {sounds: []}, manifest: {}, levels: [], pictures: []});
-    const {charts} = of("waveform_section()"), {spec} = charts[0].spec(first(charts[0]), false), rows = spec.layer[0].data.values, who = name => rows.filter(r => r.who === name);
-    assert.equal(who("scheme")[0].ms, 1000 * Math.round(0.04 * 44100) / 44100);  // the stretch of 10 ms in which it begins to move
-    assert.ok(who("difference").every(r => Math.abs(r.value - 7) < 1e-9) && who("difference").length === who("reference").length);
-    assert.equal(who("reference")[0].value, truth[Math.round(0.04 * 44100)]);
+const sound = (samples, more = {}) => ({
+  rate: 44100,
+  peak: 32767,
+  samples: base64(samples),
+  ...more,
 });
-test("spectrograms merge equal neighbours, leave out the background, and grow coarser until they fit", () => {
-    const of = on({tables: {}}), noise = {start: 0, hop: 0.02, row_hz: 80, frames: 60, rows: 100, level: Array.from({length: 6000}, (_, k) => -200 - (k * 7919) % 600)};
-    const quiet = {...noise, frames: 2, rows: 2, level: [-1200, -200, -200, -200]}, panels = [{levels: noise}, {levels: quiet}, {levels: null}];
+test("samples are read as they were written", () =>
+  assert.deepEqual(
+    on({tables: {}})("integers")(base64([0, 1, -1, 32767, -32768])),
+    [0, 1, -1, 32767, -32768],
+  ));
+test("a trace is drawn from where its reference is liveliest, with the difference", () => {
+  const n = 4410,
+    truth = Array.from({length: n}, (_, k) =>
+      k < 1900 ? Math.round(k / 10) : Math.round(3000 * Math.sin(k)),
+    ),
+    own = truth.map(x => x + 7);
+  const csv =
+    "problem,series,scheme,rate,tap,quantity,file,reference_file\ns,reference,reference,,nut,nut_force,r.wav,\ns,a,a,44100,nut,nut_force,a.wav,r.wav\n";
+  const of = on({
+    title: "t",
+    schemes: registry,
+    measures: [],
+    tables: {sounds: csv, cells: ""},
+    sounds: [sound(truth, {row: 0}), sound(own, {row: 1})],
+    left_out: {sounds: []},
+    manifest: {},
+    levels: [],
+    pictures: [],
+  });
+  const {charts} = of("waveform_section()"),
+    {spec} = charts[0].spec(first(charts[0]), false),
+    rows = spec.layer[0].data.values,
+    who = name => rows.filter(r => r.who === name);
+  // the stretch of 10 ms in which it begins to move
+  assert.equal(who("scheme")[0].ms, (1000 * Math.round(0.04 * 44100)) / 44100);
+  assert.ok(
+    who("difference").every(r => Math.abs(r.value - 7) < 1e-9) &&
+      who("difference").length === who("reference").length,
+  );
+  assert.equal(who("reference")[0].value, truth[Math.round(0.04 * 44100)]);
+});
+test(
+  "spectrograms merge equal neighbours, leave out the background, and grow coarser until " +
+    "they fit",
+  () => {
+    const of = on({tables: {}}),
+      noise = {
+        start: 0,
+        hop: 0.02,
+        row_hz: 80,
+        frames: 60,
+        rows: 100,
+        level: Array.from({length: 6000}, (_, k) => -200 - ((k * 7919) % 600)),
+      };
+    const quiet = {...noise, frames: 2, rows: 2, level: [-1200, -200, -200, -200]},
+      panels = [{levels: noise}, {levels: quiet}, {levels: null}];
     const frame = of("tiled")(panels, 2000);
-    assert.ok(panels[0].tiles.length + panels[1].tiles.length <= 2000 && panels[0].tiles.length > 200);
+    assert.ok(
+      panels[0].tiles.length + panels[1].tiles.length <= 2000 && panels[0].tiles.length > 200,
+    );
     assert.deepEqual([frame.first, frame.last, frame.highest], [0, 1.2, 8]);
     const alone = [{levels: quiet}];
     of("tiled")(alone, 2000);
-    assert.deepEqual(alone[0].tiles.map(t => [t.a, t.b, t.f]), [[0, 0.04, 0.08], [0.02, 0.04, 0]].sort((a, b) => a[2] - b[2]));  // one of four is 100 dB below: background
-    const far = [{levels: noise}, {levels: {...noise, level: noise.level.map(x => x - 2000)}}];  // 200 dB below: background alone, for the scale is common
+    // one of four is 100 dB below: background
+    assert.deepEqual(
+      alone[0].tiles.map(t => [t.a, t.b, t.f]),
+      [
+        [0, 0.04, 0.08],
+        [0.02, 0.04, 0],
+      ].sort((a, b) => a[2] - b[2]),
+    );
+    // 200 dB below: background alone, for the scale is common
+    const far = [{levels: noise}, {levels: {...noise, level: noise.level.map(x => x - 2000)}}];
     of("tiled")(far, 2000);
     assert.equal(far[1].tiles.length, 0);
     assert.ok(Math.max(...far[0].tiles.map(t => t.l)) === 0);
-    assert.equal(of("panel_spec")({title: "y", levels: null, status: "refused"}, frame, {left: null, lowest: true}).mark.text, "refused");
-    const louder = {...quiet, level: [-200, -200, -200, -100]}, truth = {...quiet, level: [-200, -200, -200, -200]}, compared = [{levels: louder, against: truth}, {levels: truth}];
+    assert.equal(
+      of("panel_spec")({title: "y", levels: null, status: "refused"}, frame, {
+        left: null,
+        lowest: true,
+      }).mark.text,
+      "refused",
+    );
+    const louder = {...quiet, level: [-200, -200, -200, -100]},
+      truth = {...quiet, level: [-200, -200, -200, -200]},
+      compared = [{levels: louder, against: truth}, {levels: truth}];
     of("tiled")(compared, 2000, true);
-    assert.deepEqual(compared.map(p => p.tiles.map(t => t.l)), [[10], []]);  // the reference differs from nothing
-});
+    // the reference differs from nothing
+    assert.deepEqual(
+      compared.map(p => p.tiles.map(t => t.l)),
+      [[10], []],
+    );
+  },
+);
 
 test("plot.py draws the lines of the chart from the rows of the table", () => {
-    const of = sample(), text = of("plot_program()"), [, lines] = text.match(/# scene: [^]*?\n(SCENES = {[^]*?\n})\n/);
-    assert.match(lines, /\["a","#[0-9a-f]{6}","[a-zA-Z^<>]",\[1,0\],\[0,1\]\]/);
-    assert.ok(!lines.includes('"c"'));
-    assert.equal(spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], {input: text}).status, 0);
+  const of = sample(),
+    text = of("plot_program()"),
+    [, lines] = text.match(/# scene: [^]*?\n(SCENES = {[^]*?\n})\n/);
+  assert.match(lines, /\["a","#[0-9a-f]{6}","[a-zA-Z^<>]",\[1,0\],\[0,1\]\]/);
+  assert.ok(!lines.includes('"c"'));
+  assert.equal(
+    spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], {input: text})
+      .status,
+    0,
+  );
 });
 
 // ---- And Vega draws them
-if (!existsSync(join(modules, "vega/build/vega.min.js"))) console.log("not drawn: no vega (npm ci at the root of the sources)");
-else test("charts are drawn with their words", () => {
-    const folder = folder_of([], {"manifest.json": '{"suite": "a scene"}', "cells.csv": `scene,${sample_head}\n${sample_rows.map(row => `s,${row}\n`).join("")}`}), run = spawnSync(program, ["report", folder], {encoding: "utf8", env: {...process.env, JVARI_NODE_MODULES: modules}});
+if (!existsSync(join(modules, "vega/build/vega.min.js")))
+  console.log("not drawn: no vega (npm ci at the root of the sources)");
+else
+  test("charts are drawn with their words", () => {
+    const folder = folder_of([], {
+        "manifest.json": '{"suite": "a scene"}',
+        "cells.csv": `scene,${sample_head}\n${sample_rows.map(row => `s,${row}\n`).join("")}`,
+      }),
+      run = spawnSync(program, ["report", folder], {
+        encoding: "utf8",
+        env: {...process.env, JVARI_NODE_MODULES: modules},
+      });
     assert.equal(run.status, 0, run.stderr);
     const svg = readFileSync(join(folder, "work_precision.svg"), "utf8");
-    for (const word of ["a scene", "relative L2 error", "computing time", "a, 88.2 kHz", "\u2715"]) assert.ok(svg.includes(word), word);
-});
+    for (const word of ["a scene", "relative L2 error", "computing time", "a, 88.2 kHz", "\u2715"])
+      assert.ok(svg.includes(word), word);
+  });
 
 rmSync(scratch, {recursive: true, force: true});
 console.log(failures ? `${failures} failed` : "all hold");

@@ -1,5 +1,6 @@
-// Schemes of the tree that do not feel a number of the scene, or feel another: each changes the scene before the scheme gets it. Nothing but
-// the answer to that number is wrong, so energies, instants and convergence of what they play are sound.
+// Schemes of the tree that do not feel a number of the scene, or feel another: each changes the
+// scene before the scheme gets it. Nothing but the answer to that number is wrong, so energies,
+// instants and convergence of what they play are sound.
 #include <algorithm>
 #include <utility>
 
@@ -38,16 +39,22 @@ struct Deaf {
 };
 
 constexpr Deaf table_of[] = {
-    {"sigma1_up", "modal_two_point", [](Scene& s) { each_law<PolynomialDamping>(s, [](auto& d) { d.sigma1 *= 1.2; }); }},
-    {"sigma3_double", "modal_two_point", [](Scene& s) { each_law<PolynomialDamping>(s, [](auto& d) { d.sigma3 *= 2; }); }},
-    {"contact_loss_half", "modal_two_point", [](Scene& s) { each_lumped(s, [](auto& b) { b.contact_loss *= 0.5; }); }},
+    {"sigma1_up", "modal_two_point",
+     [](Scene& s) { each_law<PolynomialDamping>(s, [](auto& d) { d.sigma1 *= 1.2; }); }},
+    {"sigma3_double", "modal_two_point",
+     [](Scene& s) { each_law<PolynomialDamping>(s, [](auto& d) { d.sigma3 *= 2; }); }},
+    {"contact_loss_half", "modal_two_point",
+     [](Scene& s) { each_lumped(s, [](auto& b) { b.contact_loss *= 0.5; }); }},
     {"exponent_up", "modal_two_point",
-     [](Scene& s) { each_lumped(s, [](auto& b) { b.exponent = b.exponent == 1 ? 1 : 1.05 * b.exponent; }); }},
+     [](Scene& s) {
+         each_lumped(s, [](auto& b) { b.exponent = b.exponent == 1 ? 1 : 1.05 * b.exponent; });
+     }},
     {"power_stiffness_up", "modal_two_point",
      [](Scene& s) { each_lumped(s, [](auto& b) { b.stiffness.k *= b.exponent == 1 ? 1 : 1.2; }); }},
     {"power_stiffness_triple", "modal_two_point",
      [](Scene& s) { each_lumped(s, [](auto& b) { b.stiffness.k *= b.exponent == 1 ? 1 : 3; }); }},
-    {"bending_up", "modal_two_point", [](Scene& s) { each_string(s, [](String& x) { x.bending_stiffness *= 1.01; }); }},
+    {"bending_up", "modal_two_point",
+     [](Scene& s) { each_string(s, [](String& x) { x.bending_stiffness *= 1.01; }); }},
     {"thread_height_ignored", "modal_two_point",
      [](Scene& s) {
          each_string(s, [](String& x) {
@@ -60,19 +67,28 @@ constexpr Deaf table_of[] = {
              if (x.pluck) x.pluck->start = 0;
          });
      }},
-    {"second_barrier_lower", "modal_two_point", [](Scene& s) { second_barrier(s, [](auto& b) { b.height -= 1e-4; }); }},
-    {"second_barrier_softer", "modal_two_point", [](Scene& s) { second_barrier(s, [](auto& b) { b.stiffness.k *= 0.5; }); }},
+    {"second_barrier_lower", "modal_two_point",
+     [](Scene& s) { second_barrier(s, [](auto& b) { b.height -= 1e-4; }); }},
+    {"second_barrier_softer", "modal_two_point",
+     [](Scene& s) { second_barrier(s, [](auto& b) { b.stiffness.k *= 0.5; }); }},
     {"barriers_swapped", "modal_two_point",
      [](Scene& s) {
          if (s.strings.size() > 1) std::swap(s.strings[0].barriers, s.strings[1].barriers);
      }},
-    {"diameter_up", "modal_two_point", [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.diameter *= 1.2; }); }},
-    {"air_viscosity_up", "modal_two_point", [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.air_viscosity *= 1.2; }); }},
-    {"air_density_up", "modal_two_point", [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.air_density *= 1.2; }); }},
+    {"diameter_up", "modal_two_point",
+     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.diameter *= 1.2; }); }},
+    {"air_viscosity_up", "modal_two_point",
+     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.air_viscosity *= 1.2; }); }},
+    {"air_density_up", "modal_two_point",
+     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.air_density *= 1.2; }); }},
     {"viscoelastic_ignored", "modal_two_point",
-     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.viscoelastic_angle = 0; }); }},
+     [](Scene& s) {
+         each_law<QualityFactorDamping>(s, [](auto& d) { d.viscoelastic_angle = 0; });
+     }},
     {"thermoelastic_ignored", "modal_two_point",
-     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.thermoelastic_loss = 0; }); }},
+     [](Scene& s) {
+         each_law<QualityFactorDamping>(s, [](auto& d) { d.thermoelastic_loss = 0; });
+     }},
     {"measured_decay_up", "modal_two_point",
      [](Scene& s) {
          each_law<TableDamping>(s, [](auto& d) {
@@ -107,13 +123,15 @@ constexpr Deaf table_of[] = {
              if (x.polarisation) x.polarisation->pluck_angle *= -1;
          });
      }},
-    {"axial_stiffness_up", "modal_tension", [](Scene& s) { each_string(s, [](String& x) { x.axial_stiffness *= 1.05; }); }},
+    {"axial_stiffness_up", "modal_tension",
+     [](Scene& s) { each_string(s, [](String& x) { x.axial_stiffness *= 1.05; }); }},
     {"nut_up_in_contact", "modal_two_point", [](Scene&) {}, 1.01},
 };
 
 class Played : public Scheme {
 public:
-    Played(const Deaf& deaf, Scene scene, const Settings& settings) : deaf_(deaf), scene_(std::move(scene)) {
+    Played(const Deaf& deaf, Scene scene, const Settings& settings)
+        : deaf_(deaf), scene_(std::move(scene)) {
         deaf.change(scene_);
         inner_ = make_scheme(of_the_tree(deaf), scene_, settings);
     }
@@ -122,7 +140,8 @@ public:
         const Status status = inner_->advance(out);
         for (int k = 0; k < out.taps; ++k) {
             const Tap& tap = scene_.taps[k];
-            if (tap.quantity == Quantity::nut_force && tap.string && !scene_.strings[*tap.string].barriers.empty())
+            if (tap.quantity == Quantity::nut_force && tap.string &&
+                !scene_.strings[*tap.string].barriers.empty())
                 for (int n = 0; n < out.rows; ++n) out.tap[n + k * out.stride] *= deaf_.nut;
         }
         return status;
@@ -132,7 +151,8 @@ public:
     std::vector<FreeMode> free_modes() const override { return inner_->free_modes(); }
 
     static const Descriptor& of_the_tree(const Deaf& deaf) {
-        return *std::ranges::find_if(schemes(), [&deaf](const Descriptor& d) { return std::string(d.name) == deaf.of; });
+        return *std::ranges::find_if(
+            schemes(), [&deaf](const Descriptor& d) { return std::string(d.name) == deaf.of; });
     }
 
 private:
@@ -151,8 +171,10 @@ struct Table {
             d.name = table_of[i].name;
             d.own = &table_of[i];
             d.all_strings = true;  // barriers of two strings are swapped here
-            d.make = [](const Descriptor& own, const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
-                return std::make_unique<Played>(*static_cast<const Deaf*>(own.own), scene, settings);
+            d.make = [](const Descriptor& own, const Scene& scene,
+                        const Settings& settings) -> std::unique_ptr<Scheme> {
+                return std::make_unique<Played>(*static_cast<const Deaf*>(own.own), scene,
+                                                settings);
             };
         }
     }

@@ -1,5 +1,6 @@
-// Schemes that break one promise each and keep all others, and the honest one, which breaks none (check.sh). Those that need contacts or a
-// thread are schemes of the tree under another name, with a fault in their scene or in the rows that they write.
+// Schemes that break one promise each and keep all others, and the honest one, which breaks none
+// (check.sh). Those that need contacts or a thread are schemes of the tree under another name, with
+// a fault in their scene or in the rows that they write.
 #include <algorithm>
 #include <string>
 
@@ -17,7 +18,8 @@ struct InItsRows final : Honest {
 
 template <auto change>
 struct OfAnotherString final : Honest {
-    OfAnotherString(Scene scene, const Settings& settings) : Honest((change(scene.strings.front()), scene), settings) {}
+    OfAnotherString(Scene scene, const Settings& settings)
+        : Honest((change(scene.strings.front()), scene), settings) {}
 };
 
 void times(const Block& out, int n, double factor) {
@@ -53,9 +55,12 @@ void starts_with_a_force(const Honest& h, const Block& out, int n) {
 
 // It steps a second plane of motion that no scene here has.
 struct CarriesDoubleState final : Honest {
-    CarriesDoubleState(const Scene& scene, const Settings& settings) : Honest(scene, settings), other(scene, settings) {}
+    CarriesDoubleState(const Scene& scene, const Settings& settings)
+        : Honest(scene, settings), other(scene, settings) {}
     void reset() noexcept override { Honest::reset(), other.reset(); }
-    Status advance(const Block& out) noexcept override { return other.advance(out), Honest::advance(out); }
+    Status advance(const Block& out) noexcept override {
+        return other.advance(out), Honest::advance(out);
+    }
     int dofs() const override { return Honest::dofs() + other.dofs(); }
     Honest other;
 };
@@ -73,7 +78,8 @@ void gives_nan(const Honest& h, const Block& out, int n) {
 
 // Energy comes from nowhere in one row and goes there in the next, so that the sum is right.
 void breaks_its_ledger_in_a_row(const Honest& h, const Block& out, int n) {
-    if (out.energy && (h.row_ == 70 || h.row_ == 71)) out.energy[n + out.stride] += (h.row_ == 70 ? 5e-11 : -5e-11) * h.start_;
+    if (out.energy && (h.row_ == 70 || h.row_ == 71))
+        out.energy[n + out.stride] += (h.row_ == 70 ? 5e-11 : -5e-11) * h.start_;
 }
 
 // Each row is right to less than rounding is allowed, and all err to the same side.
@@ -114,21 +120,28 @@ struct MisstatesItsPartials final : Honest {
     std::vector<FreeMode> free_modes() const override {
         std::vector<FreeMode> modes;
         for (int i = 0; i < modes_.count(); ++i)
-            modes.push_back({std::sqrt(omega_squared_damped(modes_.omega0[i], modes_.sigma[i])) * std::exp2(-0.01 / 12), modes_.sigma[i]});
+            modes.push_back({std::sqrt(omega_squared_damped(modes_.omega0[i], modes_.sigma[i])) *
+                                 std::exp2(-0.01 / 12),
+                             modes_.sigma[i]});
         return modes;
     }
 };
 
-// From row 1 on its rows show the string half a step before their instants: an error of first order, which falls with the rate.
+// From row 1 on its rows show the string half a step before their instants: an error of first
+// order, which falls with the rate.
 struct WritesHalfAStepLate final : Honest {
-    WritesHalfAStepLate(const Scene& scene, const Settings& settings) : Honest(scene, settings), late(0.5 / settings.sample_rate) {}
+    WritesHalfAStepLate(const Scene& scene, const Settings& settings)
+        : Honest(scene, settings), late(0.5 / settings.sample_rate) {}
     void spoil(const Block& out, int n) noexcept override {
         for (int k = 0; row_ > 0 && k < out.taps; ++k) {
             const bool velocity = scene_.taps[k].quantity == Quantity::velocity;
             double sum = 0;
             for (std::size_t i = 0; i < y_.size(); ++i) {
-                const double a = -modes_.omega0[i] * modes_.omega0[i] * y_[i] - 2 * modes_.sigma[i] * v_[i];  // acceleration
-                sum += weights_[k][i] * (velocity ? v_[i] - late * a : y_[i] - late * v_[i] + 0.5 * late * late * a);
+                // acceleration
+                const double a =
+                    -modes_.omega0[i] * modes_.omega0[i] * y_[i] - 2 * modes_.sigma[i] * v_[i];
+                sum += weights_[k][i] *
+                       (velocity ? v_[i] - late * a : y_[i] - late * v_[i] + 0.5 * late * late * a);
             }
             out.tap[n + k * out.stride] = sum;
         }
@@ -138,7 +151,8 @@ struct WritesHalfAStepLate final : Honest {
 
 // Below 30 kHz it stores more from its second row on than was ever there.
 struct GainsEnergyAtALowRate final : Honest {
-    GainsEnergyAtALowRate(const Scene& scene, const Settings& settings) : Honest(scene, settings), low(settings.sample_rate < 30e3) {}
+    GainsEnergyAtALowRate(const Scene& scene, const Settings& settings)
+        : Honest(scene, settings), low(settings.sample_rate < 30e3) {}
     void spoil(const Block& out, int n) noexcept override {
         if (low && out.energy && row_ > 0) out.energy[n] += 1e-3 * start_;
     }
@@ -156,11 +170,16 @@ struct Fault {
 
 constexpr Fault faults[] = {
     {"pulls", "modal_quadratised", nullptr, nullptr, "raw"},
-    {"turns_its_bridge_force_round", "modal_two_point", [](Quantity q) { return q == Quantity::bridge_force ? -1.0 : 1; }},
-    {"triples_its_bridge_force", "modal_two_point", [](Quantity q) { return q == Quantity::bridge_force ? 3.0 : 1; }},
-    {"triples_its_thread_force", "modal_two_point", [](Quantity q) { return q == Quantity::thread_force ? 3.0 : 1; }},
-    {"turns_its_driving_force_round", "modal_two_point", [](Quantity q) { return q == Quantity::driving_force ? -1.0 : 1; }},
-    {"halves_its_nut_force", "modal_two_point", [](Quantity q) { return q == Quantity::nut_force ? 0.5 : 1; }},
+    {"turns_its_bridge_force_round", "modal_two_point",
+     [](Quantity q) { return q == Quantity::bridge_force ? -1.0 : 1; }},
+    {"triples_its_bridge_force", "modal_two_point",
+     [](Quantity q) { return q == Quantity::bridge_force ? 3.0 : 1; }},
+    {"triples_its_thread_force", "modal_two_point",
+     [](Quantity q) { return q == Quantity::thread_force ? 3.0 : 1; }},
+    {"turns_its_driving_force_round", "modal_two_point",
+     [](Quantity q) { return q == Quantity::driving_force ? -1.0 : 1; }},
+    {"halves_its_nut_force", "modal_two_point",
+     [](Quantity q) { return q == Quantity::nut_force ? 0.5 : 1; }},
     {"ignores_the_width_of_a_barrier", "modal_two_point", nullptr,
      [](String& s) {
          for (Barrier& b : s.barriers)
@@ -172,7 +191,8 @@ constexpr Fault faults[] = {
 
 class Spoiled : public Scheme {
 public:
-    Spoiled(const Fault& fault, Scene scene, const Settings& settings) : fault_(fault), scene_(std::move(scene)) {
+    Spoiled(const Fault& fault, Scene scene, const Settings& settings)
+        : fault_(fault), scene_(std::move(scene)) {
         if (fault.change) fault.change(scene_.strings.front());
         Settings chosen = settings;
         if (fault.variant) chosen.options.emplace_back("variant", fault.variant);
@@ -182,7 +202,8 @@ public:
     Status advance(const Block& out) noexcept override {
         const Status status = inner_->advance(out);
         for (int k = 0; fault_.factor && k < out.taps; ++k)
-            for (int n = 0; n < out.rows; ++n) out.tap[n + k * out.stride] *= fault_.factor(scene_.taps[k].quantity);
+            for (int n = 0; n < out.rows; ++n)
+                out.tap[n + k * out.stride] *= fault_.factor(scene_.taps[k].quantity);
         return status;
     }
     int dofs() const override { return inner_->dofs(); }
@@ -190,7 +211,8 @@ public:
     std::vector<FreeMode> free_modes() const override { return inner_->free_modes(); }
 
     static const Descriptor& of_the_tree(const Fault& fault) {
-        return *std::ranges::find_if(schemes(), [&fault](const Descriptor& d) { return std::string(d.name) == fault.of; });
+        return *std::ranges::find_if(
+            schemes(), [&fault](const Descriptor& d) { return std::string(d.name) == fault.of; });
     }
 
 private:
@@ -203,7 +225,8 @@ Descriptor spoiled(const Fault& fault) {
     Descriptor d = Spoiled::of_the_tree(fault);
     d.name = fault.name;
     d.own = &fault;
-    d.make = [](const Descriptor& own, const Scene& scene, const Settings& settings) -> std::unique_ptr<Scheme> {
+    d.make = [](const Descriptor& own, const Scene& scene,
+                const Settings& settings) -> std::unique_ptr<Scheme> {
         return std::make_unique<Spoiled>(*static_cast<const Fault*>(own.own), scene, settings);
     };
     return d;
@@ -214,32 +237,33 @@ Descriptor named(const char* name) {
     return {name, "a test", honest_features, Balance::exact, Clock::stepped, planted<Made>};
 }
 
-const Descriptor table[] = {named<Honest>("honest"),
-                            named<RefusesEveryScene>("refuses_every_scene"),
-                            named<IgnoresAFeature>("ignores_a_feature"),
-                            named<PlaysAnotherString>("plays_another_string"),
-                            named<StartsFromAnotherShape>("starts_from_another_shape"),
-                            named<InItsRows<starts_with_a_force>>("starts_with_a_force"),
-                            named<CarriesDoubleState>("carries_double_state"),
-                            named<KeepsStateAfterAReset>("keeps_state_after_a_reset"),
-                            named<InItsRows<gives_nan>>("gives_nan"),
-                            named<InItsRows<breaks_its_ledger_in_a_row>>("breaks_its_ledger_in_a_row"),
-                            named<InItsRows<breaks_its_ledger_in_sum>>("breaks_its_ledger_in_sum"),
-                            named<InItsRows<dissipates_less_than_nothing>>("dissipates_less_than_nothing"),
-                            named<InItsRows<depends_on_the_block_size>>("depends_on_the_block_size"),
-                            named<InItsRows<depends_on_the_probe>>("depends_on_the_probe"),
-                            named<AllocatesWhileStepping>("allocates_while_stepping"),
-                            named<MisstatesItsPartials>("misstates_its_partials"),
-                            named<WritesHalfAStepLate>("writes_half_a_step_late"),
-                            named<GainsEnergyAtALowRate>("gains_energy_at_a_low_rate"),
-                            spoiled(faults[0]),
-                            spoiled(faults[1]),
-                            spoiled(faults[2]),
-                            spoiled(faults[3]),
-                            spoiled(faults[4]),
-                            spoiled(faults[5]),
-                            spoiled(faults[6]),
-                            spoiled(faults[7])};
+const Descriptor table[] = {
+    named<Honest>("honest"),
+    named<RefusesEveryScene>("refuses_every_scene"),
+    named<IgnoresAFeature>("ignores_a_feature"),
+    named<PlaysAnotherString>("plays_another_string"),
+    named<StartsFromAnotherShape>("starts_from_another_shape"),
+    named<InItsRows<starts_with_a_force>>("starts_with_a_force"),
+    named<CarriesDoubleState>("carries_double_state"),
+    named<KeepsStateAfterAReset>("keeps_state_after_a_reset"),
+    named<InItsRows<gives_nan>>("gives_nan"),
+    named<InItsRows<breaks_its_ledger_in_a_row>>("breaks_its_ledger_in_a_row"),
+    named<InItsRows<breaks_its_ledger_in_sum>>("breaks_its_ledger_in_sum"),
+    named<InItsRows<dissipates_less_than_nothing>>("dissipates_less_than_nothing"),
+    named<InItsRows<depends_on_the_block_size>>("depends_on_the_block_size"),
+    named<InItsRows<depends_on_the_probe>>("depends_on_the_probe"),
+    named<AllocatesWhileStepping>("allocates_while_stepping"),
+    named<MisstatesItsPartials>("misstates_its_partials"),
+    named<WritesHalfAStepLate>("writes_half_a_step_late"),
+    named<GainsEnergyAtALowRate>("gains_energy_at_a_low_rate"),
+    spoiled(faults[0]),
+    spoiled(faults[1]),
+    spoiled(faults[2]),
+    spoiled(faults[3]),
+    spoiled(faults[4]),
+    spoiled(faults[5]),
+    spoiled(faults[6]),
+    spoiled(faults[7])};
 }  // namespace
 
 JVARI_PLUGIN(table)

@@ -1,5 +1,6 @@
-// A scheme that keeps the whole contract: the exact solution of each mode of one free string, from row to row. The schemes of this folder
-// derive from it, and each breaks one promise. Leaves out contacts, thread, pluck and further strings.
+// A scheme that keeps the whole contract: the exact solution of each mode of one free string, from
+// row to row. The schemes of this folder derive from it, and each breaks one promise. Leaves out
+// contacts, thread, pluck and further strings.
 #pragma once
 
 #include <cmath>
@@ -12,8 +13,9 @@
 
 namespace jvari {
 
-constexpr Features honest_features =
-    Feature::bending_stiffness | Feature::damping | Features(Feature::frequency_dependent_damping) | Features(Feature::initial_shape);
+constexpr Features honest_features = Feature::bending_stiffness | Feature::damping |
+                                     Features(Feature::frequency_dependent_damping) |
+                                     Features(Feature::initial_shape);
 
 class Honest : public Scheme {
 public:
@@ -23,15 +25,19 @@ public:
         modes_ = modes_of(s, settings);
         shape_ = initial_displacement(modes_, s);
         for (int i = 0; i < modes_.count(); ++i) {
-            const double sigma = modes_.sigma[i], omega0 = modes_.omega0[i], T = 1 / settings.tap_rate;
-            const double omega = std::sqrt(omega_squared_damped(omega0, sigma)), p = std::exp(-sigma * T);
+            const double sigma = modes_.sigma[i], omega0 = modes_.omega0[i],
+                         T = 1 / settings.tap_rate;
+            const double omega = std::sqrt(omega_squared_damped(omega0, sigma)),
+                         p = std::exp(-sigma * T);
             const double c = p * std::cos(omega * T), w = p * std::sin(omega * T) / omega;
             steps_.push_back({c + sigma * w, w, -omega0 * omega0 * w, c - sigma * w});
         }
         for (const Tap& tap : scene.taps) {
-            const bool on_string = tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
+            const bool on_string =
+                tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity;
             if (on_string) weights_.push_back(displacement_weights(modes_, tap.position));
-            else if (tap.quantity == Quantity::nut_force) weights_.push_back(nut_force_weights(modes_, s));
+            else if (tap.quantity == Quantity::nut_force)
+                weights_.push_back(nut_force_weights(modes_, s));
             else weights_.emplace_back(modes_.count(), 0.0);  // no contact
         }
         y_ = shape_;
@@ -75,7 +81,8 @@ public:
     double stored() const {
         double sum = 0;
         for (std::size_t i = 0; i < y_.size(); ++i)
-            sum += 0.5 * modes_.mass * (v_[i] * v_[i] + modes_.omega0[i] * modes_.omega0[i] * y_[i] * y_[i]);
+            sum += 0.5 * modes_.mass *
+                   (v_[i] * v_[i] + modes_.omega0[i] * modes_.omega0[i] * y_[i] * y_[i]);
         return sum;
     }
 
@@ -95,7 +102,8 @@ std::unique_ptr<Scheme> planted(const Descriptor&, const Scene& scene, const Set
 
 }  // namespace jvari
 
-#define JVARI_PLANTED(name, Made)                                                                                       \
-    static const jvari::Descriptor table[] = {                                                                          \
-        {#name, "a test", jvari::honest_features, jvari::Balance::exact, jvari::Clock::stepped, jvari::planted<Made>}}; \
+#define JVARI_PLANTED(name, Made)                                                            \
+    static const jvari::Descriptor table[] = {{#name, "a test", jvari::honest_features,      \
+                                               jvari::Balance::exact, jvari::Clock::stepped, \
+                                               jvari::planted<Made>}};                       \
     JVARI_PLUGIN(table)

@@ -1,5 +1,5 @@
-// The honest scheme under its own name, a third slower: it sums its energy four times more in three rows. What `jvari diff` has to find on
-// a real clock (tests/diff_on_the_clock.sh).
+// The honest scheme under its own name, a third slower: it sums its energy four times more in three
+// rows. What `jvari diff` has to find on a real clock (tests/diff_on_the_clock.sh).
 #include "tests/contract_plugins/honest.hpp"
 
 namespace {

@@ -1,7 +1,9 @@
-// Whatever a certificate holds under a checksum that is its own, it is read or refused with a reason; what is read survives being written,
-// and says of every reference, over any time, what it is certain to.
+// Whatever a certificate holds under a checksum that is its own, it is read or refused with a
+// reason; what is read survives being written, and says of every reference, over any time, what it
+// is certain to.
 //
-// The input is a certificate without the members that say which program wrote it, which are put in front, and without its last brace.
+// The input is a certificate without the members that say which program wrote it, which are put in
+// front, and without its last brace.
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
@@ -14,8 +16,10 @@ using namespace jvari::test;
 
 namespace {
 std::string of_this_program() {
-    const auto j = nlohmann::ordered_json::parse(bench::trust::json_of(bench::trust::KeptCertificate{}));
-    std::string head = nlohmann::ordered_json{{"program", j.at("program")}, {"format", j.at("format")}}.dump();
+    const auto j =
+        nlohmann::ordered_json::parse(bench::trust::json_of(bench::trust::KeptCertificate{}));
+    std::string head =
+        nlohmann::ordered_json{{"program", j.at("program")}, {"format", j.at("format")}}.dump();
     head.back() = ',';
     return head;
 }
@@ -26,7 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::string head = of_this_program();
     const std::string text = test::text_of(data, size);
     std::string why;
-    auto kept = bench::trust::read_certificate(file.holding(bench::store::sealed(head + text + "}")), why);
+    auto kept =
+        bench::trust::read_certificate(file.holding(bench::store::sealed(head + text + "}")), why);
     promise(kept.has_value() == why.empty(), "what is refused has a reason", why);
     if (!kept) return 0;
     ++inputs_read;
@@ -34,18 +39,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bench::trust::read_costs(file.path(), *kept);
     for (const auto& entry : kept->certificate.entries)
         for (const double until : {0.005, 0.05, 1.0, 1e300}) {
-            const bench::trust::Trust trust = bench::trust::trust_of(*kept, entry.reference, entry.options, until);
+            const bench::trust::Trust trust =
+                bench::trust::trust_of(*kept, entry.reference, entry.options, until);
             for (std::size_t tap = 0; tap < trust.figure.size(); ++tap)
                 for (std::size_t window = 0; window < 3; ++window) trust.of_scene(tap, window);
-            promise(trust.any() == trust.missing.empty(), "figures, or why there are none", trust.missing);
+            promise(trust.any() == trust.missing.empty(), "figures, or why there are none",
+                    trust.missing);
         }
     std::string written;
     try {
         written = bench::trust::json_of(*kept);
-    } catch (const nlohmann::json::exception&) {  // text that is no UTF-8: a certificate is of scenes that were read
-        return 0;
-    }
+        // text that is no UTF-8: a certificate is of scenes that were read
+    } catch (const nlohmann::json::exception&) { return 0; }
     const auto again = bench::trust::read_certificate(file.holding(written), why);
-    promise(again && bench::trust::json_of(*again) == written, "written and read back is the same certificate", written);
+    promise(again && bench::trust::json_of(*again) == written,
+            "written and read back is the same certificate", written);
     return 0;
 }

@@ -1,5 +1,6 @@
-// Feeds a target its corpus, mutated by a fixed seed: the same inputs on every machine (std::mt19937_64 is specified to the bit). It stands
-// in for libFuzzer where the compiler has none; it knows nothing of coverage.
+// Feeds a target its corpus, mutated by a fixed seed: the same inputs on every machine
+// (std::mt19937_64 is specified to the bit). It stands in for libFuzzer where the compiler has
+// none; it knows nothing of coverage.
 //   fuzz_NAME COUNT DICTIONARY CORPUS
 #include <algorithm>
 #include <iterator>
@@ -42,7 +43,9 @@ struct Mutator {
     std::mt19937_64 engine{20160905};
 
     std::size_t below(std::size_t n) { return n ? engine() % n : 0; }
-    const std::string& any(const std::vector<std::string>& from) { return from[below(from.size())]; }
+    const std::string& any(const std::vector<std::string>& from) {
+        return from[below(from.size())];
+    }
 
     void mutate(std::string& s) {
         const std::size_t at = below(s.size() + 1), length = std::min(below(40), s.size() - at);
@@ -55,11 +58,16 @@ struct Mutator {
             case 4:
                 if (at < s.size()) s[at] = static_cast<char>(below(256));
                 break;
-            case 5: s.erase(at, line(at) - at); break;                                     // the rest of a line
-            case 6: s.insert(line(below(s.size() + 1)), s.substr(at, below(200))); break;  // a piece behind another line
-            case 7: {                                                                      // a value
+            // the rest of a line
+            case 5: s.erase(at, line(at) - at); break;
+            // a piece behind another line
+            case 6: s.insert(line(below(s.size() + 1)), s.substr(at, below(200))); break;
+            // a value
+            case 7: {
                 const std::size_t value = s.find_first_of("=:,", at);
-                if (value != std::string::npos) s.replace(value + 1, s.find_first_of(",\n]}", value + 1) - value - 1, any(words));
+                if (value != std::string::npos)
+                    s.replace(value + 1, s.find_first_of(",\n]}", value + 1) - value - 1,
+                              any(words));
                 break;
             }
             default: {  // the tail of another
@@ -72,7 +80,8 @@ struct Mutator {
 
 // Too deep and too long for anybody.
 std::vector<std::string> monsters() {
-    return {std::string(200000, '['), "x=" + std::string(100000, '['), std::string(1 << 20, 'a'), std::string(1 << 20, '\n') + "a"};
+    return {std::string(200000, '['), "x=" + std::string(100000, '['), std::string(1 << 20, 'a'),
+            std::string(1 << 20, '\n') + "a"};
 }
 }  // namespace
 }  // namespace jvari::test
@@ -81,7 +90,8 @@ int main(int argc, char** argv) {
     using namespace jvari::test;
     if (argc != 4) return std::fprintf(stderr, "usage: fuzz_NAME COUNT DICTIONARY CORPUS\n"), 2;
     std::vector<std::filesystem::path> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(argv[3])) paths.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(argv[3]))
+        paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     const std::vector<std::string> words = words_of(argv[2]);
     std::vector<std::string> corpus;
@@ -89,7 +99,8 @@ int main(int argc, char** argv) {
         corpus.push_back(content(path));
         const long before = inputs_read;
         feed(corpus.back());
-        if (path.filename().string().starts_with("good_")) promise(inputs_read > before, "a good seed is read", path.string());
+        if (path.filename().string().starts_with("good_"))
+            promise(inputs_read > before, "a good seed is read", path.string());
     }
     promise(inputs_read > 0 && !words.empty(), "there is a good seed and a dictionary", argv[3]);
     for (const std::string& s : monsters()) feed(s);

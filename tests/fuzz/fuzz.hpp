@@ -1,4 +1,5 @@
-// Shared by the targets: what happens if an input breaks a promise, and where the files of a target are.
+// Shared by the targets: what happens if an input breaks a promise, and where the files of a target
+// are.
 #pragma once
 
 #include <unistd.h>
@@ -14,7 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace jvari::test {
 
-// Counts the inputs that were accepted. driver.cpp checks that the seeds good_... are: a target that refuses all inputs tests nothing.
+// Counts the inputs that were accepted. driver.cpp checks that the seeds good_... are: a target
+// that refuses all inputs tests nothing.
 inline long inputs_read = 0;
 
 inline std::string text_of(const std::uint8_t* data, std::size_t size) {
@@ -32,8 +34,9 @@ class OwnFile {
 public:
     explicit OwnFile(const std::string& name) {
         const bool memory = access("/dev/shm", W_OK) == 0;
-        path_ = (memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
-                ("jvari-fuzz-" + std::to_string(getpid()) + "-" + name);
+        path_ =
+            (memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
+            ("jvari-fuzz-" + std::to_string(getpid()) + "-" + name);
     }
     ~OwnFile() {
         std::error_code ignored;

@@ -1,13 +1,17 @@
-// Random valid scenes through every scheme and every reference: random_scene.hpp draws them, random_checks.hpp says what is owed.
+// Random valid scenes through every scheme and every reference: random_scene.hpp draws them,
+// random_checks.hpp says what is owed.
 //
 //   random_scenes COUNT SEED      COUNT scenes, seeds SEED and on
 //   random_scenes COUNT FILE      the first COUNT seeds that a file lists, one a line
-//   random_scenes scene COUNT SEED|FILE    the same scenes: does a certificate claim too much about the scene?
-//   random_scenes matched|bar|wide COUNT SEED|FILE  scenes of its own: does compliance=matched do harm?
+//   random_scenes scene COUNT SEED|FILE    the same scenes: does a certificate claim too much about
+//                                          the scene?
+//   random_scenes matched|bar|wide COUNT SEED|FILE  scenes of its own: does compliance=matched do
+//   harm?
 //   random_scenes show [matched|bar|wide] SEED      the scene of a seed, as TOML
 //
-// Each scene has a process of its own: a signal, a run without end or a memory that overflows is a finding with its seed, and the next
-// scene goes on. Prints a line per finding and a summary; ends with 1 where there was a finding.
+// Each scene has a process of its own: a signal, a run without end or a memory that overflows is a
+// finding with its seed, and the next scene goes on. Prints a line per finding and a summary; ends
+// with 1 where there was a finding.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,10 +37,12 @@ constexpr bool sanitized = __has_feature(address_sanitizer);
 constexpr bool sanitized = false;
 #endif
 constexpr rlim_t seconds_allowed = sanitized ? 600 : 120;  // of CPU, all runs of one scene together
-constexpr rlim_t memory_allowed = rlim_t{4} << 30;         // [bytes]; a sanitizer reserves more than there is
-constexpr std::uint64_t certified_every = 4;               // scenes
+// [bytes]; a sanitizer reserves more than there is
+constexpr rlim_t memory_allowed = rlim_t{4} << 30;
+constexpr std::uint64_t certified_every = 4;  // scenes
 
-// ---- In the process of a scene: lines to a pipe. "@what" is being done, "!finding", "=figures of the tally".
+// ---- In the process of a scene: lines to a pipe. "@what" is being done, "!finding", "=figures of
+// the tally".
 void send(int pipe, const std::string& line) {
     const std::string whole = line + "\n";
     if (write(pipe, whole.data(), whole.size()) < 0) _exit(3);
@@ -44,7 +50,9 @@ void send(int pipe, const std::string& line) {
 
 enum class Asked { promises, about_scene, matched, bar, wide };
 Matching kind_of(Asked asked) {
-    return asked == Asked::bar ? Matching::bar : asked == Asked::wide ? Matching::wide : Matching::string;
+    return asked == Asked::bar    ? Matching::bar
+           : asked == Asked::wide ? Matching::wide
+                                  : Matching::string;
 }
 Asked asked_by(const std::string& word) {
     return word == "scene"     ? Asked::about_scene
@@ -58,22 +66,27 @@ RandomCase drawn(Asked asked, std::uint64_t seed) {
 }
 
 [[noreturn]] void run_scene(Asked asked, std::uint64_t seed, int pipe) {
-    const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed}, none{0, 0};
+    const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed},
+        none{0, 0};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_CORE, &none);
     if (!sanitized) setrlimit(RLIMIT_AS, &memory);
     const auto at = [&](const std::string& what) { send(pipe, "@" + what); };
-    const auto finding = [&](const std::string& scheme, const std::string& what) { send(pipe, "!" + scheme + ": " + what); };
+    const auto finding = [&](const std::string& scheme, const std::string& what) {
+        send(pipe, "!" + scheme + ": " + what);
+    };
     Tally t;
     at("drawing the scene");
     const RandomCase c = drawn(asked, seed);
     if (asked == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
     else if (asked >= Asked::matched) check_matching(c, kind_of(asked), t, finding, at);
     else check_schemes(c, t, finding, at);
-    if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme) check_certificate(c, t, finding, at);
+    if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme)
+        check_certificate(c, t, finding, at);
     std::ostringstream line;
-    line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' ' << t.claims << ' ' << t.judged << ' '
-         << t.worst_claim << ' ' << t.harmed << ' ' << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest
+    line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' '
+         << t.claims << ' ' << t.judged << ' ' << t.worst_claim << ' ' << t.harmed << ' '
+         << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest
          << ' ' << t.slowest_at;
     send(pipe, line.str());
     _exit(0);
@@ -90,7 +103,8 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
     close(ends[1]);
     std::string said, line, doing;
     char buffer[4096];
-    for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;) said.append(buffer, static_cast<std::size_t>(n));
+    for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+        said.append(buffer, static_cast<std::size_t>(n));
     close(ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
@@ -107,15 +121,18 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
         Tally t;
         t.scenes = 1;
         std::istringstream in(line.substr(1));
-        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >> t.harmed >> t.estimates >>
-            t.low_estimates >> t.worst_estimate >> t.slowest >> std::ws;
+        in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >>
+            t.harmed >> t.estimates >> t.low_estimates >> t.worst_estimate >> t.slowest >> std::ws;
         std::getline(in, t.slowest_at);
         tally.add(t);
     }
     if (WIFSIGNALED(status))
-        report(doing + (WTERMSIG(status) == SIGXCPU ? ": more than " + std::to_string(seconds_allowed) + " s of CPU for the scene"
-                                                    : std::string(": signal ") + strsignal(WTERMSIG(status))));
-    else if (WEXITSTATUS(status) != 0) report(doing + ": ended with " + std::to_string(WEXITSTATUS(status)));
+        report(doing +
+               (WTERMSIG(status) == SIGXCPU
+                    ? ": more than " + std::to_string(seconds_allowed) + " s of CPU for the scene"
+                    : std::string(": signal ") + strsignal(WTERMSIG(status))));
+    else if (WEXITSTATUS(status) != 0)
+        report(doing + ": ended with " + std::to_string(WEXITSTATUS(status)));
     return findings;
 }
 
@@ -129,23 +146,30 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
     }
     if (asked == Asked::about_scene) {
         std::printf(
-            "%ld scenes, %ld judged, %ld ended by a limit\n%ld figures of certificates about the scene, true/claimed at most %.3g\n"
+            "%ld scenes, %ld judged, %ld ended by a limit\n%ld figures of certificates about the "
+            "scene, true/claimed at most %.3g\n"
             "%ld findings\n",
             tally.scenes, tally.judged, tally.ended, tally.claims, tally.worst_claim, findings);
         return findings > 0 || tally.judged == 0;
     }
     if (asked >= Asked::matched) {
         std::printf(
-            "%ld scenes at two rates each, %ld ended by a limit\n%ld runs judged, %ld refused, matched does harm in %ld\n%ld findings\n",
+            "%ld scenes at two rates each, %ld ended by a limit\n%ld runs judged, %ld refused, "
+            "matched does harm in %ld\n%ld findings\n",
             tally.scenes, tally.ended, tally.runs, tally.refused, tally.harmed, findings);
         return findings > 0 || tally.judged == 0;
     }
-    std::printf("%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a limit, %ld refusals\n", tally.scenes,
-                tally.runs, tally.failed, tally.ended, tally.refused);
-    std::printf("%ld figures of certificates, true/claimed at most %.3g\n", tally.claims, tally.worst_claim);
-    std::printf("%ld estimates of stand-ins, %ld below the true error, true/estimate at most %.3g\n", tally.estimates, tally.low_estimates,
-                tally.worst_estimate);
-    std::printf("slowest run: %.3g s of CPU, %s\n%ld findings\n", tally.slowest, tally.slowest_at.c_str(), findings);
+    std::printf(
+        "%ld scenes, %ld runs (each twice; %ld of them say that they failed), %ld ended by a "
+        "limit, %ld refusals\n",
+        tally.scenes, tally.runs, tally.failed, tally.ended, tally.refused);
+    std::printf("%ld figures of certificates, true/claimed at most %.3g\n", tally.claims,
+                tally.worst_claim);
+    std::printf(
+        "%ld estimates of stand-ins, %ld below the true error, true/estimate at most %.3g\n",
+        tally.estimates, tally.low_estimates, tally.worst_estimate);
+    std::printf("slowest run: %.3g s of CPU, %s\n%ld findings\n", tally.slowest,
+                tally.slowest_at.c_str(), findings);
     return findings > 0 || tally.scenes == 0;
 }
 }  // namespace
@@ -163,16 +187,19 @@ int main(int argc, char** argv) {
     if (asked != Asked::promises) --argc, ++argv;
     if (argc != 3)
         return std::fprintf(stderr,
-                            "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched|bar|wide COUNT SEED|FILE | show "
+                            "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched|bar|wide "
+                            "COUNT SEED|FILE | show "
                             "[matched|bar|wide] SEED\n"),
                2;
     const std::size_t count = std::strtoull(argv[1], nullptr, 10);
     std::vector<std::uint64_t> seeds;
     if (std::ifstream file(argv[2]); file) {
         for (std::string line; seeds.size() < count && std::getline(file, line);)
-            if (!line.empty() && line[0] != '#') seeds.push_back(std::strtoull(line.c_str(), nullptr, 10));
+            if (!line.empty() && line[0] != '#')
+                seeds.push_back(std::strtoull(line.c_str(), nullptr, 10));
     } else {
-        for (std::size_t i = 0; i < count; ++i) seeds.push_back(std::strtoull(argv[2], nullptr, 10) + i);
+        for (std::size_t i = 0; i < count; ++i)
+            seeds.push_back(std::strtoull(argv[2], nullptr, 10) + i);
     }
     return all(asked, seeds);
 }

@@ -26,15 +26,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::string written = write_scene(scene);
         const Scene again = parse_scene(written, "again.toml");
         promise(again == scene, "written and read back is the same scene", written);
-        promise(scene_hash(again) == scene_hash(scene), "written and read back has the same hash", written);
+        promise(scene_hash(again) == scene_hash(scene), "written and read back has the same hash",
+                written);
         promise(write_scene(again) == written, "written again is the same text", written);
         needed_by(scene);
-    } catch (const SceneFileError&) {
-    }
+    } catch (const SceneFileError&) {}
     try {
         std::vector<double> x, y;
-        read_columns("table.csv", text, Column{"x_m", "x_m", any}, x, Column{"height_m", "height_m", any}, y);
-    } catch (const SceneFileError&) {
-    }
+        read_columns("table.csv", text, Column{"x_m", "x_m", any}, x,
+                     Column{"height_m", "height_m", any}, y);
+    } catch (const SceneFileError&) {}
     return 0;
 }

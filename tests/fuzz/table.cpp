@@ -1,5 +1,5 @@
-// Whatever bytes come, a CSV table is read or refused with std::runtime_error; what is read survives being written. So do numbers, and
-// bytes as base64 text.
+// Whatever bytes come, a CSV table is read or refused with std::runtime_error; what is read
+// survives being written. So do numbers, and bytes as base64 text.
 #include <cmath>
 #include <stdexcept>
 
@@ -28,19 +28,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (std::size_t i = 0; i < t.rows.size(); ++i)
             for (const std::string& name : t.columns) {
                 const double x = t.number(i, name);
-                promise(std::isnan(x) || bench::store::number_of(jvari::bench::store::text_of(x)) == x, "a number reads back as itself",
-                        t.at(i, name));
+                promise(
+                    std::isnan(x) || bench::store::number_of(jvari::bench::store::text_of(x)) == x,
+                    "a number reads back as itself", t.at(i, name));
             }
         if (!t.columns.empty() && !written_as_nothing(t)) {
             const bench::store::Table again = bench::store::read_csv(bench::store::csv(t));
-            promise(again.columns == t.columns && again.rows == t.rows, "written and read back is the same table", bench::store::csv(t));
+            promise(again.columns == t.columns && again.rows == t.rows,
+                    "written and read back is the same table", bench::store::csv(t));
         }
-    } catch (const std::runtime_error&) {
-    }
-    promise(bench::store::bytes_of_base64(bench::store::base64(text)) == text, "bytes survive base64", text);
+    } catch (const std::runtime_error&) {}
+    promise(bench::store::bytes_of_base64(bench::store::base64(text)) == text,
+            "bytes survive base64", text);
     try {
         bench::store::bytes_of_base64(text);
-    } catch (const std::runtime_error&) {
-    }
+    } catch (const std::runtime_error&) {}
     return 0;
 }

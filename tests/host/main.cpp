@@ -1,4 +1,5 @@
-// A string in somebody else's audio program: modal_two_point at 48 kHz in blocks of 64 rows. host FILE.wav plays 0.2 s into a file.
+// A string in somebody else's audio program: modal_two_point at 48 kHz in blocks of 64 rows. host
+// FILE.wav plays 0.2 s into a file.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +13,9 @@ int main(int argc, char** argv) {
     constexpr int rate = 48000, rows = 64, blocks = 150;
     const Scene scene = read_scene("tanpura_c3_release");  // its first tap is the force on the nut
     const auto all = schemes();
-    const auto found = std::find_if(all.begin(), all.end(), [](const Descriptor& d) { return d.name == std::string("modal_two_point"); });
+    const auto found = std::find_if(all.begin(), all.end(), [](const Descriptor& d) {
+        return d.name == std::string("modal_two_point");
+    });
     const auto scheme = make_scheme(*found, scene, {.sample_rate = rate, .tap_rate = rate});
 
     const int taps = static_cast<int>(scene.taps.size());
@@ -25,13 +28,20 @@ int main(int argc, char** argv) {
         force.insert(force.end(), buffer.begin(), buffer.begin() + rows);
     }
 
-    const double loudest =
-        std::abs(*std::max_element(force.begin(), force.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    const double loudest = std::abs(*std::max_element(
+        force.begin(), force.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
     std::ofstream wav(argc > 1 ? argv[1] : "string.wav", std::ios::binary);
-    const auto number = [&wav](std::uint32_t x, int bytes) { wav.write(reinterpret_cast<const char*>(&x), bytes); };  // little-endian
+    // little-endian
+    const auto number = [&wav](std::uint32_t x, int bytes) {
+        wav.write(reinterpret_cast<const char*>(&x), bytes);
+    };
     const auto bytes = static_cast<std::uint32_t>(2 * force.size());
-    wav << "RIFF", number(36 + bytes, 4), wav << "WAVEfmt ", number(16, 4), number(1, 2), number(1, 2);  // PCM, one channel
-    number(rate, 4), number(2 * rate, 4), number(2, 2), number(16, 2), wav << "data", number(bytes, 4);
-    for (const double f : force) number(static_cast<std::uint32_t>(std::lround(32767 * f / loudest)), 2);
+    // PCM, one channel
+    wav << "RIFF", number(36 + bytes, 4), wav << "WAVEfmt ", number(16, 4), number(1, 2),
+        number(1, 2);
+    number(rate, 4), number(2 * rate, 4), number(2, 2), number(16, 2), wav << "data",
+        number(bytes, 4);
+    for (const double f : force)
+        number(static_cast<std::uint32_t>(std::lround(32767 * f / loudest)), 2);
     return wav.flush() ? 0 : 1;
 }

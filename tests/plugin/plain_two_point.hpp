@@ -1,6 +1,7 @@
-// The modal two-point scheme as van Walstijn et al. 2016 print it (eqs 33, 38-49), in plain Eigen and any real type: the form that the
-// fused kernel is timed against (double) and measured against (long double), and the body of the example plugin.
-// Leaves out: exponents other than 1, velocity taps, the energy columns.
+// The modal two-point scheme as van Walstijn et al. 2016 print it (eqs 33, 38-49), in plain Eigen
+// and any real type: the form that the fused kernel is timed against (double) and measured against
+// (long double), and the body of the example plugin. Leaves out: exponents other than 1, velocity
+// taps, the energy columns.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,13 +21,17 @@ class PlainTwoPoint final : public Scheme {
 
 public:
     PlainTwoPoint(const Scene& scene, const Settings& settings)
-        : scene_(scene), string_(scene.strings.front()), ratio_(steps_per_row(settings)), modes_(modes_of(string_, settings)) {
+        : scene_(scene),
+          string_(scene.strings.front()),
+          ratio_(steps_per_row(settings)),
+          modes_(modes_of(string_, settings)) {
         const Real dt = 1 / static_cast<Real>(settings.sample_rate);
         const int M = modes_.count();
         const Real xi = dt * dt / (2 * static_cast<Real>(modes_.mass));
         A = B = Vector(M);
         for (int i = 0; i < M; ++i) {
-            const ModeStep m = exact_step(modes_.omega0[i], modes_.sigma[i], 1 / settings.sample_rate);
+            const ModeStep m =
+                exact_step(modes_.omega0[i], modes_.sigma[i], 1 / settings.sample_rate);
             A(i) = m.A();  // (33)
             B(i) = m.B();
         }
@@ -46,7 +51,9 @@ public:
             h_c = c.height;
             phi_c = k_c / 2 + static_cast<Real>(c.damping) / dt;
         }
-        if (string_.pluck) ee = xi / J * to_real(footprint_weights(modes_, string_.pluck->position, string_.pluck->width));
+        if (string_.pluck)
+            ee = xi / J *
+                 to_real(footprint_weights(modes_, string_.pluck->position, string_.pluck->width));
         dt_ = 1 / settings.sample_rate;
         eb = xi / J * gb;
         ec = xi / J * gc;
@@ -57,8 +64,10 @@ public:
         theta = theta_bb - beta_c * theta_bc;   // (48)
         for (const Tap& tap : scene.taps) {
             Vector w = Vector::Zero(M);
-            if (tap.quantity == Quantity::displacement) w = to_real(displacement_weights(modes_, tap.position));
-            if (tap.quantity == Quantity::nut_force) w = to_real(nut_force_weights(modes_, string_));
+            if (tap.quantity == Quantity::displacement)
+                w = to_real(displacement_weights(modes_, tap.position));
+            if (tap.quantity == Quantity::nut_force)
+                w = to_real(nut_force_weights(modes_, string_));
             taps_.push_back(w);
         }
         y0_ = to_real(initial_displacement(modes_, string_));
@@ -73,7 +82,8 @@ public:
     }
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows; ++row) {
-            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = static_cast<double>(value(k));
+            for (int k = 0; k < out.taps; ++k)
+                out.tap[k * out.stride + row] = static_cast<double>(value(k));
             impulse_b = impulse_c = 0;
             for (int n = 0; n < ratio_; ++n) {
                 step();
@@ -85,7 +95,9 @@ public:
     int dofs() const override { return 2 * modes_.count(); }
 
 private:
-    static Vector to_real(const std::vector<double>& v) { return Eigen::Map<const Eigen::ArrayXd>(v.data(), v.size()).cast<Real>(); }
+    static Vector to_real(const std::vector<double>& v) {
+        return Eigen::Map<const Eigen::ArrayXd>(v.data(), v.size()).cast<Real>();
+    }
 
     Real value(int k) const {
         switch (scene_.taps[k].quantity) {
@@ -97,9 +109,12 @@ private:
     }
     void step() {
         u = twice_over_J * (q - A * y);  // (42)
-        if (string_.pluck) u += ee * static_cast<Real>(0.5 * (force(*string_.pluck, n_ * dt_) + force(*string_.pluck, (n_ + 1) * dt_)));
+        if (string_.pluck)
+            u += ee * static_cast<Real>(0.5 * (force(*string_.pluck, n_ * dt_) +
+                                               force(*string_.pluck, (n_ + 1) * dt_)));
         ++n_;
-        const Real yb = (gb * y).sum(), yc = (gc * y).sum(), ub = (gb * u).sum(), uc = (gc * u).sum();
+        const Real yb = (gb * y).sum(), yc = (gc * y).sum(), ub = (gb * u).sum(),
+                   uc = (gc * u).sum();
         const Real vc = (k_c * (h_c - yc) - phi_c * uc) * inverse_c;                    // (47)
         const Real Fb = contact(h_b - yb, -ub - theta_bc * vc), Fc = vc - beta_c * Fb;  // (46)
         s = u + eb * Fb + ec * Fc;                                                      // (41)
@@ -127,7 +142,8 @@ private:
     long n_ = 0;
     Vector A, B, twice_over_J, gb, gc, eb, ec, ee, y0_, y, q, s, u;
     std::vector<Vector> taps_;
-    Real k_b = 0, h_b = 0, k_c = 0, h_c = 0, phi_c = 0, theta_bc = 0, inverse_c = 1, beta_c = 0, theta = 0, impulse_b = 0, impulse_c = 0;
+    Real k_b = 0, h_b = 0, k_c = 0, h_c = 0, phi_c = 0, theta_bc = 0, inverse_c = 1, beta_c = 0,
+         theta = 0, impulse_b = 0, impulse_c = 0;
 };
 
 }  // namespace jvari

@@ -1,4 +1,5 @@
-// What references are certified by: agreement of two traces, Richardson's estimate of a scheme's own error, the table over all references.
+// What references are certified by: agreement of two traces, Richardson's estimate of a scheme's
+// own error, the table over all references.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +21,8 @@ const Descriptor& scheme(std::string_view name) {
     throw std::runtime_error("no such scheme");
 }
 
-// A sine of 1 V and a difference that grows tenfold every 100 rows: sum d^2 = d_n^2/(1 - 10^-0.02) = 22.2 d_n^2, against n/2.
+// A sine of 1 V and a difference that grows tenfold every 100 rows: sum d^2 = d_n^2/(1 - 10^-0.02)
+// = 22.2 d_n^2, against n/2.
 TEST(Agreement, EndsWhereTheRunningDifferencePassesTheLevel) {
     const double rate = 1000;
     std::vector<double> a, b;
@@ -31,7 +33,8 @@ TEST(Agreement, EndsWhereTheRunningDifferencePassesTheLevel) {
     const Agreement g = agreement(a, b, rate);
     for (int l = 0; l < 3; ++l) {
         const double n = 1000 * g.until[l];
-        EXPECT_NEAR(std::sqrt(22.2 / (n / 2)) * 1e-10 * std::pow(10, n / 100), agreement_levels[l], 0.05 * agreement_levels[l]);
+        EXPECT_NEAR(std::sqrt(22.2 / (n / 2)) * 1e-10 * std::pow(10, n / 100), agreement_levels[l],
+                    0.05 * agreement_levels[l]);
     }
     EXPECT_NEAR(g.relative_l2.back(), std::sqrt(22.2 / 500), 0.01 * g.relative_l2.back());
     EXPECT_LT(g.relative_l2[0], 1e-9);
@@ -57,27 +60,32 @@ TEST(Oversampled, EstimatesNoLessThanItsErrorAgainstTheExactReference) {
     const Scene scene = release(20e-3);
     const auto truth = run(exact_contact, scene, {0, 44100, 60, {}});
     for (const int multiple : {8, 16, 32, 64}) {
-        const Oversampled o = oversampled(scheme("modal_two_point"), scene, {44100, 44100, 60, {}}, multiple);
+        const Oversampled o =
+            oversampled(scheme("modal_two_point"), scene, {44100, 44100, 60, {}}, multiple);
         EXPECT_EQ(o.rate, 44100.0 * multiple);
         for (int k = 0; k < truth.trace.taps(); ++k) {
             const auto& whole = o.estimates[k].back();
-            const double error = relative_difference(o.run.trace.column(k), truth.trace.column(k), 44100, 1);
+            const double error =
+                relative_difference(o.run.trace.column(k), truth.trace.column(k), 44100, 1);
             EXPECT_LT(error, whole.error) << "x" << multiple << " " << truth.trace.names[k];
             if (multiple >= 32) {
-                EXPECT_GT(error, 0.02 * whole.error) << "x" << multiple << " " << truth.trace.names[k];
+                EXPECT_GT(error, 0.02 * whole.error)
+                    << "x" << multiple << " " << truth.trace.names[k];
             }
         }
     }
 }
 
-TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {  // of the grids, for two strings: each string is the exact one's
+// of the grids, for two strings: each string is the exact one's
+TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {
     Scene one = c3_free();
     one.duration = 10e-3;
     one.strings.front().initial = ModeInitial{4, 1e-3};
     one.taps = {{"nut", Quantity::nut_force, {}, 0}};
     Scene two = one;
     two.strings.push_back(two.strings.front());
-    const std::vector<const Descriptor*> able{&scheme("finite_difference_explicit"), &scheme("finite_difference_theta"),
+    const std::vector<const Descriptor*> able{&scheme("finite_difference_explicit"),
+                                              &scheme("finite_difference_theta"),
                                               &scheme("finite_difference_hamiltonian")};
     const Settings coarsest{44100, 44100, 0, {}};
     const Descriptor* best = best_by_estimate(able, two, coarsest, 4);
@@ -86,10 +94,12 @@ TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {  // of the grids, for t
     std::vector<double> twice;
     for (const double v : truth.trace.column(0)) twice.push_back(2 * v);
     const auto error = [&](const Descriptor& d) {
-        return relative_difference(oversampled(d, two, coarsest, 4).run.trace.column(0), twice, 44100, 1);
+        return relative_difference(oversampled(d, two, coarsest, 4).run.trace.column(0), twice,
+                                   44100, 1);
     };
     const double chosen = error(*best);
-    for (const Descriptor* d : able) EXPECT_LE(chosen, error(*d)) << d->name << " errs less than " << best->name;
+    for (const Descriptor* d : able)
+        EXPECT_LE(chosen, error(*d)) << d->name << " errs less than " << best->name;
     EXPECT_NE(best, able.front());
 }
 
@@ -100,18 +110,22 @@ TEST(StandIn, OfOneStringCarriesItsModes) {
     EXPECT_EQ(best_by_estimate({}, c3_release(), {44100, 44100, 0, {}}, 4), nullptr);
 }
 
-TEST(Oversampled, SeesTheSchemesOrderWhereThereIsNoContact) {  // a grid's dispersion is of second order
+// a grid's dispersion is of second order
+TEST(Oversampled, SeesTheSchemesOrderWhereThereIsNoContact) {
     Scene scene = lossless(c3_free());
     scene.strings.front().initial = TriangleInitial{0.3, 1e-3, 0.3};
     scene.strings.front().bending_stiffness = 0;
     scene.duration = 5e-3;
-    const Oversampled o = oversampled(scheme("finite_difference_hamiltonian"), scene, {44100, 44100, 0, {}}, 16);
+    const Oversampled o =
+        oversampled(scheme("finite_difference_hamiltonian"), scene, {44100, 44100, 0, {}}, 16);
     EXPECT_NEAR(o.estimates[1].back().order, 2, 0.3);
 }
 
 TEST(Oversampled, RefusesMultiplesThatDoNotHalveTwice) {
-    EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 6), Refusal);
-    EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 2), Refusal);
+    EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 6),
+                 Refusal);
+    EXPECT_THROW(oversampled(scheme("modal_two_point"), release(1e-3), {44100, 44100, 10, {}}, 2),
+                 Refusal);
 }
 
 const Certificate::Options matched_alone{{"compliance", "matched"}};
@@ -131,9 +145,11 @@ TEST(Certificate, ShowsThatTheReferencesAgree) {
     EXPECT_EQ(c.entries[3].options, matched_alone);
     EXPECT_EQ(c.entries[5].doubled, "modes");
     EXPECT_EQ(c.entries[5].options, matched_alone);
-    ASSERT_EQ(c.pairs.size(), 6u);  // 3 of own compliance, 1 matched; the last two with the defaults of their own reference alone
+    // 3 of own compliance, 1 matched; the last two with the defaults of their own reference alone
+    ASSERT_EQ(c.pairs.size(), 6u);
     for (std::size_t k = 0; k < 4; ++k) {
-        const bool first = is_matched(c.entries[c.pairs[k].first].options), second = is_matched(c.entries[c.pairs[k].second].options);
+        const bool first = is_matched(c.entries[c.pairs[k].first].options),
+                   second = is_matched(c.entries[c.pairs[k].second].options);
         EXPECT_EQ(first, second) << k;
     }
     for (const auto& [pair, with] : {std::pair(4, 0), std::pair(5, 3)}) {
@@ -147,15 +163,18 @@ TEST(Certificate, ShowsThatTheReferencesAgree) {
     }
     for (const auto& pair : c.pairs) {
         if (pair.first >= 5) continue;
-        EXPECT_LT(pair.taps[0].relative_l2.back(), 1e-9) << pair.first << " " << pair.second;  // nut
-        EXPECT_LT(pair.taps[2].relative_l2.back(), 1e-6) << pair.first << " " << pair.second;  // bridge
+        // nut
+        EXPECT_LT(pair.taps[0].relative_l2.back(), 1e-9) << pair.first << " " << pair.second;
+        // bridge
+        EXPECT_LT(pair.taps[2].relative_l2.back(), 1e-6) << pair.first << " " << pair.second;
         EXPECT_NEAR(pair.taps[0].until[2], 6e-3, 1e-4);
     }
     EXPECT_GT(c.floor[0].relative_l2.back(), 1e-13);
     EXPECT_LT(c.floor[0].relative_l2.back(), 1e-10);
 }
 
-// 60 modes are far from the string: what all references of 60 modes agree about to 1e-9 is wrong by more than 1e-2.
+// 60 modes are far from the string: what all references of 60 modes agree about to 1e-9 is wrong by
+// more than 1e-2.
 TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     const Scene scene = release(10e-3);
     const Certificate c = certify(scene, {60, 44100, {}, {}});
@@ -164,13 +183,15 @@ TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     const auto trace = [&scene](int modes, const Certificate::Options& options) {
         return run(exact_contact, scene, {0, 44100, modes, options}).trace;
     };
-    const Trace own = trace(60, {}), model = trace(60, matched_alone), twice = trace(120, matched_alone),
-                string = trace(600, matched_alone);
+    const Trace own = trace(60, {}), model = trace(60, matched_alone),
+                twice = trace(120, matched_alone), string = trace(600, matched_alone);
     for (int k = 0; k < model.taps(); ++k) {
         const double further = (and_further_ones - 1) * doubled.taps[k].relative_l2.back();
-        for (const auto& [trace, pair] : {std::pair(&own, &from_own), std::pair(&model, &doubled)}) {
+        for (const auto& [trace, pair] :
+             {std::pair(&own, &from_own), std::pair(&model, &doubled)}) {
             const double changed = pair->taps[k].relative_l2.back();
-            EXPECT_DOUBLE_EQ(changed, relative_difference(twice.column(k), trace->column(k), 44100, 1));
+            EXPECT_DOUBLE_EQ(changed,
+                             relative_difference(twice.column(k), trace->column(k), 44100, 1));
             EXPECT_LT(relative_difference(string.column(k), trace->column(k), 44100, 1),
                       changed + further);  // of the norm of what is trusted
         }
@@ -185,9 +206,12 @@ TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     const Certificate p = certify(profile, {20, 44100, {}, {}});
     ASSERT_EQ(p.entries.back().doubled, "points");
     EXPECT_EQ(p.entries.back().options, (Certificate::Options{{"nodes", "64"}}));
-    const auto nut = [&profile](const char* nodes) { return run(exact_contact, profile, {0, 44100, 20, {{"nodes", nodes}}}).trace; };
+    const auto nut = [&profile](const char* nodes) {
+        return run(exact_contact, profile, {0, 44100, 20, {{"nodes", nodes}}}).trace;
+    };
     const Trace points = nut("32"), more = nut("64");
-    EXPECT_DOUBLE_EQ(p.pairs.back().taps[0].relative_l2.back(), relative_difference(more.column(0), points.column(0), 44100, 1));
+    EXPECT_DOUBLE_EQ(p.pairs.back().taps[0].relative_l2.back(),
+                     relative_difference(more.column(0), points.column(0), 44100, 1));
     EXPECT_GT(p.pairs.back().taps[0].relative_l2.back(), 0);
 }
 

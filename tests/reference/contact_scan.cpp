@@ -1,11 +1,13 @@
-// exact_contact against a brute-force scan in long double, on random problems of one contact: few modes, any stiffness, damping and start,
-// with and without a thread, and in half of them a barrier that the free string only just reaches or misses.
-// usage: contact_scan COUNT [SEED]
+// exact_contact against a brute-force scan in long double, on random problems of one contact: few
+// modes, any stiffness, damping and start, with and without a thread, and in half of them a barrier
+// that the free string only just reaches or misses. usage: contact_scan COUNT [SEED]
 //
-// The scan knows two linear systems, apart and touching. It steps through each by its matrix exponential, a small fraction of its fastest
-// period at a time, looks into every step whose ends show a turning point, and refines each crossing. The two must agree in the number of
-// events, unless the scan saw the string come as near to its barrier as the bound that exact_contact states for itself. Two turning points
-// within one step escape the scan: where the two differ it steps twenty times finer.
+// The scan knows two linear systems, apart and touching. It steps through each by its matrix
+// exponential, a small fraction of its fastest period at a time, looks into every step whose ends
+// show a turning point, and refines each crossing. The two must agree in the number of events,
+// unless the scan saw the string come as near to its barrier as the bound that exact_contact states
+// for itself. Two turning points within one step escape the scan: where the two differ it steps
+// twenty times finer.
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
@@ -37,8 +39,8 @@ struct Regime {  // x' = A (x - centre), x = (y, v)
     }
 };
 
-Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height, const std::vector<double>& c, const Thread& thread,
-              Real fraction = 0.4L) {
+Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height,
+              const std::vector<double>& c, const Thread& thread, Real fraction = 0.4L) {
     const int M = m.count();
     Regime r{Matrix::Zero(2 * M, 2 * M), {}, Vector::Zero(2 * M), 0};
     Vector pull = Vector::Zero(M);
@@ -46,15 +48,18 @@ Regime regime(const Modes& m, const std::vector<double>& g, Real k, Real height,
         r.A(i, M + i) = 1;
         r.A(M + i, i) = -static_cast<Real>(m.omega0[i]) * m.omega0[i];
         r.A(M + i, M + i) = -2 * static_cast<Real>(m.sigma[i]);
-        pull(i) = (k * g[i] * height + static_cast<Real>(thread.stiffness) * c[i] * thread.height) / m.mass;
+        pull(i) = (k * g[i] * height + static_cast<Real>(thread.stiffness) * c[i] * thread.height) /
+                  m.mass;
         for (int j = 0; j < M; ++j) {
-            r.A(M + i, j) -= (k * g[i] * g[j] + static_cast<Real>(thread.stiffness) * c[i] * c[j]) / m.mass;
+            r.A(M + i, j) -=
+                (k * g[i] * g[j] + static_cast<Real>(thread.stiffness) * c[i] * c[j]) / m.mass;
             r.A(M + i, M + j) -= static_cast<Real>(thread.damping) * c[i] * c[j] / m.mass;
         }
     }
     r.centre.head(M) = -Matrix(r.A.bottomLeftCorner(M, M)).partialPivLu().solve(pull);
     Real rate = 0, stiffest = 0;
-    for (int i = 0; i < M; ++i) rate += r.A.bottomRightCorner(M, M).row(i).cwiseAbs().sum(), stiffest += -r.A(M + i, i);
+    for (int i = 0; i < M; ++i)
+        rate += r.A.bottomRightCorner(M, M).row(i).cwiseAbs().sum(), stiffest += -r.A(M + i, i);
     r.length = fraction / std::max(rate, std::sqrt(stiffest));
     r.step = Matrix::Identity(2 * M, 2 * M);
     Matrix term = r.step;
@@ -85,7 +90,8 @@ Real root(Real a, Real b, Real fa, Real fb, F&& f) {
     return b;
 }
 
-Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>& g, Real height, Vector x, Real duration) {
+Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>& g, Real height,
+          Vector x, Real duration) {
     const int M = static_cast<int>(g.size());
     Seen seen;
     int in = 0;
@@ -102,10 +108,12 @@ Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>
     for (Real t = 0; t < duration;) {
         const Regime& now = in ? touching : apart;
         const Real dt = std::min(now.length, duration - t);
-        const Vector next = dt == now.length ? Vector(now.centre + now.step * (x - now.centre)) : now.after(x, dt);
+        const Vector next =
+            dt == now.length ? Vector(now.centre + now.step * (x - now.centre)) : now.after(x, dt);
         Real high = gap(next) < 0 ? dt : -1;
         if (high < 0 && slope(x) < 0 && slope(next) > 0) {  // it turned inside
-            const Real turn = root(0, dt, slope(x), slope(next), [&](Real c) { return slope(now.after(x, c)); });
+            const Real turn =
+                root(0, dt, slope(x), slope(next), [&](Real c) { return slope(now.after(x, c)); });
             const Real least = gap(now.after(x, turn));
             seen.nearest = std::min(seen.nearest, std::abs(least));
             if (least < 0) high = turn;
@@ -119,9 +127,11 @@ Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>
         Real low = 0;
         if (!(gap(x) > 0))  // it starts on the surface
             for (low = high / 2; low > 1e-12L * high && !(gap(now.after(x, low)) > 0);) low /= 2;
-        high = root(low, high, gap(now.after(x, low)), gap(now.after(x, high)), [&](Real c) { return gap(now.after(x, c)); });
+        high = root(low, high, gap(now.after(x, low)), gap(now.after(x, high)),
+                    [&](Real c) { return gap(now.after(x, c)); });
         if (slope(x) > 0) {
-            const Real turn = root(low, high, slope(x), slope(now.after(x, high)), [&](Real c) { return slope(now.after(x, c)); });
+            const Real turn = root(low, high, slope(x), slope(now.after(x, high)),
+                                   [&](Real c) { return slope(now.after(x, c)); });
             largest = std::max(largest, gap(now.after(x, turn)));
         }
         seen.nearest = std::min(seen.nearest, std::max(largest, gap(x)));
@@ -142,7 +152,9 @@ Seen scan(const Regime& apart, const Regime& touching, const std::vector<double>
 int main(int count_of_arguments, char** arguments) {
     const long count = count_of_arguments > 1 ? std::atol(arguments[1]) : 1000;
     std::mt19937_64 random(count_of_arguments > 2 ? std::atol(arguments[2]) : 1);
-    const auto uniform = [&](double from, double to) { return from + (to - from) * std::uniform_real_distribution<double>()(random); };
+    const auto uniform = [&](double from, double to) {
+        return from + (to - from) * std::uniform_real_distribution<double>()(random);
+    };
     long events = 0, touched = 0, within_bound = 0, missed = 0, failed = 0, finer = 0;
     for (long trial = 0; trial < count; ++trial) {
         String s;
@@ -150,10 +162,13 @@ int main(int count_of_arguments, char** arguments) {
         s.linear_density = std::pow(10, uniform(-3.5, -2));
         s.tension = uniform(20, 200);
         s.bending_stiffness = std::pow(10, uniform(-6, -3));
-        s.damping = PolynomialDamping{std::pow(10, uniform(-2, 2)), std::pow(10, uniform(-4, -1)), 0};
+        s.damping =
+            PolynomialDamping{std::pow(10, uniform(-2, 2)), std::pow(10, uniform(-4, -1)), 0};
         const int M = 1 + static_cast<int>(random() % 5);
         s.initial = TriangleInitial{uniform(0.1, 0.9), uniform(0.5e-3, 3e-3), 0.02};
-        if (random() % 2) s.thread = Thread{uniform(0.02, 0.2), 1e-3, std::pow(10, uniform(1, 5)), uniform(0, 2), 0};
+        if (random() % 2)
+            s.thread =
+                Thread{uniform(0.02, 0.2), 1e-3, std::pow(10, uniform(1, 5)), uniform(0, 2), 0};
         LumpedBarrier b;
         b.position = uniform(0.01, 0.5);
         b.stiffness.k = std::pow(10, uniform(3, 10));
@@ -161,7 +176,8 @@ int main(int count_of_arguments, char** arguments) {
         const auto g = footprint_weights(m, b.position, 0), y = initial_displacement(m, s);
         const Thread thread = s.thread.value_or(Thread{0.1, 1e-3, 0, 0, 0});
         const auto c = footprint_weights(m, thread.position, thread.width);
-        const double first = m.omega0[0] / (2 * M_PI), duration = std::ceil(uniform(0.3, 1.5) / first * 4000) / 4000;
+        const double first = m.omega0[0] / (2 * M_PI),
+                     duration = std::ceil(uniform(0.3, 1.5) / first * 4000) / 4000;
         Vector x = Vector::Zero(2 * M);
         double reach = 0;
         for (int i = 0; i < M; ++i) x(i) = y[i], reach += std::abs(g[i] * y[i]);
@@ -170,11 +186,13 @@ int main(int count_of_arguments, char** arguments) {
         if (random() % 2) {  // graze: the height that the free string turns at
             const Seen free = scan(apart, apart, g, -2 * reach, x, duration);
             if (free.nearest < 2 * reach)
-                b.height = static_cast<double>(free.nearest) - 2 * reach + (random() % 2 ? 1 : -1) * reach * std::pow(10, uniform(-17, -3));
+                b.height = static_cast<double>(free.nearest) - 2 * reach +
+                           (random() % 2 ? 1 : -1) * reach * std::pow(10, uniform(-17, -3));
         }
         s.barriers = {b};
         const auto scanned = [&](Real fraction) {  // one row beyond the end, as the run does
-            return scan(regime(m, g, 0, 0, c, thread, fraction), regime(m, g, b.stiffness.k, b.height, c, thread, fraction), g, b.height, x,
+            return scan(regime(m, g, 0, 0, c, thread, fraction),
+                        regime(m, g, b.stiffness.k, b.height, c, thread, fraction), g, b.height, x,
                         duration + 1.0L / 4000);
         };
         Seen seen = scanned(0.4L);
@@ -201,13 +219,17 @@ int main(int count_of_arguments, char** arguments) {
             const bool near = seen.nearest <= bound;
             (near ? within_bound : missed) += 1;
             if (!near) {
-                std::printf("trial %ld: %g events for %d, nearest %.2Le m, bound %.1e m, k %.1e, %d modes%s\n", trial, found, seen.events,
-                            seen.nearest, bound, b.stiffness.k, M, s.thread ? ", thread" : "");
+                std::printf(
+                    "trial %ld: %g events for %d, nearest %.2Le m, bound %.1e m, k %.1e, %d "
+                    "modes%s\n",
+                    trial, found, seen.events, seen.nearest, bound, b.stiffness.k, M,
+                    s.thread ? ", thread" : "");
             }
         }
     }
     std::printf(
-        "%ld problems, %ld with contact, %ld events; counts differ within the bound in %ld, beyond it in %ld; %ld scanned finer; %ld runs "
+        "%ld problems, %ld with contact, %ld events; counts differ within the bound in %ld, beyond "
+        "it in %ld; %ld scanned finer; %ld runs "
         "failed\n",
         count, touched, events, within_bound, missed, finer, failed);
     return missed > 0 || failed > 0;

@@ -1,4 +1,5 @@
-// Steps of a collocated contact: few, as long as their errors allow, where the force is no polynomial.
+// Steps of a collocated contact: few, as long as their errors allow, where the force is no
+// polynomial.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,11 +17,15 @@ struct Contact {
     double first = 0, last = 0;
 };
 
-// One contact of the length L, of a point whose steps err as contact_steps.hpp says: 1e-3 long at either end.
+// One contact of the length L, of a point whose steps err as contact_steps.hpp says: 1e-3 long at
+// either end.
 Contact one_contact(ContactSteps& steps, double L, double allowed) {
     const auto error = [&](double from, double d) {
-        const auto beside = [&](double distance) { return std::min(1.0, 4e-5 * std::pow(d / distance, 4)); };
-        return allowed * std::pow(d / 1e-3, 2.3) * std::max(beside(from), from + d > L ? 1.0 : beside(L - from - d));
+        const auto beside = [&](double distance) {
+            return std::min(1.0, 4e-5 * std::pow(d / distance, 4));
+        };
+        return allowed * std::pow(d / 1e-3, 2.3) *
+               std::max(beside(from), from + d > L ? 1.0 : beside(L - from - d));
     };
     Contact c;
     steps.set_in();
@@ -70,7 +75,9 @@ TEST(ContactSteps, ASpringsAreAsLongAsASmoothForceAllows) {
 TEST(ContactSteps, AreFewForEachEventOfAParabolaWhoseErrorFollowsTheTolerance) {
     Scene scene = read_scene("sitar_parabola");
     scene.duration = 2e-3;
-    const auto at = [&](const char* tolerance) { return jvari::run(exact_contact, scene, {0, 44100, 0, {{"tolerance", tolerance}}}); };
+    const auto at = [&](const char* tolerance) {
+        return jvari::run(exact_contact, scene, {0, 44100, 0, {{"tolerance", tolerance}}});
+    };
     const auto truth = at("1e-13");
     const struct {
         const char* tolerance;
@@ -86,8 +93,11 @@ TEST(ContactSteps, AreFewForEachEventOfAParabolaWhoseErrorFollowsTheTolerance) {
         };
         EXPECT_EQ(fact("events"), 694) << r.tolerance;
         EXPECT_LT(fact("contact_steps"), r.most * 694) << r.tolerance;
-        EXPECT_LT(relative_difference(found.trace.column(1), truth.trace.column(1)), r.value + rounding) << r.tolerance;
-        EXPECT_LT(relative_difference(found.trace.column(2), truth.trace.column(2)), r.value) << r.tolerance;
+        EXPECT_LT(relative_difference(found.trace.column(1), truth.trace.column(1)),
+                  r.value + rounding)
+            << r.tolerance;
+        EXPECT_LT(relative_difference(found.trace.column(2), truth.trace.column(2)), r.value)
+            << r.tolerance;
     }
 }
 

@@ -1,4 +1,5 @@
-// The event-driven reference against closed forms, dense linear algebra, a brute-force integrator and itself.
+// The event-driven reference against closed forms, dense linear algebra, a brute-force integrator
+// and itself.
 #include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
@@ -40,18 +41,21 @@ Scene c3(bool losses = true) {  // van Walstijn et al. 2016, Table 1, first-mode
     scene.name = "c3";
     scene.duration = 0.02;
     scene.strings = {s};
-    scene.taps = {{"nut", Quantity::nut_force, 0, 0},       {"y", Quantity::displacement, 0, 0.3},
-                  {"bridge", Quantity::bridge_force, 0, 0}, {"thread", Quantity::thread_force, 0, 0},
-                  {"v", Quantity::velocity, 0, 0.3},        {"drive", Quantity::driving_force, 0, 0}};
+    scene.taps = {
+        {"nut", Quantity::nut_force, 0, 0},       {"y", Quantity::displacement, 0, 0.3},
+        {"bridge", Quantity::bridge_force, 0, 0}, {"thread", Quantity::thread_force, 0, 0},
+        {"v", Quantity::velocity, 0, 0.3},        {"drive", Quantity::driving_force, 0, 0}};
     return scene;
 }
 
-// Few modes, two soft barriers at different heights, a thread off its height, losses and a pluck: everything at once.
+// Few modes, two soft barriers at different heights, a thread off its height, losses and a pluck:
+// everything at once.
 Scene few_modes() {
     Scene scene = c3();
     String& s = scene.strings[0];
     s.damping = PolynomialDamping{3, 0.5, 0};
-    s.barriers = {LumpedBarrier{0.15, 2e-3, -3e-4, {4e5}, 1, 0}, LumpedBarrier{0.62, 0, -5e-4, {2e5}, 1, 0}};
+    s.barriers = {LumpedBarrier{0.15, 2e-3, -3e-4, {4e5}, 1, 0},
+                  LumpedBarrier{0.62, 0, -5e-4, {2e5}, 1, 0}};
     s.thread = Thread{0.05, 1e-3, 3e3, 0.05, 1e-5};
     s.pluck = Pluck{-0.3, 3e-3, 12, 0.4e-3, 0.4, 0.02};
     scene.duration = 0.01;
@@ -87,10 +91,12 @@ TEST(GaussLegendre, IntegratesEveryPolynomialThatItCanAndNoOther) {
         gauss_legendre(node, weight);
         const auto relative = [&](int power) {  // of int_0^1 x^power dx
             long double sum = 0;
-            for (int q = 0; q < n; ++q) sum += weight[q] * std::pow(static_cast<long double>(node[q]), power);
+            for (int q = 0; q < n; ++q)
+                sum += weight[q] * std::pow(static_cast<long double>(node[q]), power);
             return static_cast<double>(sum * (power + 1) - 1);
         };
-        for (int power = 0; power < 2 * n; ++power) EXPECT_LT(std::abs(relative(power)), 1.2e-16 * (power + 2)) << n << " " << power;
+        for (int power = 0; power < 2 * n; ++power)
+            EXPECT_LT(std::abs(relative(power)), 1.2e-16 * (power + 2)) << n << " " << power;
         double missed = 1;  // n!^4/(2n)!^2
         for (int k = 1; k <= n; ++k) missed *= std::pow(k / (2.0 * (2 * k - 1)), 2);
         EXPECT_NEAR(relative(2 * n), -missed, 1e-3 * missed + 5e-15) << n;
@@ -104,7 +110,8 @@ TEST(GaussLegendre, NodesAndWeightsAreRightToTheirLastBitButOneAndMirrorImages) 
         for (int q = 0; q < n; ++q) {
             EXPECT_NEAR(node[q] + node[n - 1 - q], 1, 1.2e-16) << n;
             EXPECT_EQ(weight[q], weight[n - 1 - q]) << n;
-            const long double x = 2 * static_cast<long double>(node[q]) - 1, p = std::legendre(n, x), before = std::legendre(n - 1, x);
+            const long double x = 2 * static_cast<long double>(node[q]) - 1,
+                              p = std::legendre(n, x), before = std::legendre(n - 1, x);
             const long double slope = n * (x * p - before) / (x * x - 1);
             EXPECT_LT(std::abs(p / slope / 2), 2.3e-16L * node[q]) << n << " " << q;
         }
@@ -120,8 +127,9 @@ TEST(GaussLegendre, NodesAndWeightsAreRightToTheirLastBitButOneAndMirrorImages) 
     }
 }
 
-// One mode over one spring of a given height, no loss: circular arcs in two phase planes, pieced together by atan2.
-// Whatever touches, and however strong the thread's damper: rho makes the majorant of springs.hpp small enough for the Taylor series.
+// One mode over one spring of a given height, no loss: circular arcs in two phase planes, pieced
+// together by atan2. Whatever touches, and however strong the thread's damper: rho makes the
+// majorant of springs.hpp small enough for the Taylor series.
 TEST(Springs, GrowAtARateThatBoundsTheirSeriesWithTheThreadsDamper) {
     for (const double damping : {0.0, 1.2, 30.0, 1000.0}) {
         Scene scene = few_modes();
@@ -137,7 +145,8 @@ TEST(Springs, GrowAtARateThatBoundsTheirSeriesWithTheThreadsDamper) {
                 for (int b = 0; b < springs.points; ++b) {
                     if (b < springs.contacts && !touching[b]) continue;
                     for (int i = 1; i < longest_series; ++i)
-                        sum += std::abs(springs.h(a, b)[i]) * std::pow(rho, -i - 1) * (springs.k[b] + springs.r[b] * rho);
+                        sum += std::abs(springs.h(a, b)[i]) * std::pow(rho, -i - 1) *
+                               (springs.k[b] + springs.r[b] * rho);
                 }
                 EXPECT_LE(sum, 0.9 * (1 + 1e-12)) << damping << " point " << a << " rho " << rho;
             }
@@ -153,14 +162,17 @@ TEST(ExactContact, OneModeOnAOneSidedSpringIsArcsOfTwoSinusoids) {
         s.barriers = {LumpedBarrier{10e-3, 2e-3, height, {4.39e5}, 1, 0}};
         const jvari::Run r = run(exact_contact, scene, settings(1));
         const Modes m = modes_of(s, 1);
-        const double g = footprint_weights(m, 10e-3, 2e-3)[0], k = 4.39e5 * g * g / m.mass, h = height / g;
-        const double w[2] = {m.omega0[0], std::sqrt(m.omega0[0] * m.omega0[0] + k)}, centre[2] = {0, k * h / (w[1] * w[1])};
+        const double g = footprint_weights(m, 10e-3, 2e-3)[0], k = 4.39e5 * g * g / m.mass,
+                     h = height / g;
+        const double w[2] = {m.omega0[0], std::sqrt(m.omega0[0] * m.omega0[0] + k)},
+                     centre[2] = {0, k * h / (w[1] * w[1])};
         double y = 1.9e-3, v = 0, t = 0, leaves = -1;
         int in = y < h ? 1 : 0, events = in;
         for (long n = 1; n < r.trace.rows; ++n) {
             const double row = n / 44100.0;
             for (;;) {  // y = centre + R cos(w tau + phi)
-                const double x = y - centre[in], u = v / w[in], R = std::hypot(x, u), phi = std::atan2(-u, x), c = (h - centre[in]) / R;
+                const double x = y - centre[in], u = v / w[in], R = std::hypot(x, u),
+                             phi = std::atan2(-u, x), c = (h - centre[in]) / R;
                 // going down through h at w tau + phi = acos(c), up at 2 pi - acos(c)
                 double wait = 1e9;
                 if (std::abs(c) <= 1) wait = (in ? 2 * pi - std::acos(c) : std::acos(c)) - phi;
@@ -174,8 +186,10 @@ TEST(ExactContact, OneModeOnAOneSidedSpringIsArcsOfTwoSinusoids) {
                 in = 1 - in;
                 ++events;
             }
-            ASSERT_NEAR(r.trace.column(1)[n], y * std::sin(0.3 * pi), 1e-13 * 1.9e-3) << height << " row " << n;
-            ASSERT_NEAR(r.trace.column(4)[n], v * std::sin(0.3 * pi), 1e-13 * 1.9e-3 * w[1]) << height << " row " << n;
+            ASSERT_NEAR(r.trace.column(1)[n], y * std::sin(0.3 * pi), 1e-13 * 1.9e-3)
+                << height << " row " << n;
+            ASSERT_NEAR(r.trace.column(4)[n], v * std::sin(0.3 * pi), 1e-13 * 1.9e-3 * w[1])
+                << height << " row " << n;
         }
         EXPECT_EQ(fact(r, "events"), events) << height;
         EXPECT_GT(events, height < 5e-5 ? 4 : 0);  // the highest barrier never lets the string go
@@ -190,14 +204,19 @@ TEST(ExactContact, AThreadAwayFromItsHeightIsTheDenseMatrixExponential) {
     const int M = 7;
     const jvari::Run r = run(exact_contact, scene, settings(M));
     const Modes m = modes_of(s, M);
-    const auto g = footprint_weights(m, s.thread->position, s.thread->width), x = displacement_weights(m, 0.3);
+    const auto g = footprint_weights(m, s.thread->position, s.thread->width),
+               x = displacement_weights(m, 0.3);
     // state (omega0 y, v) about the equilibrium
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * M, 2 * M), K = Eigen::MatrixXd::Zero(M, M);
     Eigen::VectorXd pull(M), z = Eigen::VectorXd::Zero(2 * M);
     for (int i = 0; i < M; ++i) {
         pull(i) = s.thread->stiffness * s.thread->height * g[i] / m.mass;
-        for (int j = 0; j < M; ++j) K(i, j) = s.thread->stiffness * g[i] * g[j] / m.mass + (i == j ? m.omega0[i] * m.omega0[i] : 0);
-        for (int j = 0; j < M; ++j) A(M + i, M + j) = -s.thread->damping * g[i] * g[j] / m.mass - (i == j ? 2 * m.sigma[i] : 0);
+        for (int j = 0; j < M; ++j)
+            K(i, j) = s.thread->stiffness * g[i] * g[j] / m.mass +
+                      (i == j ? m.omega0[i] * m.omega0[i] : 0);
+        for (int j = 0; j < M; ++j)
+            A(M + i, M + j) =
+                -s.thread->damping * g[i] * g[j] / m.mass - (i == j ? 2 * m.sigma[i] : 0);
     }
     const Eigen::VectorXd rest = K.ldlt().solve(pull);
     for (int i = 0; i < M; ++i) {
@@ -224,8 +243,8 @@ TEST(ExactContact, AThreadAwayFromItsHeightIsTheDenseMatrixExponential) {
             all += g[i] * (area(i) / m.omega0[i] + rest(i) * t);
         }
         EXPECT_NEAR(r.trace.column(1)[n], y, 1e-14) << n;
-        const double force =
-            s.thread->stiffness * (s.thread->height - (all - integral) * 44100) - s.thread->damping * (yc - last_y) * 44100;
+        const double force = s.thread->stiffness * (s.thread->height - (all - integral) * 44100) -
+                             s.thread->damping * (yc - last_y) * 44100;
         if (n > 0) {
             EXPECT_NEAR(r.trace.column(3)[n], force, 1e-9) << n;
             EXPECT_DOUBLE_EQ(r.trace.column(5)[n], -r.trace.column(3)[n]);
@@ -235,30 +254,36 @@ TEST(ExactContact, AThreadAwayFromItsHeightIsTheDenseMatrixExponential) {
     }
 }
 
-// Classical Runge-Kutta on the modal equations with the kinks stepped over: an independent program, no series, no events.
+// Classical Runge-Kutta on the modal equations with the kinks stepped over: an independent program,
+// no series, no events.
 struct BruteForce {
     Modes m;
     const String& s;
     std::vector<std::vector<double>> g;  // per barrier
     std::vector<double> thread, plucked, y, v;
     double impulse = 0;
-    BruteForce(const String& string, int count) : m(modes_of(string, count)), s(string), y(initial_displacement(m, string)), v(count, 0.0) {
+    BruteForce(const String& string, int count)
+        : m(modes_of(string, count)), s(string), y(initial_displacement(m, string)), v(count, 0.0) {
         for (const Barrier& b : s.barriers)
-            g.push_back(footprint_weights(m, std::get<LumpedBarrier>(b).position, std::get<LumpedBarrier>(b).width));
+            g.push_back(footprint_weights(m, std::get<LumpedBarrier>(b).position,
+                                          std::get<LumpedBarrier>(b).width));
         thread = footprint_weights(m, s.thread->position, s.thread->width);
         plucked = footprint_weights(m, s.pluck->position, s.pluck->width);
     }
-    double slope(double t, const std::vector<double>& q, const std::vector<double>& u, std::vector<double>& a) const {
+    double slope(double t, const std::vector<double>& q, const std::vector<double>& u,
+                 std::vector<double>& a) const {
         const auto dot = [&](const std::vector<double>& w, const std::vector<double>& z) {
             double sum = 0;
             for (int i = 0; i < m.count(); ++i) sum += w[i] * z[i];
             return sum;
         };
-        const double Fc = s.thread->stiffness * (s.thread->height - dot(thread, q)) - s.thread->damping * dot(thread, u),
+        const double Fc = s.thread->stiffness * (s.thread->height - dot(thread, q)) -
+                          s.thread->damping * dot(thread, u),
                      Fe = force(*s.pluck, t);
         double bridge = 0;
         for (int i = 0; i < m.count(); ++i)
-            a[i] = -2 * m.sigma[i] * u[i] - m.omega0[i] * m.omega0[i] * q[i] + (thread[i] * Fc + plucked[i] * Fe) / m.mass;
+            a[i] = -2 * m.sigma[i] * u[i] - m.omega0[i] * m.omega0[i] * q[i] +
+                   (thread[i] * Fc + plucked[i] * Fe) / m.mass;
         for (std::size_t b = 0; b < g.size(); ++b) {
             const auto& barrier = std::get<LumpedBarrier>(s.barriers[b]);
             const double F = barrier.stiffness.k * std::max(0.0, barrier.height - dot(g[b], q));
@@ -271,10 +296,12 @@ struct BruteForce {
         const std::size_t n = y.size();
         std::vector<double> a1(n), a2(n), a3(n), a4(n), q(n), u(n), v2, v3;
         const double F1 = slope(t, y, v, a1);
-        for (std::size_t i = 0; i < n; ++i) q[i] = y[i] + dt / 2 * v[i], u[i] = v[i] + dt / 2 * a1[i];
+        for (std::size_t i = 0; i < n; ++i)
+            q[i] = y[i] + dt / 2 * v[i], u[i] = v[i] + dt / 2 * a1[i];
         const double F2 = slope(t + dt / 2, q, u, a2);
         v2 = u;
-        for (std::size_t i = 0; i < n; ++i) q[i] = y[i] + dt / 2 * v2[i], u[i] = v[i] + dt / 2 * a2[i];
+        for (std::size_t i = 0; i < n; ++i)
+            q[i] = y[i] + dt / 2 * v2[i], u[i] = v[i] + dt / 2 * a2[i];
         const double F3 = slope(t + dt / 2, q, u, a3);
         v3 = u;
         for (std::size_t i = 0; i < n; ++i) q[i] = y[i] + dt * v3[i], u[i] = v[i] + dt * a3[i];
@@ -301,9 +328,11 @@ TEST(ExactContact, TwoBarriersThreadAndPluckAreWhatABruteForceIntegratorApproach
             for (int i = 0; i < M; ++i) y[n] += x[i] * brute.y[i];
             bridge[n] = brute.impulse * 44100;
             brute.impulse = 0;
-            for (int k = 0; k < steps; ++k) brute.step((n + static_cast<double>(k) / steps) / 44100, 1.0 / 44100 / steps);
+            for (int k = 0; k < steps; ++k)
+                brute.step((n + static_cast<double>(k) / steps) / 44100, 1.0 / 44100 / steps);
         }
-        const double error = difference(y, r.trace.column(1));  // falls by 16: the kinks leave second order
+        // falls by 16: the kinks leave second order
+        const double error = difference(y, r.trace.column(1));
         EXPECT_LT(error, previous / 10);
         EXPECT_LT(difference(bridge, r.trace.column(2)), 50 * error);
         previous = error;
@@ -318,18 +347,23 @@ TEST(ExactContact, ABarrierNeverReachedLeavesTheClosedForm) {
         s.thread.reset();
         const int M = laws == 2 ? 3 : 20;
         if (laws == 0) s.damping = NoDamping{};
-        if (laws == 2) s.damping = TableDamping{"", {130, 260, 390}, {2 * pi * 130, 5000, 3}};  // critical, overdamped, light
-        s.barriers = {LumpedBarrier{0.15, 2e-3, -1, {4e5}, 1, 0}, LumpedBarrier{0.62, 0, -2, {2e5}, 1, 0}};
+        // critical, overdamped, light
+        if (laws == 2) s.damping = TableDamping{"", {130, 260, 390}, {2 * pi * 130, 5000, 3}};
+        s.barriers = {LumpedBarrier{0.15, 2e-3, -1, {4e5}, 1, 0},
+                      LumpedBarrier{0.62, 0, -2, {2e5}, 1, 0}};
         Scene free = scene;
         free.strings[0].barriers.clear();
         const jvari::Run r = run(exact_contact, scene, settings(M));
         Settings plain;
         plain.modes = M;
-        const jvari::Run want = run(exact_linear, free, plain), open = run(exact_contact, free, settings(M));
+        const jvari::Run want = run(exact_linear, free, plain),
+                         open = run(exact_contact, free, settings(M));
         EXPECT_EQ(fact(r, "events"), 0);
         for (int k : {0, 1, 4}) {
-            EXPECT_LT(difference(r.trace.column(k), want.trace.column(k)), 2e-13) << laws << " tap " << k;
-            EXPECT_LT(difference(open.trace.column(k), want.trace.column(k)), 2e-13) << laws << " tap " << k;
+            EXPECT_LT(difference(r.trace.column(k), want.trace.column(k)), 2e-13)
+                << laws << " tap " << k;
+            EXPECT_LT(difference(open.trace.column(k), want.trace.column(k)), 2e-13)
+                << laws << " tap " << k;
         }
     }
 }
@@ -356,7 +390,8 @@ TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
     }
     const jvari::Run usual = run(exact_contact, c3(), settings(133, "1e-10"));
     EXPECT_EQ(fact(usual, "events"), 563);
-    for (int k = 0; k < 6; ++k) EXPECT_LT(difference(usual.trace.column(k), r.trace.column(k)), 1e-10) << k;
+    for (int k = 0; k < 6; ++k)
+        EXPECT_LT(difference(usual.trace.column(k), r.trace.column(k)), 1e-10) << k;
 }
 
 TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
@@ -366,13 +401,17 @@ TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
     tapped.strings[0].pluck = Pluck{-30, 1e-5, 0, 1e-3, 0.4, 0.02};
     tapped.duration = 0.02;
     tapped.strings[0].initial = ModeInitial{1, 1e-3};
-    for (const auto& [scene, modes, kept] :
-         {std::tuple{c3(false), 133, true}, {c3(true), 133, false}, {few_modes(), 12, false}, {pressed, 133, false}, {tapped, 12, false}}) {
+    for (const auto& [scene, modes, kept] : {std::tuple{c3(false), 133, true},
+                                             {c3(true), 133, false},
+                                             {few_modes(), 12, false},
+                                             {pressed, 133, false},
+                                             {tapped, 12, false}}) {
         RunOptions options;
         options.energy = true;
         const jvari::Run r = run(exact_contact, scene, settings(modes), options);
         EXPECT_GT(fact(r, "events"), 20);
-        const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), lost = r.trace.energy_column(2);
+        const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1),
+                   lost = r.trace.energy_column(2);
         double largest = 0, accumulated = 0, total = 0;
         for (double e : stored) largest = std::max(largest, e);
         for (long n = 1; n < r.trace.rows; ++n) {
@@ -412,15 +451,18 @@ TEST(ExactContact, AStringAtRestOnItsBarriersStaysAtRest) {
     for (double x : r.trace.tap) EXPECT_EQ(x, 0);
 }
 
-// A symmetric string on two equal barriers: both contacts open and close at the same instants. The symmetry itself is unstable (what
-// rounding makes of it grows tenfold every 0.1 ms of contact), so only the first two dozen impacts are asked for.
+// A symmetric string on two equal barriers: both contacts open and close at the same instants. The
+// symmetry itself is unstable (what rounding makes of it grows tenfold every 0.1 ms of contact), so
+// only the first two dozen impacts are asked for.
 TEST(ExactContact, EqualBarriersOnASymmetricStringShareTheirEvents) {
     Scene scene = c3(false);
     String& s = scene.strings[0];
     s.thread.reset();
-    s.barriers = {LumpedBarrier{0.02, 2e-3, -1e-5, {1e7}, 1, 0}, LumpedBarrier{0.98, 2e-3, -1e-5, {1e7}, 1, 0}};
+    s.barriers = {LumpedBarrier{0.02, 2e-3, -1e-5, {1e7}, 1, 0},
+                  LumpedBarrier{0.98, 2e-3, -1e-5, {1e7}, 1, 0}};
     scene.duration = 2.6e-3;
-    scene.taps = {{"left", Quantity::displacement, 0, 0.3}, {"right", Quantity::displacement, 0, 0.7}};
+    scene.taps = {{"left", Quantity::displacement, 0, 0.3},
+                  {"right", Quantity::displacement, 0, 0.7}};
     const jvari::Run r = run(exact_contact, scene, settings(40));
     EXPECT_EQ(r.status.outcome, Outcome::ok);
     EXPECT_GT(fact(r, "events"), 20);
@@ -428,8 +470,9 @@ TEST(ExactContact, EqualBarriersOnASymmetricStringShareTheirEvents) {
     EXPECT_LT(difference(r.trace.column(0), r.trace.column(1)), 1e-13);
 }
 
-// Pressed in by 4 mm and held back by a loss of 1000 s/m, the string creeps out at 1 mm/s: 1 - beta v is 1e-3, and the force what is left
-// of a thousand times as much. (Where Newton's iteration asks for more of it than the last bit of v gives, steps are cut without end.)
+// Pressed in by 4 mm and held back by a loss of 1000 s/m, the string creeps out at 1 mm/s: 1 - beta
+// v is 1e-3, and the force what is left of a thousand times as much. (Where Newton's iteration asks
+// for more of it than the last bit of v gives, steps are cut without end.)
 TEST(ExactContact, AContactThatCreepsUnderAStrongLossTakesAFewStepsAWindow) {
     Scene scene = c3();
     String& s = scene.strings[0];
@@ -448,7 +491,8 @@ TEST(ExactContact, AContactThatCreepsUnderAStrongLossTakesAFewStepsAWindow) {
     ASSERT_EQ(other.status.outcome, Outcome::ok);
     EXPECT_LT(fact(r, "contact_steps"), 10 * fact(r, "windows"));
     EXPECT_EQ(fact(r, "events"), 1);
-    for (int k = 0; k < r.trace.taps(); ++k) EXPECT_LT(difference(r.trace.column(k), other.trace.column(k)), 1e-7) << r.trace.names[k];
+    for (int k = 0; k < r.trace.taps(); ++k)
+        EXPECT_LT(difference(r.trace.column(k), other.trace.column(k)), 1e-7) << r.trace.names[k];
 }
 
 TEST(ExactContact, RefusesAToleranceThatIsNone) {
@@ -462,12 +506,16 @@ TEST(ExactContact, EveryStiffnessIsWhatAStiffIntegratorMakesOfIt) {
         Scene scene = c3();
         scene.duration = 2e-3;
         std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k = k;
-        const jvari::Run r = run(exact_contact, scene, settings(80)), want = run(sundials, scene, {0, 44100, 80, {}});
-        for (int tap = 0; tap < 5; ++tap) EXPECT_LT(difference(r.trace.column(tap), want.trace.column(tap)), 1e-8) << k << " tap " << tap;
+        const jvari::Run r = run(exact_contact, scene, settings(80)),
+                         want = run(sundials, scene, {0, 44100, 80, {}});
+        for (int tap = 0; tap < 5; ++tap)
+            EXPECT_LT(difference(r.trace.column(tap), want.trace.column(tap)), 1e-8)
+                << k << " tap " << tap;
     }
 }
 
-// Of ten random strings the one whose contact force suffers most: what a window cuts off shows twelvefold in it.
+// Of ten random strings the one whose contact force suffers most: what a window cuts off shows
+// twelvefold in it.
 TEST(ExactContact, ToleranceIsWhatTheTapsHoldForcesIncluded) {
     Scene scene = c3();
     String& s = scene.strings[0];
@@ -479,7 +527,8 @@ TEST(ExactContact, ToleranceIsWhatTheTapsHoldForcesIncluded) {
     for (const auto& [tolerance, most] : {std::pair("1e-6", 1e-6), std::pair("1e-8", 1e-8)}) {
         const jvari::Run r = run(exact_contact, scene, settings(56, tolerance));
         for (int tap = 0; tap < r.trace.taps(); ++tap)
-            EXPECT_LT(difference(r.trace.column(tap), fine.trace.column(tap)), most) << r.trace.names[tap] << " " << tolerance;
+            EXPECT_LT(difference(r.trace.column(tap), fine.trace.column(tap)), most)
+                << r.trace.names[tap] << " " << tolerance;
     }
 }
 

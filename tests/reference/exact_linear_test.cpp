@@ -26,13 +26,13 @@ Scene one_string(Damping damping) {
     scene.name = "free";
     scene.duration = 0.02;
     scene.strings = {s};
-    scene.taps = {{"y", Quantity::displacement, 0, 0.3}, {"v", Quantity::velocity, 0, 0.3}, {"nut", Quantity::nut_force, 0, 0}};
+    scene.taps = {{"y", Quantity::displacement, 0, 0.3},
+                  {"v", Quantity::velocity, 0, 0.3},
+                  {"nut", Quantity::nut_force, 0, 0}};
     return scene;
 }
 
-Pluck pluck(double skew) {
-    return {-0.4, 7.3e-3, skew, 1.234e-3, 0.4, 0.01};
-}
+Pluck pluck(double skew) { return {-0.4, 7.3e-3, skew, 1.234e-3, 0.4, 0.01}; }
 
 Settings settings(int modes, double tap_rate = 44100) {
     Settings s;
@@ -41,7 +41,8 @@ Settings settings(int modes, double tap_rate = 44100) {
     return s;
 }
 
-double difference(std::span<const double> a, std::span<const double> b, int stride = 1) {  // relative L2, b sampled more densely
+// relative L2, b sampled more densely
+double difference(std::span<const double> a, std::span<const double> b, int stride = 1) {
     double d = 0, n = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         d += (a[i] - b[i * stride]) * (a[i] - b[i * stride]);
@@ -61,11 +62,15 @@ TEST(ExactLinear, OneModeIsTheDampedOscillatorBelowAtAndAboveCriticalDamping) {
         for (long n = 0; n < r.trace.rows; n += 17) {
             const double t = n / 44100.0;
             double y = A * (1 + sigma * t) * std::exp(-sigma * t);  // critical
-            if (std::abs(ratio - 1) > 1e-3) {                       // (s2 e^{s1 t} - s1 e^{s2 t})/(s2 - s1)
-                const Complex root = std::sqrt(Complex(sigma * sigma - w0 * w0)), s1 = -sigma + root, s2 = -sigma - root;
+            // (s2 e^{s1 t} - s1 e^{s2 t})/(s2 - s1)
+            if (std::abs(ratio - 1) > 1e-3) {
+                const Complex root = std::sqrt(Complex(sigma * sigma - w0 * w0)),
+                              s1 = -sigma + root, s2 = -sigma - root;
                 y = (A * (s2 * std::exp(s1 * t) - s1 * std::exp(s2 * t)) / (s2 - s1)).real();
             }
-            EXPECT_NEAR(r.trace.column(0)[n], v * y, (std::abs(ratio - 1) > 1e-3 ? 1e-14 : 1e-9) * A) << ratio << " row " << n;
+            EXPECT_NEAR(r.trace.column(0)[n], v * y,
+                        (std::abs(ratio - 1) > 1e-3 ? 1e-14 : 1e-9) * A)
+                << ratio << " row " << n;
         }
     }
 }
@@ -77,7 +82,9 @@ TEST(ExactLinear, HasNoPhaseErrorAfterMillionsOfPeriods) {
     const jvari::Run r = run(exact_linear, scene, settings(1, 10));
     const long double w = modes_of(scene.strings[0], 1).omega0[0];
     for (long n = 0; n < r.trace.rows; ++n)
-        EXPECT_NEAR(r.trace.column(0)[n], std::sin(0.3 * pi) * static_cast<double>(std::cos(w * (n / 10.0L))), 1e-11) << n;
+        EXPECT_NEAR(r.trace.column(0)[n],
+                    std::sin(0.3 * pi) * static_cast<double>(std::cos(w * (n / 10.0L))), 1e-11)
+            << n;
 }
 
 TEST(ExactLinear, AnUnskewedPluckIsThreeComplexExponentials) {
@@ -93,11 +100,13 @@ TEST(ExactLinear, AnUnskewedPluckIsThreeComplexExponentials) {
     for (long n = 0; n < r.trace.rows; n += 7) {
         double y = 0;
         const double T = n / 44100.0 - e.start, end = std::min(T, e.duration);
-        for (int i = 0; i < count && T > 0; ++i) {  // (1/w) Im int_0^end e^{s (T - u)} F(u) du, F = a/4 (2 - e^{iqu} - e^{-iqu})
+        // (1/w) Im int_0^end e^{s (T - u)} F(u) du, F = a/4 (2 - e^{iqu} - e^{-iqu})
+        for (int i = 0; i < count && T > 0; ++i) {
             const double w = std::sqrt(omega_squared_damped(m.omega0[i], m.sigma[i]));
             const Complex s(-m.sigma[i], w);
             Complex sum = 0;
-            for (const auto& [q, part] : {std::pair{0.0, 2.0}, {2 * pi / e.duration, -1.0}, {-2 * pi / e.duration, -1.0}}) {
+            for (const auto& [q, part] :
+                 {std::pair{0.0, 2.0}, {2 * pi / e.duration, -1.0}, {-2 * pi / e.duration, -1.0}}) {
                 const Complex p = Complex(0, q) - s;
                 sum += 0.25 * e.amplitude * part * std::exp(s * T) * (std::exp(p * end) - 1.0) / p;
             }
@@ -113,8 +122,11 @@ TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
         scene.strings[0].initial = TriangleInitial{0.2, 1e-4, 0.01};
         scene.strings[0].pluck = pluck(skew);
         scene.duration = 24 / 1225.0;
-        const jvari::Run coarse = run(exact_linear, scene, settings(60, 1225)), fine = run(exact_linear, scene, settings(60, 99225));
-        for (int k = 0; k < 3; ++k) EXPECT_LT(difference(coarse.trace.column(k), fine.trace.column(k), 81), 1e-13) << skew << " tap " << k;
+        const jvari::Run coarse = run(exact_linear, scene, settings(60, 1225)),
+                         fine = run(exact_linear, scene, settings(60, 99225));
+        for (int k = 0; k < 3; ++k)
+            EXPECT_LT(difference(coarse.trace.column(k), fine.trace.column(k), 81), 1e-13)
+                << skew << " tap " << k;
     }
 }
 
@@ -129,9 +141,11 @@ TEST(ExactLinear, TheLedgerClosesOverPluckAndDecayAlsoWithOverdampedModes) {
     RunOptions options;
     options.energy = true;
     const jvari::Run r = run(exact_linear, scene, settings(12), options);
-    const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), lost = r.trace.energy_column(2);
+    const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1),
+               lost = r.trace.energy_column(2);
     double largest = 0, total = 0;
-    for (long n = 0; n < r.trace.rows; ++n) largest = std::max(largest, stored[n]), total += lost[n];
+    for (long n = 0; n < r.trace.rows; ++n)
+        largest = std::max(largest, stored[n]), total += lost[n];
     for (long n = 1; n < r.trace.rows; ++n) {
         EXPECT_NEAR(stored[n] - stored[n - 1], supplied[n] - lost[n], 1e-14 * largest) << n;
         EXPECT_GE(lost[n], 0);
@@ -147,7 +161,8 @@ TEST(ExactLinear, RefusesWhatTouchesTheString) {
         make_scheme(exact_linear, scene, settings(5));
         FAIL() << "made";
     } catch (const Refusal& refusal) {
-        EXPECT_STREQ(refusal.what(), "exact_linear cannot represent scene free: it has no lumped barrier, thread");
+        EXPECT_STREQ(refusal.what(),
+                     "exact_linear cannot represent scene free: it has no lumped barrier, thread");
     }
     EXPECT_STREQ(best_reference(scene)->name, "exact_contact");
 }

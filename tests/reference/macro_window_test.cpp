@@ -1,4 +1,5 @@
-// A window of the exact reference, part by part: its two ways through contact against one another, and the choice of its length.
+// A window of the exact reference, part by part: its two ways through contact against one another,
+// and the choice of its length.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,8 +15,9 @@
 namespace jvari {
 namespace {
 
-// The C3 string comes down on its bridge at 0.1 m/s at the start of a window, and stays there for `until`: how far the split of the contact
-// is from collocation in 1024 steps, by the impulse, relative.
+// The C3 string comes down on its bridge at 0.1 m/s at the start of a window, and stays there for
+// `until`: how far the split of the contact is from collocation in 1024 steps, by the impulse,
+// relative.
 double split_against_steps(int windows, int terms, double until, double stiffness = 4.39e8) {
     const Scene scene = c3_release();
     const String& s = scene.strings.front();
@@ -23,7 +25,8 @@ double split_against_steps(int windows, int terms, double until, double stiffnes
     MacroWindow w(modes, s, 1 / 44100.0, 1e-12, {}, windows, terms);
     std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0);
     w.open(y.data(), u.data(), false, 0);
-    std::vector<double> r(w.free_motion(0), w.free_motion(0) + w.stride), path(w.stride), m(w.stride);
+    std::vector<double> r(w.free_motion(0), w.free_motion(0) + w.stride), path(w.stride),
+        m(w.stride);
     r[0] = 0;
     r[1] = -0.1 * w.seconds();
     const int point[] = {0};
@@ -41,13 +44,15 @@ double split_against_steps(int windows, int terms, double until, double stiffnes
     double impulse = 0;
     constexpr int count = 1024;
     for (int i = 0; i < count; ++i) {
-        EXPECT_LT(steps.step(r.data(), point, until / count, CollocatedContact::From::elsewhere), 1e-9);
+        EXPECT_LT(steps.step(r.data(), point, until / count, CollocatedContact::From::elsewhere),
+                  1e-9);
         steps.moments(0, until / count, terms, part.data());
         impulse += part[0];
         powers(until / count, w.size, e.data());
         for (int n = 0; n < terms; ++n) {
             moved[n] = 0;
-            for (int j = 0; n + j < terms; ++j) moved[n] += r[n + j] * e[j] + w.kernel(0, 0)[n + j] * part[j];
+            for (int j = 0; n + j < terms; ++j)
+                moved[n] += r[n + j] * e[j] + w.kernel(0, 0)[n + j] * part[j];
         }
         std::copy_n(moved.begin(), terms, r.begin());
     }
@@ -63,14 +68,17 @@ TEST(MacroWindow, ASoftContactIsWhatSmallStepsMakeOfItAsFarAsItsSpan) {
     for (const double k : {1e4, 3e5, 3e6}) EXPECT_LT(split_against_steps(2, 21, 1, k), 1e-11) << k;
 }
 
-// The linear systems of a collocation: I + a matrix of a norm below one half, so that no pivots are needed.
+// The linear systems of a collocation: I + a matrix of a norm below one half, so that no pivots are
+// needed.
 TEST(MacroWindow, FactorsSolveTheSystemThatTheyAreOf) {
     const SweepFunctions& sweep = sweep_functions();
     for (const int size : {8, 16, 24, 40, 64}) {
         std::vector<double> matrix(size * size), x(size), right(size, 0.0), scratch(size);
         for (int j = 0; j < size; ++j) {
             x[j] = std::cos(1.7 * j) + 0.1;
-            for (int i = 0; i < size; ++i) matrix[j * size + i] = std::sin(0.37 * i + 1.91 * j * j) / (2 * size) + (i == j ? 1 : 0);
+            for (int i = 0; i < size; ++i)
+                matrix[j * size + i] =
+                    std::sin(0.37 * i + 1.91 * j * j) / (2 * size) + (i == j ? 1 : 0);
             for (int i = 0; i < size; ++i) right[i] += matrix[j * size + i] * x[j];
         }
         sweep.factor(matrix.data(), scratch.data(), size);
@@ -79,7 +87,8 @@ TEST(MacroWindow, FactorsSolveTheSystemThatTheyAreOf) {
     }
 }
 
-// A second point in the air moves as the moments of the first one's force move it, up to the end of the span.
+// A second point in the air moves as the moments of the first one's force move it, up to the end of
+// the span.
 TEST(MacroWindow, ASoftContactPushesAPointInTheAirAsItsMomentsDo) {
     const Scene scene = c3_release();
     String s = scene.strings.front();
@@ -106,7 +115,8 @@ TEST(MacroWindow, ASoftContactPushesAPointInTheAirAsItsMomentsDo) {
     }
 }
 
-// The series of the slow part is asymptotic: a window as long as a row does not reach with 24 terms what half a row does with 21.
+// The series of the slow part is asymptotic: a window as long as a row does not reach with 24 terms
+// what half a row does with 21.
 TEST(MacroWindow, MoreTermsDoNotMakeUpForALongerWindow) {
     EXPECT_GT(split_against_steps(1, 24, 1), 10 * split_against_steps(2, 21, 1));
 }
@@ -126,7 +136,8 @@ TEST(MacroWindow, IsNeverLongerThanTheSplitAllowsAndKeepsWhatTheToleranceNeeds) 
     }
 }
 
-// Where no contact is split a window may be twice as long, unless its tolerance asks for more terms than there are.
+// Where no contact is split a window may be twice as long, unless its tolerance asks for more terms
+// than there are.
 TEST(MacroWindow, IsLongerWhereNothingIsSplitAndTheTermsReach) {
     for (const double tolerance : {1e-3, 1e-6, 1e-10, 1e-12}) {
         const auto c = choose_window(tolerance, 4.78, false);
@@ -136,7 +147,8 @@ TEST(MacroWindow, IsLongerWhereNothingIsSplitAndTheTermsReach) {
     EXPECT_EQ(choose_window(1e-15, 4.78, false).per_row, 2);
 }
 
-// Two modes with a thread near their end, bent and let go: where the contact's point is `rows` of 0.25 ms later [m].
+// Two modes with a thread near their end, bent and let go: where the contact's point is `rows` of
+// 0.25 ms later [m].
 double after_rows(int rows, int terms, double& truncation) {
     String s = c3_release().strings.front();
     s.linear_density = 7.58e-3;
@@ -146,7 +158,8 @@ double after_rows(int rows, int terms, double& truncation) {
     s.thread = Thread{0.0244, 1e-3, 7.2e4, 0.22, 0};
     const Modes modes = modes_of(s, 2);
     MacroWindow w(modes, s, 1 / 4000.0, 1e-12, {}, 1, terms);
-    std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0), none(2 * w.stride, 0.0);
+    std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0),
+                        none(2 * w.stride, 0.0);
     for (int row = 0; row < rows; ++row) {
         w.open(y.data(), u.data(), false, 0);
         w.state_at(1, none.data(), y.data(), u.data(), y.data(), u.data());
@@ -155,8 +168,9 @@ double after_rows(int rows, int terms, double& truncation) {
     return dot(w.osc, w.springs.weights.data(), y.data());
 }
 
-// The thread moves the modes as exactly as crossings are found, though its damper asks for one derivative more than the contact does. A
-// force that ended one derivative earlier would add up, over 64 windows, to 3 to 8 times the bound within which a contact may be missed.
+// The thread moves the modes as exactly as crossings are found, though its damper asks for one
+// derivative more than the contact does. A force that ended one derivative earlier would add up,
+// over 64 windows, to 3 to 8 times the bound within which a contact may be missed.
 TEST(MacroWindow, TheThreadMovesTheModesAsExactlyAsCrossingsAreFound) {
     for (const int terms : {6, 8, 10}) {
         double bound = 0, none = 0;
@@ -165,7 +179,8 @@ TEST(MacroWindow, TheThreadMovesTheModesAsExactlyAsCrossingsAreFound) {
     }
 }
 
-// Weights are in units of the last point's. One at the string's end, where no mode moves, changes no other.
+// Weights are in units of the last point's. One at the string's end, where no mode moves, changes
+// no other.
 TEST(MacroWindow, APointThatNoModeMovesLeavesTheOthersAsTheyWere) {
     String s = c3_release().strings.front();
     const Modes modes = modes_of(s, 133);
@@ -174,7 +189,8 @@ TEST(MacroWindow, APointThatNoModeMovesLeavesTheOthersAsTheyWere) {
         if (fixed) s.barriers.push_back(LumpedBarrier{0, -1, 0, {1e7}, 1, 0});
         s.thread.reset();
         MacroWindow w(modes, s, 1 / 44100.0, 1e-10);
-        std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0), M(2 * w.stride, 0.0);
+        std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0),
+                            M(2 * w.stride, 0.0);
         for (int n = 0; n < w.terms; ++n) M[n] = 1e-2 * inverse_factorial[n + 1];
         w.open(y.data(), u.data(), false, 0);
         ends.emplace_back(w.free_motion(0), w.free_motion(0) + w.size);
@@ -184,16 +200,20 @@ TEST(MacroWindow, APointThatNoModeMovesLeavesTheOthersAsTheyWere) {
         for (const auto* x : {&y, &u}) ends.back().insert(ends.back().end(), x->begin(), x->end());
     }
     ASSERT_EQ(ends[0].size(), ends[1].size());
-    for (std::size_t i = 0; i < ends[0].size(); ++i) EXPECT_NEAR(ends[0][i], ends[1][i], 1e-12 * std::abs(ends[0][i]) + 1e-17) << i;
+    for (std::size_t i = 0; i < ends[0].size(); ++i)
+        EXPECT_NEAR(ends[0][i], ends[1][i], 1e-12 * std::abs(ends[0][i]) + 1e-17) << i;
 }
 
-// Two pairs of frequencies near one another over a slow parabola: the first crossing of a sampled gap, and never later.
+// Two pairs of frequencies near one another over a slow parabola: the first crossing of a sampled
+// gap, and never later.
 TEST(FirstCrossing, FindsWhatDenseSamplingFindsAndNeverLater) {
     int crossings = 0;
     for (int trial = 0; trial < 200; ++trial) {
-        const double a = std::fmod(trial * 0.7548776662, 1.0), b = std::fmod(trial * 0.5698402910, 1.0);
+        const double a = std::fmod(trial * 0.7548776662, 1.0),
+                     b = std::fmod(trial * 0.5698402910, 1.0);
         double p[64] = {1.2 + a, -2 * b, -4 * a};
-        const std::complex<double> amplitude[2] = {{0.6 * b, 0.3}, {0.4 * a, -0.2}}, rate[2] = {{-0.5, 40 + 30 * a}, {-2, 95}};
+        const std::complex<double> amplitude[2] = {{0.6 * b, 0.3}, {0.4 * a, -0.2}},
+                                   rate[2] = {{-0.5, 40 + 30 * a}, {-2, 95}};
         const Gap gap{1, p, 24, 3, amplitude, rate, 2};
         if (gap.at(0).g < 0) continue;
         const double found = first_crossing(gap, 1, 1e-16);
@@ -209,15 +229,18 @@ TEST(FirstCrossing, FindsWhatDenseSamplingFindsAndNeverLater) {
     EXPECT_GT(crossings, 50);
 }
 
-// Gaps of a window without contact: up to three slow waves beside a height. Those that stay open are most, and mostly seen at a glance.
+// Gaps of a window without contact: up to three slow waves beside a height. Those that stay open
+// are most, and mostly seen at a glance.
 TEST(FirstCrossing, SaysOpenOnlyWhereDenseSamplingFindsNoCrossing) {
     int crossings = 0, open = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         double p[64] = {0.8 + 0.7 * std::fmod(trial * 0.7548776662, 1.0)};
         for (int wave = 0; wave < 3; ++wave) {
-            const double rate = 4.8 * std::fmod(trial * 0.5698402910 + 0.3 * wave, 1.0), phase = 0.61 * trial + wave;
+            const double rate = 4.8 * std::fmod(trial * 0.5698402910 + 0.3 * wave, 1.0),
+                         phase = 0.61 * trial + wave;
             double power = 0.5;
-            for (int n = 0; n < 32; ++n, power *= rate) p[n] += power * std::cos(phase + 0.5 * n * std::numbers::pi);
+            for (int n = 0; n < 32; ++n, power *= rate)
+                p[n] += power * std::cos(phase + 0.5 * n * std::numbers::pi);
         }
         if (p[0] < 0) continue;
         for (const double sign : {1.0, -1.0}) {

@@ -1,5 +1,5 @@
-// Profiles under the references: the rule that makes points of them, the scheme that shares those points,
-// and closed forms of strings against long obstacles.
+// Profiles under the references: the rule that makes points of them, the scheme that shares those
+// points, and closed forms of strings against long obstacles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,16 +27,15 @@ String ideal_string() {
     return s;
 }
 
-double wave_speed(const String& s) {
-    return std::sqrt(s.tension / s.linear_density);
-}
+double wave_speed(const String& s) { return std::sqrt(s.tension / s.linear_density); }
 
 Scene scene_of(String s, double duration) {
     Scene scene;
     scene.name = "string";
     scene.duration = duration;
     scene.strings = {std::move(s)};
-    scene.taps = {{"y03", Quantity::displacement, 0, 0.3 * scene.strings[0].length}, {"bridge", Quantity::bridge_force, 0, 0}};
+    scene.taps = {{"y03", Quantity::displacement, 0, 0.3 * scene.strings[0].length},
+                  {"bridge", Quantity::bridge_force, 0, 0}};
     return scene;
 }
 
@@ -49,7 +48,8 @@ TEST(ProfilePoints, IntegrateAForceOverTheProfileWithSecondOrder) {
         double sum = 0;
         for (const Barrier& barrier : with_points(s, 10, {count}).barriers) {
             const auto& b = std::get<LumpedBarrier>(barrier);
-            sum += b.stiffness.k * std::pow(b.height + 0.5 * b.position, b.exponent) * std::sin(3 * pi * b.position / s.length);
+            sum += b.stiffness.k * std::pow(b.height + 0.5 * b.position, b.exponent) *
+                   std::sin(3 * pi * b.position / s.length);
         }
         return sum;
     };
@@ -62,7 +62,8 @@ TEST(ProfilePoints, IntegrateAForceOverTheProfileWithSecondOrder) {
 
 TEST(ProfilePoints, OfTheGridLieOnItsNodesWithAnIntervalsWeightEach) {
     String s = ideal_string();
-    s.barriers = {ProfileBarrier{LineCurve{-0.01}, 0, 0.24, {1e9}, 1.3, 2}, LumpedBarrier{0.5, 0, 0, {1e9}, 1, 0}};
+    s.barriers = {ProfileBarrier{LineCurve{-0.01}, 0, 0.24, {1e9}, 1.3, 2},
+                  LumpedBarrier{0.5, 0, 0, {1e9}, 1, 0}};
     const String points = with_points(s, 9, {0});  // nodes at 0.08 m, 0.16 m, 0.24 m
     ASSERT_EQ(points.barriers.size(), 4u);
     for (int q = 0; q < 3; ++q) {
@@ -87,14 +88,13 @@ TEST(ProfilePoints, RefuseWhatComesToNoneOrTooMany) {
     const auto reason = [&](const char* nodes) -> std::string {
         try {
             run(sundials, scene_of(s, 1e-3), {0, 44100, 9, {{"nodes", nodes}}});
-        } catch (const Refusal& refusal) {
-            return refusal.what();
-        }
+        } catch (const Refusal& refusal) { return refusal.what(); }
         return "accepted";
     };
     EXPECT_EQ(reason("257"), "option nodes: expected grid, or a whole number from 1 to 256");
     EXPECT_EQ(reason("0"), "option nodes: expected grid, or a whole number from 1 to 256");
-    EXPECT_EQ(reason("200"), "the profiles come to 400 points of contact; the references take 256 at most");
+    EXPECT_EQ(reason("200"),
+              "the profiles come to 400 points of contact; the references take 256 at most");
     EXPECT_NE(reason("grid").find("no node of a grid of 9"), std::string::npos);
 }
 
@@ -133,10 +133,11 @@ TEST(ProfileReferences, AreWhatTheSpatialSchemeConvergesToOnItsOwnNodes) {
     EXPECT_LT(error.back(), 4e-6);
 }
 
-// ---- Static wrap. An ideal string whose ends lie h below the top of the parabola g = h - c (x - L/2)^2, at rest. Where it is pressed in
-// by eta, T y'' + K eta = 0 with y = g - eta gives eta = 2c/k^2 (1 - cosh k xi/cosh k a), k^2 = K/T, |xi| <= a; elsewhere it is straight,
-// and both slopes agree at the edges: s = 2ca - (2c/k) tanh ka, s (L/2 - a) = h - c a^2. The force is 2Ts. Rigid limit: the tangent from
-// the end, a = L/2 - sqrt(L^2/4 - h/c), F = 4Tca.
+// ---- Static wrap. An ideal string whose ends lie h below the top of the parabola g = h - c (x -
+// L/2)^2, at rest. Where it is pressed in by eta, T y'' + K eta = 0 with y = g - eta gives eta =
+// 2c/k^2 (1 - cosh k xi/cosh k a), k^2 = K/T, |xi| <= a; elsewhere it is straight, and both slopes
+// agree at the edges: s = 2ca - (2c/k) tanh ka, s (L/2 - a) = h - c a^2. The force is 2Ts. Rigid
+// limit: the tangent from the end, a = L/2 - sqrt(L^2/4 - h/c), F = 4Tca.
 // Since s depends on a - 1/k up to k^-2, the edge comes to it like k^-1, the force like k^-2.
 
 struct Wrap {
@@ -157,7 +158,8 @@ struct Wrap {
     }
     Scene scene(double K) const {
         String s = ideal_string();
-        s.damping = PolynomialDamping{pi / length * wave_speed(s), 0, 0};  // the first mode's critical
+        // the first mode's critical
+        s.damping = PolynomialDamping{pi / length * wave_speed(s), 0, 0};
         TableCurve table;
         for (int i = 0; i <= 400; ++i) {
             const double xi = -0.2 + 1e-3 * i;
@@ -168,7 +170,9 @@ struct Wrap {
         s.initial = ModeInitial{1, 6e-3};
         Scene scene = scene_of(s, 40e-3);
         scene.taps = {{"bridge", Quantity::bridge_force, 0, 0}, {"nut", Quantity::nut_force, 0, 0}};
-        for (int i = 0; i <= taps; ++i) scene.taps.push_back({"y" + std::to_string(i), Quantity::displacement, 0, 0.5 * length + xi(i)});
+        for (int i = 0; i <= taps; ++i)
+            scene.taps.push_back(
+                {"y" + std::to_string(i), Quantity::displacement, 0, 0.5 * length + xi(i)});
         return scene;
     }
     static constexpr int taps = 160;
@@ -178,7 +182,8 @@ struct Wrap {
         double before = 0;
         for (int i = 0; i <= taps; ++i) {
             const double gap = trace.column(2 + i)[trace.rows - 1] - (h - c * xi(i) * xi(i));
-            if (i > 0 && (gap < 0) != (before < 0)) at.push_back(xi(i) - (xi(i) - xi(i - 1)) * gap / (gap - before));
+            if (i > 0 && (gap < 0) != (before < 0))
+                at.push_back(xi(i) - (xi(i) - xi(i - 1)) * gap / (gap - before));
             before = gap;
         }
         return at;
@@ -193,11 +198,13 @@ TEST(StaticWrap, HasTheForceAndTheLengthOfItsClosedForm) {
         const auto closed = wrap.edge(K);
         for (const Descriptor* d : {&exact_contact, &sundials}) {
             if (d == &sundials && K > 2e4) continue;
-            const auto r = run(*d, wrap.scene(K), {0, 1000, modes, {{"nodes", std::to_string(points)}}});
+            const auto r =
+                run(*d, wrap.scene(K), {0, 1000, modes, {{"nodes", std::to_string(points)}}});
             const auto settled = r.trace.rows - 1;
             const double F = r.trace.column(0)[settled];
             EXPECT_NEAR(F, 2 * wrap.tension * closed.slope, 3e-4 * F) << d->name << " " << K;
-            EXPECT_NEAR(r.trace.column(1)[settled], wrap.tension * closed.slope, 4e-4 * F) << d->name << " " << K;
+            EXPECT_NEAR(r.trace.column(1)[settled], wrap.tension * closed.slope, 4e-4 * F)
+                << d->name << " " << K;
             const auto edges = wrap.edges(r.trace);
             ASSERT_EQ(edges.size(), 2u) << d->name << " " << K;
             const double spacing = 0.4 / points;
@@ -216,59 +223,68 @@ TEST(StaticWrap, HasTheForceAndTheLengthOfItsClosedForm) {
 
 // ---- The ideal string on a flat obstacle as long as itself.
 
-// Released from its first mode over an obstacle at rest level, it meets all of it at once, and as its penetration has the shape of the mode
-// as well, it stays in it: cos(omega t), then half cycles with sqrt(omega^2 + K/mu), then half cycles with omega.
+// Released from its first mode over an obstacle at rest level, it meets all of it at once, and as
+// its penetration has the shape of the mode as well, it stays in it: cos(omega t), then half cycles
+// with sqrt(omega^2 + K/mu), then half cycles with omega.
 TEST(FlatObstacle, ReflectsTheFirstModeAsItsClosedFormSays) {
     String s = ideal_string();
     const double A = 3e-3, omega = pi * wave_speed(s) / s.length;
     s.initial = ModeInitial{1, A};
     for (const double K : {1e5, 1e11}) {
         s.barriers = {ProfileBarrier{FlatCurve{}, 0, s.length, {K}, 1, 0}};
-        const double stiff = std::sqrt(omega * omega + K / s.linear_density), period = pi / omega + pi / stiff;
+        const double stiff = std::sqrt(omega * omega + K / s.linear_density),
+                     period = pi / omega + pi / stiff;
         for (const Descriptor* d : {&exact_contact, &sundials})
             for (const char* nodes : {"grid", "16", "40"}) {
                 const auto r = run(*d, scene_of(s, 20e-3), {0, 44100, 15, {{"nodes", nodes}}});
                 std::vector<double> want;
                 for (long n = 0; n < r.trace.rows; ++n) {
                     const double since = std::fmod(n / 44100.0 + 0.5 * pi / omega, period);
-                    want.push_back(
-                        std::sin(0.3 * pi) * A *
-                        (since < pi / omega ? std::sin(omega * since) : -omega / stiff * std::sin(stiff * (since - pi / omega))));
+                    want.push_back(std::sin(0.3 * pi) * A *
+                                   (since < pi / omega
+                                        ? std::sin(omega * since)
+                                        : -omega / stiff * std::sin(stiff * (since - pi / omega))));
                 }
                 ASSERT_EQ(r.status.outcome, Outcome::ok) << d->name << " " << nodes << " " << K;
-                EXPECT_LT(relative_l2(r.trace.column(0), want), d == &exact_contact ? 1e-13 : 1e-9) << d->name << " " << nodes << " " << K;
+                EXPECT_LT(relative_l2(r.trace.column(0), want), d == &exact_contact ? 1e-13 : 1e-9)
+                    << d->name << " " << nodes << " " << K;
             }
     }
 }
 
-// Plucked to a triangle at the middle, height A, over an obstacle h below: the corner opens to a flat top that sinks with A 2c/L while its
-// flanks rest (d'Alembert). All that moves lands at once at ct = L/2 (1 + h/A), is thrown back with the same speed, and so the motion runs
-// backwards: it repeats itself after L/c (1 + h/A) (Cabannes 1984).
+// Plucked to a triangle at the middle, height A, over an obstacle h below: the corner opens to a
+// flat top that sinks with A 2c/L while its flanks rest (d'Alembert). All that moves lands at once
+// at ct = L/2 (1 + h/A), is thrown back with the same speed, and so the motion runs backwards: it
+// repeats itself after L/c (1 + h/A) (Cabannes 1984).
 TEST(FlatObstacle, ThrowsAPluckedStringBackTheWayItCame) {
     String s = ideal_string();
-    const double A = 3e-3, h = 1.2e-3, c = wave_speed(s), L = s.length, period = L / c * (1 + h / A);
+    const double A = 3e-3, h = 1.2e-3, c = wave_speed(s), L = s.length,
+                 period = L / c * (1 + h / A);
     s.initial = TriangleInitial{0.5 * L, A, 0};
     const auto triangle = [&](double x) {  // odd, 2L periodic
         x = std::remainder(x, 2 * L);
         return std::copysign(A * (1 - std::abs(2 * std::abs(x) / L - 1)), x);
     };
     double last = 0;
-    for (const double ratio : {20, 40, 80}) {  // sqrt(K/mu)/omega_1: it stays pi/sqrt(K/mu) in the obstacle at each bounce
+    // sqrt(K/mu)/omega_1: it stays pi/sqrt(K/mu) in the obstacle at each bounce
+    for (const double ratio : {20, 40, 80}) {
         const double stiff = ratio * pi * c / L, K = s.linear_density * stiff * stiff;
         s.barriers = {ProfileBarrier{TableCurve{"", {0, L}, {-h, -h}}, 0, L, {K}, 1, 0}};
-        const auto r = run(exact_contact, scene_of(s, 2 * period), {0, 44100, 47, {{"nodes", "grid"}}});
+        const auto r =
+            run(exact_contact, scene_of(s, 2 * period), {0, 44100, 47, {{"nodes", "grid"}}});
         std::vector<double> rigid, delayed;
         for (long n = 0; n < r.trace.rows; ++n) {
-            const auto at = [&](double t) { return 0.5 * (triangle(0.3 * L + c * t) + triangle(0.3 * L - c * t)); };
-            const double t = n / r.trace.tap_rate, longer = period + pi / stiff, since = std::fmod(t, longer);
+            const auto at = [&](double t) {
+                return 0.5 * (triangle(0.3 * L + c * t) + triangle(0.3 * L - c * t));
+            };
+            const double t = n / r.trace.tap_rate, longer = period + pi / stiff,
+                         since = std::fmod(t, longer);
             rigid.push_back(at(0.5 * period - std::abs(std::fmod(t, period) - 0.5 * period)));
             delayed.push_back(at(std::min({since, 0.5 * period, longer - since})));
         }
         const double error = relative_l2(r.trace.column(0), rigid);
         EXPECT_LT(relative_l2(r.trace.column(0), delayed), 0.25 * error) << ratio;
-        if (last > 0) {
-            EXPECT_NEAR(std::log2(last / error), 1, 0.1) << ratio;
-        }
+        if (last > 0) { EXPECT_NEAR(std::log2(last / error), 1, 0.1) << ratio; }
         last = error;
     }
     EXPECT_LT(last, 0.06);

@@ -1,4 +1,5 @@
-// A rigid point under a string, where only what the cut modes lack gives way: the point bridge of Issanchou et al. 2016, released.
+// A rigid point under a string, where only what the cut modes lack gives way: the point bridge of
+// Issanchou et al. 2016, released.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,19 +14,24 @@ namespace jvari {
 namespace {
 
 Scene over(const std::string& stiffness) {
-    Scene scene = read_scene("two_point_bridge", {"string.0.barrier.0.exponent=1", "string.0.initial.smoothing=0.1",
-                                                  "string.0.barrier.0.stiffness=" + stiffness});
+    Scene scene = read_scene("two_point_bridge",
+                             {"string.0.barrier.0.exponent=1", "string.0.initial.smoothing=0.1",
+                              "string.0.barrier.0.stiffness=" + stiffness});
     scene.duration = 12e-3;
     return scene;
 }
 constexpr int y10mm = 0, y03 = 1;
 
-Trace motion(const char* scheme, const Scene& scene, int modes, const char* compliance, double rate = 64000) {
-    const Descriptor& d = std::string(scheme) == exact_contact.name
-                              ? exact_contact
-                              : *std::find_if(schemes().begin(), schemes().end(),
-                                              [scheme](const Descriptor& one) { return one.name == std::string(scheme); });
-    const Settings s{d.clock == Clock::continuous ? 0 : rate, 64000, modes, {{"compliance", compliance}}};
+Trace motion(const char* scheme, const Scene& scene, int modes, const char* compliance,
+             double rate = 64000) {
+    const Descriptor& d =
+        std::string(scheme) == exact_contact.name
+            ? exact_contact
+            : *std::find_if(schemes().begin(), schemes().end(), [scheme](const Descriptor& one) {
+                  return one.name == std::string(scheme);
+              });
+    const Settings s{
+        d.clock == Clock::continuous ? 0 : rate, 64000, modes, {{"compliance", compliance}}};
     const jvari::Run r = run(d, scene, s);
     EXPECT_EQ(r.status.outcome, Outcome::ok);
     return r.trace;
@@ -44,13 +50,17 @@ TEST(RigidBarrier, FortyMatchedModesAreWithinThreeThousandthsOfAThousand) {
     const Trace truth = motion("exact_contact", scene, 1000, "matched");
     EXPECT_LT(difference(motion("exact_contact", scene, 40, "matched"), truth, y03), 3e-3);
     EXPECT_LT(difference(motion("modal_two_point", scene, 40, "matched"), truth, y03), 3e-3);
-    EXPECT_LT(difference(motion("modal_two_point", scene, 40, "matched", 512000), truth, y03), 3e-3);
-    EXPECT_GT(difference(motion("modal_two_point", scene, 40, "own"), truth, y03), 1e-2) << "matching adds nothing";
+    EXPECT_LT(difference(motion("modal_two_point", scene, 40, "matched", 512000), truth, y03),
+              3e-3);
+    EXPECT_GT(difference(motion("modal_two_point", scene, 40, "own"), truth, y03), 1e-2)
+        << "matching adds nothing";
 }
 
 TEST(RigidBarrier, IsWhatASpringTendsToAsItStiffens) {
     const Trace truth = motion("exact_contact", over("rigid"), 40, "matched");
-    const auto away = [&](const char* k) { return difference(motion("exact_contact", over(k), 40, "matched"), truth, y10mm); };
+    const auto away = [&](const char* k) {
+        return difference(motion("exact_contact", over(k), 40, "matched"), truth, y10mm);
+    };
     const double soft = away("1e8"), stiff = away("1e9"), stiffest = away("1e10");
     EXPECT_NEAR(soft / stiff, 10, 0.5);
     EXPECT_NEAR(stiff / stiffest, 10, 0.5);
@@ -62,7 +72,8 @@ TEST(RigidBarrier, TwoPointsAreSolvedTogether) {
     scene.strings[0].barriers.push_back(LumpedBarrier{0.012, 0, -1e-5, {rigid}, 1, 0});
     const Trace truth = motion("exact_contact", scene, 160, "matched");
     EXPECT_LT(difference(motion("exact_contact", scene, 40, "matched"), truth, y03), 3e-3);
-    EXPECT_LT(difference(motion("modal_two_point", scene, 40, "matched", 512000), truth, y03), 3e-3);
+    EXPECT_LT(difference(motion("modal_two_point", scene, 40, "matched", 512000), truth, y03),
+              3e-3);
 }
 
 // Where that ends: with a corner, or with the point in the open string,
@@ -73,15 +84,19 @@ TEST(RigidBarrier, ACornerAndAPointInTheOpenStringAskForMoreModes) {
         if (corner) std::get<TriangleInitial>(*scene.strings[0].initial).smoothing = 0;
         else std::get<LumpedBarrier>(scene.strings[0].barriers[0]).position = 0.4;
         const Trace truth = motion("exact_contact", scene, 500, "matched");
-        const double matched = difference(motion("modal_two_point", scene, 40, "matched", 704000), truth, y03);
+        const double matched =
+            difference(motion("modal_two_point", scene, 40, "matched", 704000), truth, y03);
         EXPECT_LT(matched, 7e-3) << corner;
         EXPECT_GT(matched, 1e-3) << corner;
-        EXPECT_GT(difference(motion("modal_moreau_jean", scene, 40, "own", 704000), truth, y03), 5 * matched) << corner;
+        EXPECT_GT(difference(motion("modal_moreau_jean", scene, 40, "own", 704000), truth, y03),
+                  5 * matched)
+            << corner;
     }
 }
 
 TEST(RigidBarrier, AProfileOfRigidPointsIsKnownToFewMatchedModesToo) {
-    Scene scene = read_scene("sitar_parabola", {"string.0.barrier.0.stiffness_density=rigid", "string.0.barrier.0.exponent=1"});
+    Scene scene = read_scene("sitar_parabola", {"string.0.barrier.0.stiffness_density=rigid",
+                                                "string.0.barrier.0.exponent=1"});
     scene.duration = 5e-3;
     constexpr int y = 2;  // y03
     const Trace truth = motion("modal_two_point", scene, 320, "matched", 704000);
@@ -102,9 +117,7 @@ TEST(RigidBarrier, TheTwoPointStringRefusesAStartInsideItAndASofterOneBesideIt) 
     const auto refusal = [](const Scene& scene) -> std::string {
         try {
             motion("modal_two_point", scene, 40, "matched");
-        } catch (const Refusal& r) {
-            return r.what();
-        }
+        } catch (const Refusal& r) { return r.what(); }
         return "";
     };
     Scene inside = over("rigid"), beside = inside;

@@ -1,4 +1,5 @@
-// The integrated reference: its equations against their own derivatives, closed forms of an impact, and the exact reference.
+// The integrated reference: its equations against their own derivatives, closed forms of an impact,
+// and the exact reference.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -32,7 +33,8 @@ struct Equations : testing::Test {
     Equations() {
         Scene scene = c3_pluck();
         String& s = scene.strings.front();
-        s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}, LumpedBarrier{0.3, 0, 1e-5, {1e7}, 1.3, 40},
+        s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0},
+                      LumpedBarrier{0.3, 0, 1e-5, {1e7}, 1.3, 40},
                       LumpedBarrier{0.7, 0, 0, {1e7}, 2, 0}};
         s.thread->height = 1e-6;
         equations.emplace(modes_of(s, 13), s);
@@ -47,7 +49,8 @@ struct Equations : testing::Test {
             z[i] = 1e-3 * normal(random);
             b[i] = normal(random);
         }
-        for (int i = 13; i < equations->padded; ++i) z[i] = z[equations->padded + i] = b[i] = b[equations->padded + i] = 0;
+        for (int i = 13; i < equations->padded; ++i)
+            z[i] = z[equations->padded + i] = b[i] = b[equations->padded + i] = 0;
     }
     std::optional<StringEquations> equations;
     Eigen::VectorXd z, b;
@@ -68,9 +71,12 @@ TEST_F(Equations, SolveTheNewtonMatrixOfTheirSlopeAsADenseSolverDoes) {
     for (const double gamma : {1e-9, 1e-7, 1e-5}) {
         Eigen::VectorXd x(n);
         equations->solve(1e-3, gamma, z.data(), b.data(), x.data());
-        const Eigen::VectorXd dense = (Eigen::MatrixXd::Identity(n, n) - gamma * jacobian).partialPivLu().solve(b);
+        const Eigen::VectorXd dense =
+            (Eigen::MatrixXd::Identity(n, n) - gamma * jacobian).partialPivLu().solve(b);
         EXPECT_LT((x - dense).norm(), 1e-6 * dense.norm()) << "gamma " << gamma;
-        EXPECT_LT((x - dense).tail(StringEquations::sums).norm(), 1e-5 * dense.tail(StringEquations::sums).norm()) << "gamma " << gamma;
+        EXPECT_LT((x - dense).tail(StringEquations::sums).norm(),
+                  1e-5 * dense.tail(StringEquations::sums).norm())
+            << "gamma " << gamma;
     }
 }
 
@@ -90,13 +96,16 @@ struct Impact {
         string.initial = ModeInitial{1, amplitude};
         string.barriers = {LumpedBarrier{0.5, 0, 0, {k}, exponent, loss}};
         s.strings = {string};
-        s.taps = {{"y", Quantity::displacement, 0, 0.5}, {"v", Quantity::velocity, 0, 0.5}, {"bridge", Quantity::bridge_force, 0, 0}};
+        s.taps = {{"y", Quantity::displacement, 0, 0.5},
+                  {"v", Quantity::velocity, 0, 0.5},
+                  {"bridge", Quantity::bridge_force, 0, 0}};
         return s;
     }
     struct Outcome {
         double duration, speed;
     };
-    // It falls as A cos(omega0 t) and rises as (speed/omega0) sin(omega0 (t - pi/2omega0 - duration)).
+    // It falls as A cos(omega0 t) and rises as (speed/omega0) sin(omega0 (t - pi/2omega0 -
+    // duration)).
     Outcome outcome(const Scene& s, const Options& options) const {
         const auto r = run(sundials, s, {0, 1000, 1, options});
         EXPECT_EQ(r.status.outcome, jvari::Outcome::ok);
@@ -108,7 +117,8 @@ struct Impact {
 
 TEST(Impact, LastsAsLongAsALinearSpringsHalfPeriod) {
     const Impact impact;
-    const double k = 1e9, duration = pi / std::sqrt(k / impact.mass + impact.omega0 * impact.omega0);
+    const double k = 1e9,
+                 duration = pi / std::sqrt(k / impact.mass + impact.omega0 * impact.omega0);
     for (const char* method : {"bdf", "adams"}) {
         const auto outcome = impact.outcome(impact.scene(k, 1, 0), {{"method", method}});
         EXPECT_NEAR(outcome.duration, duration, 1e-7 * duration) << method;
@@ -116,8 +126,8 @@ TEST(Impact, LastsAsLongAsALinearSpringsHalfPeriod) {
     }
 }
 
-// m v^2/2 = k eta^(a+1)/(a+1): T = 2 eta_max/v int_0^1 du/sqrt(1 - u^(a+1)) = 2 eta_max/v B(1/(a+1), 1/2)/(a+1). The string's own stiffness
-// changes it by a part (omega0 T)^2 or so.
+// m v^2/2 = k eta^(a+1)/(a+1): T = 2 eta_max/v int_0^1 du/sqrt(1 - u^(a+1)) = 2 eta_max/v
+// B(1/(a+1), 1/2)/(a+1). The string's own stiffness changes it by a part (omega0 T)^2 or so.
 TEST(Impact, OfAPowerLawLastsAsTheBetaFunctionSays) {
     const Impact impact;
     for (const double exponent : {1.3, 1.5, 2.0, 2.7}) {
@@ -128,7 +138,8 @@ TEST(Impact, OfAPowerLawLastsAsTheBetaFunctionSays) {
             const auto outcome = impact.outcome(impact.scene(k, exponent, 0), {{"method", method}});
             const double stiffness = std::pow(impact.omega0 * duration, 2);
             ASSERT_LT(stiffness, 0.05);
-            EXPECT_NEAR(outcome.duration, duration, stiffness * duration) << exponent << " " << method;
+            EXPECT_NEAR(outcome.duration, duration, stiffness * duration)
+                << exponent << " " << method;
             EXPECT_NEAR(outcome.speed, v, 1e-8 * v) << exponent << " " << method;
         }
     }
@@ -138,7 +149,8 @@ TEST(Impact, IsUnaffectedByTheStringInTheLimitOfAStiffBarrier) {
     const Impact impact;
     double last = 1;
     for (const double k : {1e9, 1e11, 1e13}) {  // exponent 1.3
-        const double n = 2.3, v = impact.speed(), deepest = std::pow(n * impact.mass * v * v / (2 * k), 1 / n);
+        const double n = 2.3, v = impact.speed(),
+                     deepest = std::pow(n * impact.mass * v * v / (2 * k), 1 / n);
         const double duration = 2 * deepest / v * std::beta(1 / n, 0.5) / n;
         const auto outcome = impact.outcome(impact.scene(k, 1.3, 0), {});
         const double error = std::abs(outcome.duration / duration - 1);
@@ -149,7 +161,8 @@ TEST(Impact, IsUnaffectedByTheStringInTheLimitOfAStiffBarrier) {
     EXPECT_LT(last, 1e-7);
 }
 
-// v dv/(1 + beta v) = -(k/m) eta^a deta, both sides a full differential: v/beta - ln(1 + beta v)/beta^2 is the same on the way in and out.
+// v dv/(1 + beta v) = -(k/m) eta^a deta, both sides a full differential: v/beta - ln(1 + beta
+// v)/beta^2 is the same on the way in and out.
 TEST(Impact, LosesToHuntCrossleyWhatTheClosedFormSays) {
     const Impact impact;
     for (const double exponent : {1.0, 1.5}) {
@@ -172,7 +185,8 @@ Scene two_barriers() {  // of different heights, a thread, a pluck with skew
     Scene scene = c3_pluck();
     scene.duration = 8e-3;
     String& s = scene.strings.front();
-    s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}, LumpedBarrier{0.3, 0, -1e-5, {1e6}, 1, 0}};
+    s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0},
+                  LumpedBarrier{0.3, 0, -1e-5, {1e6}, 1, 0}};
     s.pluck->duration = 3e-3;
     s.pluck->start = 0.1e-3;
     s.pluck->skew = 4;
@@ -186,8 +200,12 @@ TEST(Integrated, AgreesWithTheExactReferenceAndFindsItsEvents) {
         const auto truth = run(exact_contact, s, {0, 44100, 40, {}}), r = integrated(s, 40);
         EXPECT_EQ(fact(r, "events"), fact(truth, "events"));
         EXPECT_GT(fact(r, "events"), 50);
-        for (int k = 0; k < 2; ++k) EXPECT_LT(relative_l2(r.trace.column(k), truth.trace.column(k)), 1e-9) << r.trace.names[k];
-        for (int k = 2; k < 4; ++k) EXPECT_LT(relative_l2(r.trace.column(k), truth.trace.column(k)), 1e-6) << r.trace.names[k];
+        for (int k = 0; k < 2; ++k)
+            EXPECT_LT(relative_l2(r.trace.column(k), truth.trace.column(k)), 1e-9)
+                << r.trace.names[k];
+        for (int k = 2; k < 4; ++k)
+            EXPECT_LT(relative_l2(r.trace.column(k), truth.trace.column(k)), 1e-6)
+                << r.trace.names[k];
     }
 }
 
@@ -195,12 +213,15 @@ TEST(Integrated, ByAnyMethodIsTheSame) {
     Scene scene = c3_release();
     scene.duration = 4e-3;
     const auto truth = run(exact_contact, scene, {0, 44100, 20, {}});
-    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"method", "bdf"}, {"flight", "integrate"}},
+    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}},
+                             Options{{"method", "bdf"}, {"flight", "integrate"}},
                              Options{{"method", "adams"}, {"flight", "integrate"}}}) {
         const auto r = integrated(scene, 20, o);
         ASSERT_EQ(r.status.outcome, Outcome::ok) << o[0].second;
-        EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 3e-8) << o[0].second << " " << o.back().second;
-        EXPECT_EQ(fact(r, "events"), fact(truth, "events")) << o[0].second << " " << o.back().second;
+        EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 3e-8)
+            << o[0].second << " " << o.back().second;
+        EXPECT_EQ(fact(r, "events"), fact(truth, "events"))
+            << o[0].second << " " << o.back().second;
     }
 }
 
@@ -229,17 +250,22 @@ TEST(Integrated, AgreesWithItselfOverTwentyMillisecondsOfTheTwoPointBridge) {
     for (const Options& o : {Options{{"rtol", "1e-12"}}, Options{{"method", "bdf"}}}) {
         const auto r = integrated(scene, 16, o);
         EXPECT_EQ(fact(r, "events"), fact(best, "events"));
-        for (int k = 0; k < 3; ++k) EXPECT_LT(relative_l2(r.trace.column(k), best.trace.column(k)), 1e-7) << r.trace.names[k];
+        for (int k = 0; k < 3; ++k)
+            EXPECT_LT(relative_l2(r.trace.column(k), best.trace.column(k)), 1e-7)
+                << r.trace.names[k];
     }
 }
 
 TEST(Integrated, BalancesTheEnergyOfContactLoss) {
     for (const double loss : {0.0, 0.5}) {
         const auto r = integrated(lossless(power_law(loss)), 20, {}, true);
-        const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), dissipated = r.trace.energy_column(2);
+        const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1),
+                   dissipated = r.trace.energy_column(2);
         double lost = 0;
         for (long n = 1; n < r.trace.rows; ++n) {
-            ASSERT_LE(std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]), 1e-10 * stored[0]) << n;
+            ASSERT_LE(std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]),
+                      1e-10 * stored[0])
+                << n;
             ASSERT_GE(dissipated[n], 0);
             lost += dissipated[n];
         }
@@ -281,12 +307,14 @@ TEST(Integrated, StartsFromRestWhereABarrierPresses) {
         ASSERT_EQ(r.status.outcome, Outcome::ok) << flight;
         EXPECT_LT(relative_l2(r.trace.column(1), truth.trace.column(1)), 1e-7) << flight;
     }
-    const auto r = integrated(pressed(1.15), 20, {}, true), coarser = integrated(pressed(1.15), 20, {{"rtol", "1e-12"}});
+    const auto r = integrated(pressed(1.15), 20, {}, true),
+               coarser = integrated(pressed(1.15), 20, {{"rtol", "1e-12"}});
     ASSERT_EQ(r.status.outcome, Outcome::ok);
     EXPECT_LT(relative_l2(r.trace.column(1), coarser.trace.column(1)), 1e-7);
     const auto stored = r.trace.energy_column(0), dissipated = r.trace.energy_column(2);
     EXPECT_GT(stored[0], 0);
-    for (long n = 1; n < r.trace.rows; ++n) ASSERT_LE(std::abs(stored[n] - stored[n - 1] + dissipated[n]), 1e-9 * stored[0]) << n;
+    for (long n = 1; n < r.trace.rows; ++n)
+        ASSERT_LE(std::abs(stored[n] - stored[n - 1] + dissipated[n]), 1e-9 * stored[0]) << n;
 }
 
 TEST(Integrated, OfAStringAtRestUnderAThreadOrAPluckRunsToo) {
@@ -345,22 +373,28 @@ TEST(References, CanBeEndedWithinARow) {  // of 2^20 s
         }
         const bool integrated = d.name == std::string("sundials");
         if (integrated) scene = c3_release();
-        const bool lattice = d.name == std::string("characteristic_lattice");  // of 2^31 steps a row at most
-        if (lattice) scene = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
+        // of 2^31 steps a row at most
+        const bool lattice = d.name == std::string("characteristic_lattice");
+        if (lattice)
+            scene = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
         scene.duration = 1e7;
         int words = 0;
         const RunOptions until_enough{.progress = [&](long, long) {
             if (++words == 2) throw Enough{};
         }};
         const Options all_of_it = integrated ? Options{{"flight", "integrate"}} : Options{};
-        EXPECT_THROW(run(d, scene, {0, 1.0 / (lattice ? 1 << 7 : 1 << 20), 20, all_of_it}, until_enough), Enough) << d.name;
+        EXPECT_THROW(
+            run(d, scene, {0, 1.0 / (lattice ? 1 << 7 : 1 << 20), 20, all_of_it}, until_enough),
+            Enough)
+            << d.name;
     }
 }
 
 TEST(Integrated, AllocatesNothingAndRepeatsItselfByAnyMethod) {
     Scene scene = c3_release();
     const int taps = static_cast<int>(scene.taps.size());
-    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}}, Options{{"flight", "integrate"}}}) {
+    for (const Options& o : {Options{{"method", "bdf"}}, Options{{"method", "adams"}},
+                             Options{{"flight", "integrate"}}}) {
         const auto scheme = make_scheme(sundials, scene, {0, 44100, 10, o});
         std::vector<double> first(128 * taps), again(first), energy(3 * 128);
         const bench::check::Allocations allocations;
@@ -377,16 +411,16 @@ TEST(Integrated, RefusesWhatItDoesNotRepresent) {
     const auto reason = [](const Scene& scene, const Options& options) -> std::string {
         try {
             integrated(scene, 10, options);
-        } catch (const Refusal& refusal) {
-            return refusal.what();
-        }
+        } catch (const Refusal& refusal) { return refusal.what(); }
         return "accepted";
     };
     Scene turning = c3_release();
     turning.strings.front().polarisation = Polarisation{0.1, 0};
     EXPECT_NE(reason(turning, {}).find("polarisation"), std::string::npos);
-    EXPECT_EQ(reason(c3_release(), {{"method", "euler"}}), "option method: found \"euler\", expected one of bdf, adams");
-    EXPECT_EQ(reason(c3_release(), {{"rtol", "2"}}), "option rtol: expected a tolerance between 0 and 1");
+    EXPECT_EQ(reason(c3_release(), {{"method", "euler"}}),
+              "option method: found \"euler\", expected one of bdf, adams");
+    EXPECT_EQ(reason(c3_release(), {{"rtol", "2"}}),
+              "option rtol: expected a tolerance between 0 and 1");
     EXPECT_NE(reason(c3_release(), {{"atol", "1"}}).find("unknown option atol"), std::string::npos);
 }
 

@@ -36,13 +36,18 @@ TEST(QualityFactor, DecayRatesAreThoseOfAnIndependentProgram) {
 
 TEST(QualityFactor, EachMechanismHasItsOwnPowerOfTheFrequency) {
     const String s = steel();
-    const auto ratio = [&](const QualityFactorDamping& law) { return decay_rate(law, s, 4000) / decay_rate(law, s, 1000); };
-    EXPECT_NEAR(ratio({0, 1.8e-5, 1.2, 0, 0}), 1, 1e-12);   // a thin string in viscous air: as a constant force per velocity
+    const auto ratio = [&](const QualityFactorDamping& law) {
+        return decay_rate(law, s, 4000) / decay_rate(law, s, 1000);
+    };
+    // a thin string in viscous air: as a constant force per velocity
+    EXPECT_NEAR(ratio({0, 1.8e-5, 1.2, 0, 0}), 1, 1e-12);
     EXPECT_NEAR(ratio({1e3, 1.8e-5, 1.2, 0, 0}), 2, 1e-6);  // a thick one: sqrt(nu)
     EXPECT_NEAR(ratio({0, 0, 0, 0.0045, 0}), 64, 1e-10);    // viscoelastic: nu^3
     EXPECT_NEAR(ratio({0, 0, 0, 0, 0.000203}), 4, 1e-12);   // thermoelastic: nu
-    EXPECT_NEAR(decay_rate(QualityFactorDamping{0, 1.8e-5, 1.2, 0, 0}, s, 1000), pi * 1.8e-5 / s.linear_density, 1e-12);
-    EXPECT_NEAR(decay_rate(QualityFactorDamping{0, 0, 0, 0, 1e-3}, s, 1000), pi, 1e-12);  // Q = 1000
+    EXPECT_NEAR(decay_rate(QualityFactorDamping{0, 1.8e-5, 1.2, 0, 0}, s, 1000),
+                pi * 1.8e-5 / s.linear_density, 1e-12);
+    // Q = 1000
+    EXPECT_NEAR(decay_rate(QualityFactorDamping{0, 0, 0, 0, 1e-3}, s, 1000), pi, 1e-12);
 }
 
 TEST(PerPeriod, TheAmplitudeLosesTheFactorInOnePeriodOfTheFirstModeInEveryMode) {
@@ -78,11 +83,12 @@ TEST(ContactModulus, EqualBodiesGiveHalfOfWhatARigidOneGives) {
     EXPECT_NEAR(contact_stiffness(2e11, 2e-3).k, pi / 4 * 2e11 * 2e-3, 1e-6);
 }
 
-// The paper says that k_b of its Table 1, 4.39e8 N/m over 2 mm, follows from eqs 54-55 with the moduli of steel and ivory. It does not:
-// that asks for E* = 279 GPa, more than steel on steel has, while steel on ivory (7-15 GPa in the literature) has 15-31 GPa. The scenes
-// keep the printed k_b.
+// The paper says that k_b of its Table 1, 4.39e8 N/m over 2 mm, follows from eqs 54-55 with the
+// moduli of steel and ivory. It does not: that asks for E* = 279 GPa, more than steel on steel has,
+// while steel on ivory (7-15 GPa in the literature) has 15-31 GPa. The scenes keep the printed k_b.
 TEST(ContactModulus, ThePrintedBridgeIsStifferThanSteelOnIvoryByTheSameEquations) {
-    const double printed = 4.39e8 / (pi / 4 * 2e-3), steel_on_steel = contact_modulus(200e9, 0.3, 200e9, 0.3);
+    const double printed = 4.39e8 / (pi / 4 * 2e-3),
+                 steel_on_steel = contact_modulus(200e9, 0.3, 200e9, 0.3);
     EXPECT_NEAR(printed, 2.795e11, 1e8);
     EXPECT_GT(printed, 1.2 * steel_on_steel);
     for (double ivory : {7e9, 15e9}) {
@@ -112,7 +118,8 @@ TableCurve table_of(std::mt19937& random, int rows, bool falling) {
     TableCurve c{"made up", {-0.3}, {0.2}};
     while (static_cast<int>(c.x.size()) < rows) {
         c.x.push_back(c.x.back() + part(random));
-        c.height.push_back(falling ? c.height.back() - part(random) * part(random) * part(random) : any(random));
+        c.height.push_back(falling ? c.height.back() - part(random) * part(random) * part(random)
+                                   : any(random));
     }
     return c;
 }
@@ -122,11 +129,13 @@ TEST(Curves, ATableIsWhatAnotherProgramMakesOfItToRounding) {
     for (int rows : {2, 3, 4, 20}) {
         const TableCurve c = table_of(random, rows, false);
         const auto* kind = rows == 2 ? gsl_interp_linear : gsl_interp_steffen;
-        const std::unique_ptr<gsl_spline, decltype(&gsl_spline_free)> spline(gsl_spline_alloc(kind, c.x.size()), gsl_spline_free);
+        const std::unique_ptr<gsl_spline, decltype(&gsl_spline_free)> spline(
+            gsl_spline_alloc(kind, c.x.size()), gsl_spline_free);
         gsl_spline_init(spline.get(), c.x.data(), c.height.data(), c.x.size());
         for (int i = 0; i <= 2000; ++i) {
             const double x = std::lerp(c.x.front(), c.x.back(), i / 2000.0);
-            EXPECT_NEAR(height(c, x), gsl_spline_eval(spline.get(), x, nullptr), 1e-14) << rows << " rows, x = " << x;
+            EXPECT_NEAR(height(c, x), gsl_spline_eval(spline.get(), x, nullptr), 1e-14)
+                << rows << " rows, x = " << x;
         }
     }
 }

@@ -13,16 +13,16 @@
 namespace jvari {
 namespace {
 
-String c3() {
-    return c3_free().strings.front();
-}
+String c3() { return c3_free().strings.front(); }
 
 TEST(Modes, TheC3StringHas133ModesBelow20kHz) {
     const String s = c3();
     EXPECT_EQ(modes_below(s, 20e3), 133);
     const Modes m = modes_of(s, 133);
     EXPECT_NEAR(m.omega0.front() / (2 * std::numbers::pi), 130.89, 0.01);
-    EXPECT_NEAR(std::sqrt(omega_squared_damped(m.omega0.back(), m.sigma.back())) / (2 * std::numbers::pi), 19986, 1);
+    EXPECT_NEAR(
+        std::sqrt(omega_squared_damped(m.omega0.back(), m.sigma.back())) / (2 * std::numbers::pi),
+        19986, 1);
 }
 
 TEST(Modes, HowManyLieBelowALimitDoesNotDependOnTheLosses) {
@@ -60,21 +60,25 @@ TEST(Triangle, CoefficientsFallByTheSquareOfTheModeHoweverHigh) {  // A/n^2 sin(
     const TriangleInitial t{0.5, 1e-3, 0};
     for (const int mode : {1, 46341, 65535, 65537, 1048575}) {  // odd: sin = 1 or -1
         const double n = mode;
-        EXPECT_NEAR(std::abs(coefficient(t, 1, mode)) * n * n, std::abs(coefficient(t, 1, 1)), 1e-9 * 1e-3) << mode;
+        EXPECT_NEAR(std::abs(coefficient(t, 1, mode)) * n * n, std::abs(coefficient(t, 1, 1)),
+                    1e-9 * 1e-3)
+            << mode;
     }
 }
 
 TEST(Modes, FootprintWeightIsTheIntegralOfShapeTimesFootprintAlsoAtItsLimit) {
     const String s = c3();
     const Modes m = modes_of(s, 500);
-    const double x = 0.37, w = s.length / 100;  // beta_100 w = pi: the limit pi/4 sin(beta x) of eq 20
+    // beta_100 w = pi: the limit pi/4 sin(beta x) of eq 20
+    const double x = 0.37, w = s.length / 100;
     const auto g = footprint_weights(m, x, w);
     for (int i : {1, 99, 100, 101, 333, 500}) {
         double sum = 0;
         const int n = 4000;
         for (int k = 0; k < n; ++k) {  // midpoint rule on eq 19
             const double u = -w / 2 + (k + 0.5) * w / n;
-            sum += std::numbers::pi / (2 * w) * std::cos(std::numbers::pi * u / w) * std::sin(m.beta[i - 1] * (x + u)) * w / n;
+            sum += std::numbers::pi / (2 * w) * std::cos(std::numbers::pi * u / w) *
+                   std::sin(m.beta[i - 1] * (x + u)) * w / n;
         }
         EXPECT_NEAR(g[i - 1], sum, 2e-6) << i;
     }
@@ -94,7 +98,8 @@ TEST(Modes, SmoothedTriangleStartsFromThePluckedShape) {
             << x;  // the tail of the series is at most 2A/(pi^2 N x0 (1 - x0))
     }
     EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02, 0.02), 0.5, 1e-12);
-    EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02 * (1 + 1e-5), 0.02), 0.5 * (1 - 1.5e-5), 1e-9);
+    EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02 * (1 + 1e-5), 0.02), 0.5 * (1 - 1.5e-5),
+                1e-9);
 }
 
 TEST(Damping, WoodhouseLossFactorsAreThePolynomialLaw) {

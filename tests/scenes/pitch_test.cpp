@@ -14,7 +14,8 @@ TEST(Tuning, TheNoteOfAPitchIsTheNearestWithItsCents) {
     EXPECT_EQ(note_of(440 * std::exp2(-49 / 1200.0)), "A4 -49 cents");
     EXPECT_EQ(note_of(440 * std::exp2(51 / 1200.0)), "A#4 -49 cents");
     EXPECT_EQ(note_of(0), "");
-    for (const char* note : {"C-1", "F#2", "C3", "B9"}) EXPECT_EQ(note_of(*frequency_of_note(note)), note);
+    for (const char* note : {"C-1", "F#2", "C3", "B9"})
+        EXPECT_EQ(note_of(*frequency_of_note(note)), note);
 }
 
 TEST(Tuning, APitchIsWhatTheTensionForItGivesAndInharmonicityRaisesThePartials) {

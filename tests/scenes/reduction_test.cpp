@@ -13,7 +13,8 @@ using namespace jvari;
 
 namespace {
 const Reduction& named(const std::vector<Reduction>& all, const std::string& said) {
-    const auto found = std::ranges::find_if(all, [&](const Reduction& r) { return r.said() == said; });
+    const auto found =
+        std::ranges::find_if(all, [&](const Reduction& r) { return r.said() == said; });
     if (found == all.end()) throw std::runtime_error("no reduction " + said);
     return *found;
 }
@@ -39,10 +40,13 @@ TEST(Reductions, AllTogetherInTheOrderOfTheListLeaveABareString) {
         const std::string last = left.taps.front().name;
         const bool pluck = left.strings.front().pluck.has_value();
         for (const Reduction& r : reductions_of(left))
-            if (r.key != "string.0" && r.key != "tap." + last && r.part != Part::pluck && r.part != Part::initial_shape) r.apply(left);
+            if (r.key != "string.0" && r.key != "tap." + last && r.part != Part::pluck &&
+                r.part != Part::initial_shape)
+                r.apply(left);
         ASSERT_EQ(left.strings.size(), 1u) << name;
         const String& s = left.strings.front();
-        EXPECT_TRUE(s.barriers.empty() && !s.thread && !s.polarisation && s.bending_stiffness == 0) << name;
+        EXPECT_TRUE(s.barriers.empty() && !s.thread && !s.polarisation && s.bending_stiffness == 0)
+            << name;
         EXPECT_TRUE(std::holds_alternative<NoDamping>(s.damping)) << name;
         EXPECT_EQ(s.pluck.has_value(), pluck) << name;
     }
@@ -66,7 +70,8 @@ TEST(Reductions, ATermOfALawGoesAloneAndALawOfOneTermGoesWhole) {
     EXPECT_EQ(law.sigma1, 0);
     EXPECT_GT(law.sigma0, 0);
     named(reductions_of(s), "string.0.damping.sigma3 = 0").apply(s);
-    for (const Reduction& r : reductions_of(s)) EXPECT_NE(r.part, Part::damping_term) << r.said();  // sigma0 alone is left
+    // sigma0 alone is left
+    for (const Reduction& r : reductions_of(s)) EXPECT_NE(r.part, Part::damping_term) << r.said();
     EXPECT_NO_THROW(named(reductions_of(s), "string.0.damping left out"));
 }
 

@@ -1,4 +1,5 @@
-// Scene files: what the library holds, round trips, overrides, and the exact words for everything that is wrong.
+// Scene files: what the library holds, round trips, overrides, and the exact words for everything
+// that is wrong.
 #include "scenes/scene_file.hpp"
 
 #include <gtest/gtest.h>
@@ -23,17 +24,17 @@ Features features(std::initializer_list<Feature> all) {
     return f;
 }
 
-std::string message(const std::string& text, const std::vector<std::string>& overrides = {}, const std::string& file = "scene.toml") {
+std::string message(const std::string& text, const std::vector<std::string>& overrides = {},
+                    const std::string& file = "scene.toml") {
     try {
         parse_scene(text, file, overrides);
-    } catch (const SceneFileError& e) {
-        return e.what();
-    }
+    } catch (const SceneFileError& e) { return e.what(); }
     return "(read without an error)";
 }
 
 struct Directory {  // of this test alone, removed after it
-    fs::path path = fs::temp_directory_path() / ("jvari_scene_file_test." + std::to_string(std::random_device{}()));
+    fs::path path = fs::temp_directory_path() /
+                    ("jvari_scene_file_test." + std::to_string(std::random_device{}()));
     Directory() { fs::create_directories(path); }
     ~Directory() { fs::remove_all(path); }
     std::string write(const std::string& name, const std::string& text) const {
@@ -42,11 +43,19 @@ struct Directory {  // of this test alone, removed after it
     }
 };
 
-const std::string head = "name = \"s\"\nduration = 1.0\n";                                                                 // lines 1-2
-const std::string one = head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\ntension = 33.1\n";                     // 3-6
-const std::string lumped = one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 0.01\nstiffness = 4.39e8\n";          // 7-10
-const std::string profile = one + "[[string.barrier]]\nshape = \"profile\"\ncurve = \"flat\"\nstiffness_density = 1e9\n";  // 7-10
-const std::string tap = one + "[[tap]]\nname = \"a\"\n";                                                                   // 7-8
+// lines 1-2
+const std::string head = "name = \"s\"\nduration = 1.0\n";
+// 3-6
+const std::string one =
+    head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\ntension = 33.1\n";
+// 7-10
+const std::string lumped =
+    one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 0.01\nstiffness = 4.39e8\n";
+// 7-10
+const std::string profile =
+    one + "[[string.barrier]]\nshape = \"profile\"\ncurve = \"flat\"\nstiffness_density = 1e9\n";
+// 7-8
+const std::string tap = one + "[[tap]]\nname = \"a\"\n";
 
 // ---- The library
 
@@ -103,7 +112,10 @@ TEST(Library, TheSitarStringIsTunedToC5AndTheSteelStringHasThePrintedInharmonici
     EXPECT_EQ(std::sqrt(sitar.tension / sitar.linear_density) / (2 * sitar.length), 523.25);
     for (const char* name : {"two_point_bridge", "sitar_parabola"}) {
         const String s = read_scene(name).strings.at(0);
-        EXPECT_NEAR(std::numbers::pi * std::numbers::pi * s.bending_stiffness / (s.tension * s.length * s.length), 1.78e-5, 1e-18) << name;
+        EXPECT_NEAR(std::numbers::pi * std::numbers::pi * s.bending_stiffness /
+                        (s.tension * s.length * s.length),
+                    1.78e-5, 1e-18)
+            << name;
     }
 }
 
@@ -204,7 +216,8 @@ TEST(WriteScene, EveryKeyOfTheSchemaSurvives) {
     const Scene scene = parse_scene(everything, "scene.toml");
     EXPECT_EQ(scene.source, "tab\t, line\n, µ");
     EXPECT_EQ(scene.strings[0].polarisation->pluck_angle, 0.2);
-    EXPECT_EQ(std::get<ProfileBarrier>(scene.strings[0].barriers[1]).stiffness.K, 12345678901234567000.0);
+    EXPECT_EQ(std::get<ProfileBarrier>(scene.strings[0].barriers[1]).stiffness.K,
+              12345678901234567000.0);
     EXPECT_EQ(std::get<ModeInitial>(*scene.strings[1].initial).number, 3);
     EXPECT_EQ(scene.taps[1].string, std::nullopt);
     EXPECT_EQ(scene.body->nut, "nut.wav");
@@ -218,7 +231,8 @@ TEST(WriteScene, EveryDoubleIsReadBackToTheBit) {
     Scene scene = parse_scene(one, "scene.toml");
     std::mt19937_64 engine(1);
     for (int i = 0; i < 2000; ++i) {
-        scene.duration = std::ldexp(1.0 + static_cast<double>(engine() >> 12) * 0x1p-52, static_cast<int>(engine() % 2000) - 1000);
+        scene.duration = std::ldexp(1.0 + static_cast<double>(engine() >> 12) * 0x1p-52,
+                                    static_cast<int>(engine() % 2000) - 1000);
         EXPECT_EQ(parse_scene(write_scene(scene), "again.toml").duration, scene.duration);
     }
 }
@@ -228,10 +242,15 @@ TEST(SceneHash, ChangesWithEveryValueAndIsTheSameForTheSameScene) {
     const std::string hash = scene_hash(scene);
     EXPECT_EQ(hash.size(), 16u);
     EXPECT_EQ(hash, scene_hash(parse_scene(everything, "elsewhere.toml")));
-    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"string.0.thread.height=1.0000000000000001e-5", "duration=0.6"})));
-    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"string.0.length=0.9000000000000001"})));
-    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml", {"body.mode.1.damping=1e-9"})));
-    EXPECT_EQ(hash, scene_hash(parse_scene(everything, "scene.toml", {"body.nut=other.wav"})));  // a filter of what is heard
+    EXPECT_NE(hash, scene_hash(parse_scene(
+                        everything, "scene.toml",
+                        {"string.0.thread.height=1.0000000000000001e-5", "duration=0.6"})));
+    EXPECT_NE(hash, scene_hash(parse_scene(everything, "scene.toml",
+                                           {"string.0.length=0.9000000000000001"})));
+    EXPECT_NE(hash,
+              scene_hash(parse_scene(everything, "scene.toml", {"body.mode.1.damping=1e-9"})));
+    // a filter of what is heard
+    EXPECT_EQ(hash, scene_hash(parse_scene(everything, "scene.toml", {"body.nut=other.wav"})));
     Scene tables = scene;
     tables.strings[0].damping = TableDamping{"modes.csv", {100}, {1}};
     const std::string before = scene_hash(tables);
@@ -243,14 +262,19 @@ TEST(SceneHash, ChangesWithEveryValueAndIsTheSameForTheSameScene) {
 
 TEST(Tables, AreFoundBesideTheSceneAndReadByTheNamesInTheirHeader) {
     const Directory d;
-    d.write("modes.csv", "# measured\nmode, sigma_per_s ,frequency_hz\r\n1,0.5,100\n\n# and\n2, 0.75 ,2.01e2,left over\n");
+    d.write("modes.csv",
+            "# measured\nmode, sigma_per_s ,frequency_hz\r\n1,0.5,100\n\n# and\n2, 0.75 "
+            ",2.01e2,left over\n");
     d.write("bridge.csv", "x_m,height_m\n0,0\n0.01,-1e-6\n0.02,-4e-6\n");
     const std::string path =
         d.write("scene.toml", one +
-                                  "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n[[string.barrier]]\nshape = \"profile\"\n"
-                                  "curve = \"table\"\nfile = \"bridge.csv\"\nfrom = 0\nto = 0.02\nstiffness_density = 1e9\n");
+                                  "[string.damping]\nlaw = \"table\"\nfile = "
+                                  "\"modes.csv\"\n[[string.barrier]]\nshape = \"profile\"\n"
+                                  "curve = \"table\"\nfile = \"bridge.csv\"\nfrom = 0\nto = "
+                                  "0.02\nstiffness_density = 1e9\n");
     const Scene scene = read_scene(path);
-    EXPECT_TRUE(scene.strings[0].damping == Damping(TableDamping{"modes.csv", {100, 201}, {0.5, 0.75}}));
+    EXPECT_TRUE(scene.strings[0].damping ==
+                Damping(TableDamping{"modes.csv", {100, 201}, {0.5, 0.75}}));
     EXPECT_EQ(modes_of(scene.strings[0], 2).sigma[1], 0.75);
     EXPECT_TRUE(std::get<ProfileBarrier>(scene.strings[0].barriers[0]).curve ==
                 Curve(TableCurve{"bridge.csv", {0, 0.01, 0.02}, {0, -1e-6, -4e-6}}));
@@ -260,35 +284,47 @@ TEST(Tables, AreFoundBesideTheSceneAndReadByTheNamesInTheirHeader) {
 
 TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
     const Directory d;
-    const std::string text = one + "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n", file = (d.path / "scene.toml").string();
+    const std::string text = one + "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n",
+                      file = (d.path / "scene.toml").string();
     const auto with = [&](const std::string& csv) {
         d.write("modes.csv", csv);
         std::string m = message(text, {}, file);
         if (m.rfind(d.path.string() + "/", 0) == 0) m.erase(0, d.path.string().size() + 1);
         return m;
     };
-    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,abc\n"), "modes.csv:2: decay_rate_per_s: found \"abc\", expected a number >= 0");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,abc\n"),
+              "modes.csv:2: decay_rate_per_s: found \"abc\", expected a number >= 0");
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,1\nnan,1\n"),
               "modes.csv:3: frequency_hz: found \"nan\", expected a positive number");
-    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100\n"), "modes.csv:2: decay_rate_per_s: found \"\", expected a number >= 0");
-    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,-1\n"), "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
-    EXPECT_EQ(with("# a\nfrequency,decay_rate_per_s\n"), "modes.csv:2: header: found no column \"frequency_hz\"");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100\n"),
+              "modes.csv:2: decay_rate_per_s: found \"\", expected a number >= 0");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,-1\n"),
+              "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
+    EXPECT_EQ(with("# a\nfrequency,decay_rate_per_s\n"),
+              "modes.csv:2: header: found no column \"frequency_hz\"");
     EXPECT_EQ(with("frequency_hz,frequency_hz,decay_rate_per_s\n100,200,1\n"),
               "modes.csv:1: header: found two columns \"frequency_hz\", expected one");
     EXPECT_EQ(with("frequency_hz;decay_rate_per_s\n100;0,5\n"),
-              "modes.csv:1: header: found no column \"frequency_hz\"; expected commas between columns, and points in numbers, as 0.5");
+              "modes.csv:1: header: found no column \"frequency_hz\"; expected commas between "
+              "columns, and points in numbers, as 0.5");
     EXPECT_EQ(with("\xef\xbb\xbf"
                    "frequency_hz,decay_rate_per_s\n100,-1\n"),
               "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
-    EXPECT_EQ(with("# nothing\n"), "modes.csv:1: found no header, expected the columns \"frequency_hz\", \"decay_rate_per_s\"");
-    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n"), "scene.toml:9: string.0.damping.file: found no rows, expected at least one");
-    EXPECT_EQ(
-        with("frequency_hz,decay_rate_per_s\n200,1\n100,1\n"),
-        "scene.toml:9: string.0.damping.file: found frequency_hz 100 in row 2, expected a positive number, above that of the row before");
+    EXPECT_EQ(with("# nothing\n"),
+              "modes.csv:1: found no header, expected the columns \"frequency_hz\", "
+              "\"decay_rate_per_s\"");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n"),
+              "scene.toml:9: string.0.damping.file: found no rows, expected at least one");
+    EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n200,1\n100,1\n"),
+              "scene.toml:9: string.0.damping.file: found frequency_hz 100 in row 2, expected a "
+              "positive number, above that of the row before");
     d.write("bridge.csv", "x_m,height_m\n0,0\n0.01,0\n");
-    EXPECT_EQ(message(profile + "from = 0\nto = 0.02\n", {"string.0.barrier.0.curve=table", "string.0.barrier.0.file=bridge.csv"}, file),
-              "--set string.0.barrier.0.file=bridge.csv: string.0.barrier.0.file: found heights from 0 to 0.01 m, expected them from 0 to "
-              "0.02 m");
+    EXPECT_EQ(
+        message(profile + "from = 0\nto = 0.02\n",
+                {"string.0.barrier.0.curve=table", "string.0.barrier.0.file=bridge.csv"}, file),
+        "--set string.0.barrier.0.file=bridge.csv: string.0.barrier.0.file: found heights from 0 "
+        "to 0.01 m, expected them from 0 to "
+        "0.02 m");
 }
 
 // ---- Overrides
@@ -296,18 +332,23 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
 TEST(Overrides, NumbersAreReadWholeAndByTens) {
     const std::string base = "tanpura_c3_release";
     EXPECT_EQ(read_scene(base, {"string.0.length=010"}).strings[0].length, 10);
-    EXPECT_EQ(
-        read_scene(base, {"string.0.initial={shape=\"mode\",number=2,amplitude=1e-3}", "string.0.initial.number=3e0"}).strings[0].initial,
-        Initial(ModeInitial{3, 1e-3}));
+    EXPECT_EQ(read_scene(base, {"string.0.initial={shape=\"mode\",number=2,amplitude=1e-3}",
+                                "string.0.initial.number=3e0"})
+                  .strings[0]
+                  .initial,
+              Initial(ModeInitial{3, 1e-3}));
     for (const char* text : {"0x10", "1_0", "1e400", "nan", "inf", "0,5"})
-        EXPECT_THROW(read_scene(base, {std::string("string.0.length=") + text}), std::runtime_error) << text;
+        EXPECT_THROW(read_scene(base, {std::string("string.0.length=") + text}), std::runtime_error)
+            << text;
 }
 
 TEST(Overrides, SetValuesByPathAlsoAbsentOnes) {
     const Scene scene =
-        read_scene("tanpura_c3", {"string.0.barrier.0.stiffness=1e9", "duration = 2", "string.0.polarisation.rotation=0.1",
-                                  "name=other-name", "source=\"quoted\"", "tap.4.name=v", "tap.4.quantity=velocity", "tap.4.string=0",
-                                  "tap.4.position=0.1", "string.0.initial={shape='mode', number=2, amplitude=1e-3}"});
+        read_scene("tanpura_c3", {"string.0.barrier.0.stiffness=1e9", "duration = 2",
+                                  "string.0.polarisation.rotation=0.1", "name=other-name",
+                                  "source=\"quoted\"", "tap.4.name=v", "tap.4.quantity=velocity",
+                                  "tap.4.string=0", "tap.4.position=0.1",
+                                  "string.0.initial={shape='mode', number=2, amplitude=1e-3}"});
     EXPECT_EQ(std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k, 1e9);
     EXPECT_EQ(scene.duration, 2);
     EXPECT_EQ(scene.strings[0].polarisation->rotation, 0.1);
@@ -319,11 +360,13 @@ TEST(Overrides, SetValuesByPathAlsoAbsentOnes) {
 }
 
 TEST(Overrides, ALaterOneWinsAndAnArrayIsMadeWhereItIsAbsent) {
-    const Scene scene = parse_scene(one, "scene.toml",
-                                    {"duration=2", "duration=3", "string.0.barrier.0.shape=lumped", "string.0.barrier.0.position=0.01",
-                                     "string.0.barrier.0.stiffness=1e8"});
+    const Scene scene =
+        parse_scene(one, "scene.toml",
+                    {"duration=2", "duration=3", "string.0.barrier.0.shape=lumped",
+                     "string.0.barrier.0.position=0.01", "string.0.barrier.0.stiffness=1e8"});
     EXPECT_EQ(scene.duration, 3);
-    EXPECT_TRUE((scene.strings[0].barriers == std::vector<Barrier>{LumpedBarrier{0.01, 0, 0, {1e8}, 1, 0}}));
+    EXPECT_TRUE((scene.strings[0].barriers ==
+                 std::vector<Barrier>{LumpedBarrier{0.01, 0, 0, {1e8}, 1, 0}}));
 }
 
 TEST(Overrides, ChoosingAnotherLawOrShapeLeavesTheKeysOfTheFormerUnread) {
@@ -331,7 +374,8 @@ TEST(Overrides, ChoosingAnotherLawOrShapeLeavesTheKeysOfTheFormerUnread) {
     EXPECT_TRUE(lossless.strings[0].damping == Damping(NoDamping{}));
     const Scene flat = read_scene("sitar_c5", {"string.0.barrier.0.curve=flat"});
     EXPECT_TRUE(std::get<ProfileBarrier>(flat.strings[0].barriers[0]).curve == Curve(FlatCurve{}));
-    const Scene mode = read_scene("free_string", {"string.0.initial.shape=mode", "string.0.initial.number=5"});
+    const Scene mode =
+        read_scene("free_string", {"string.0.initial.shape=mode", "string.0.initial.number=5"});
     EXPECT_TRUE(mode.strings[0].initial == Initial(ModeInitial{5, 1e-3}));
 }
 
@@ -344,46 +388,74 @@ TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
     EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene);
     const std::vector<std::pair<std::vector<std::string>, std::string>> rows{
         {{"string.0.barrier.0.stiffness=hard"},
-         "--set string.0.barrier.0.stiffness=hard: string.0.barrier.0.stiffness: found \"hard\", expected \"rigid\" or a positive number "
+         "--set string.0.barrier.0.stiffness=hard: string.0.barrier.0.stiffness: found \"hard\", "
+         "expected \"rigid\" or a positive number "
          "[N/m^exponent]"},
         {{"string.0.barrier.0.stiffness=rigid", "string.0.barrier.0.exponent=2"},
-         "--set string.0.barrier.0.exponent=2: string.0.barrier.0.exponent: found 2, expected none, as the barrier is rigid"},
+         "--set string.0.barrier.0.exponent=2: string.0.barrier.0.exponent: found 2, expected "
+         "none, as the barrier is rigid"},
         {{"string.0.barrier.0.stiffness=rigid", "string.0.barrier.0.contact_loss=1"},
-         "--set string.0.barrier.0.contact_loss=1: string.0.barrier.0.contact_loss: found 1, expected none, as the barrier is rigid"},
+         "--set string.0.barrier.0.contact_loss=1: string.0.barrier.0.contact_loss: found 1, "
+         "expected none, as the barrier is rigid"},
     };
     for (const auto& [overrides, expected] : rows) EXPECT_EQ(message(lumped, overrides), expected);
     EXPECT_NE(message(lumped, {"string.0.barrier.0.stiffness=inf"}), "(read without an error)");
-    const Scene profile = read_scene("sitar_parabola", {"string.0.barrier.0.stiffness_density=rigid", "string.0.barrier.0.exponent=1"});
+    const Scene profile =
+        read_scene("sitar_parabola",
+                   {"string.0.barrier.0.stiffness_density=rigid", "string.0.barrier.0.exponent=1"});
     EXPECT_TRUE(needed_by(profile).has(Feature::rigid_profile));
     EXPECT_TRUE(parse_scene(write_scene(profile), "again.toml") == profile);
-    const Scene wall = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
-    EXPECT_TRUE(needed_by(wall).has(Feature::rigid_profile) && is_rigid(wall.strings[0].barriers[0]));
+    const Scene wall =
+        read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
+    EXPECT_TRUE(needed_by(wall).has(Feature::rigid_profile) &&
+                is_rigid(wall.strings[0].barriers[0]));
     EXPECT_NE(write_scene(wall).find("stiffness_density = \"rigid\""), std::string::npos);
 }
 
 TEST(Overrides, ErrorsNameTheOverride) {
     const std::vector<std::pair<std::string, std::string>> rows{
-        {"string.0.tension=-1", "--set string.0.tension=-1: string.0.tension: found -1, expected a positive number [N]"},
-        {"string.0.tension=nan", "--set string.0.tension=nan: string.0.tension: found nan, expected a positive number [N]"},
-        {"string.0.tension=30 N", "--set string.0.tension=30 N: string.0.tension: found \"30 N\", expected a positive number [N]"},
-        {"string.0.tension=", "--set string.0.tension=: string.0.tension: found \"\", expected a positive number [N]"},
-        {"string.0.tensoin=30", "--set string.0.tensoin=30: string.0.tensoin: unknown key; did you mean \"tension\"?"},
-        {"string.1000000000.length=1", "--set string.1000000000.length=1: string: found index 1000000000, expected an index from 0 to 1"},
+        {"string.0.tension=-1",
+         "--set string.0.tension=-1: string.0.tension: found -1, expected a positive number [N]"},
+        {"string.0.tension=nan",
+         "--set string.0.tension=nan: string.0.tension: found nan, expected a positive number [N]"},
+        {"string.0.tension=30 N",
+         "--set string.0.tension=30 N: string.0.tension: found \"30 N\", expected a positive "
+         "number [N]"},
+        {"string.0.tension=",
+         "--set string.0.tension=: string.0.tension: found \"\", expected a positive number [N]"},
+        {"string.0.tensoin=30",
+         "--set string.0.tensoin=30: string.0.tensoin: unknown key; did you mean \"tension\"?"},
+        {"string.1000000000.length=1",
+         "--set string.1000000000.length=1: string: found index 1000000000, expected an index from "
+         "0 to 1"},
         {"string.99999999999999999999.length=1",
-         "--set string.99999999999999999999.length=1: string: found index 99999999999999999999, expected an index from 0 to 1"},
-        {"string.first.length=1", "--set string.first.length=1: string: found \"first\", expected an index from 0 to 1"},
-        {"string.1.length=1", "--set string.1.length=1: string.1.linear_density: found nothing, expected a positive number [kg/m]"},
-        {"duration.s=1", "--set duration.s=1: duration: found 1, expected a table with the key \"s\""},
+         "--set string.99999999999999999999.length=1: string: found index 99999999999999999999, "
+         "expected an index from 0 to 1"},
+        {"string.first.length=1",
+         "--set string.first.length=1: string: found \"first\", expected an index from 0 to 1"},
+        {"string.1.length=1",
+         "--set string.1.length=1: string.1.linear_density: found nothing, expected a positive "
+         "number [kg/m]"},
+        {"duration.s=1",
+         "--set duration.s=1: duration: found 1, expected a table with the key \"s\""},
         {"duration", "--set duration: expected key.path=value"},
         {"=1", "--set =1: expected key.path=value"},
-        {"string..length=1", "--set string..length=1: string: found \"\", expected an index from 0 to 1"},
+        {"string..length=1",
+         "--set string..length=1: string: found \"\", expected an index from 0 to 1"},
         {"a..b=1", "--set a..b=1: found an empty part in the key, expected key.path=value"},
-        {"name=[1", "--set name=[1: not valid TOML: Error while parsing array: encountered end-of-file"},
-        {"duration=1\nname=2", "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive number [s]"},
-        {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1", "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: found a key of 17 parts, expected at most 16"},
+        {"name=[1",
+         "--set name=[1: not valid TOML: Error while parsing array: encountered end-of-file"},
+        {"duration=1\nname=2",
+         "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive number "
+         "[s]"},
+        {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1",
+         "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: found a key of 17 parts, expected at most 16"},
         {"name=../../x",
-         "--set name=../../x: name: found \"../../x\", which begins with a point, expected a name that files can be called by"},
-        {"string.0.length=0.005", "scene.toml:9: string.0.barrier.0.position: found 0.01, expected 0 < x < 0.005 [m], on the string"},
+         "--set name=../../x: name: found \"../../x\", which begins with a point, expected a name "
+         "that files can be called by"},
+        {"string.0.length=0.005",
+         "scene.toml:9: string.0.barrier.0.position: found 0.01, expected 0 < x < 0.005 [m], on "
+         "the string"},
     };
     for (const auto& [override, expected] : rows) EXPECT_EQ(message(lumped, {override}), expected);
 }
@@ -397,20 +469,31 @@ double first_mode(const Scene& scene) {  // [Hz]
 const std::string wire = head + "[[string]]\nlength = 1.0\ntension = 33.1\n";  // 3-5
 
 TEST(Material, AWireOfItWeighsAndBendsAsTheLibrarysOwnStringsOfItDo) {
-    for (const auto& [scene, diameter] : {std::pair{"tanpura_c3", "0.28e-3"}, std::pair{"prepared_piano", "1e-3"}}) {  // steel, as printed
+    // steel, as printed
+    for (const auto& [scene, diameter] :
+         {std::pair{"tanpura_c3", "0.28e-3"}, std::pair{"prepared_piano", "1e-3"}}) {
         const String printed = read_scene(scene).strings[0],
-                     made = parse_scene(wire + "material = \"steel\"\ndiameter = " + diameter + "\n", "s.toml").strings[0];
-        EXPECT_NEAR(made.linear_density, printed.linear_density, 1e-3 * printed.linear_density) << scene;
-        EXPECT_NEAR(made.bending_stiffness, printed.bending_stiffness, 2e-3 * printed.bending_stiffness) << scene;
+                     made =
+                         parse_scene(wire + "material = \"steel\"\ndiameter = " + diameter + "\n",
+                                     "s.toml")
+                             .strings[0];
+        EXPECT_NEAR(made.linear_density, printed.linear_density, 1e-3 * printed.linear_density)
+            << scene;
+        EXPECT_NEAR(made.bending_stiffness, printed.bending_stiffness,
+                    2e-3 * printed.bending_stiffness)
+            << scene;
     }
-    const String gut = parse_scene(wire + "material = \"gut\"\ndiameter = 1e-3\n", "s.toml").strings[0];
+    const String gut =
+        parse_scene(wire + "material = \"gut\"\ndiameter = 1e-3\n", "s.toml").strings[0];
     EXPECT_NEAR(gut.linear_density, 1.0210e-3, 1e-7);     // pi 1300 / 4 10^-6
     EXPECT_NEAR(gut.bending_stiffness, 2.9452e-4, 1e-8);  // pi 6e9 / 64 10^-12
 }
 
 TEST(Material, APitchFollowsItAndAWrittenSceneSaysTheNumbers) {
-    const Scene scene =
-        parse_scene(head + "[[string]]\nlength = 1.0\nnote = \"C3\"\nmaterial = \"phosphor bronze\"\ndiameter = 0.3e-3\n", "s.toml");
+    const Scene scene = parse_scene(head +
+                                        "[[string]]\nlength = 1.0\nnote = \"C3\"\nmaterial = "
+                                        "\"phosphor bronze\"\ndiameter = 0.3e-3\n",
+                                    "s.toml");
     EXPECT_NEAR(first_mode(scene), 130.8127826503, 1e-9);
     EXPECT_EQ(write_scene(scene).find("material"), std::string::npos);
     EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene) << write_scene(scene);
@@ -419,41 +502,58 @@ TEST(Material, APitchFollowsItAndAWrittenSceneSaysTheNumbers) {
 TEST(Material, OfTwoFormsInOneFileIsAnErrorAndAnOverrideWins) {
     const std::string steel = wire + "material = \"steel\"\ndiameter = 0.28e-3\n";  // 6, 7
     const auto refused = [](const std::string& key, const std::string& found) {
-        return "scene.toml:8: string.0." + key + ": found " + found + ", expected nothing beside material and diameter, which say as much";
+        return "scene.toml:8: string.0." + key + ": found " + found +
+               ", expected nothing beside material and diameter, which say as much";
     };
     EXPECT_EQ(message(steel + "linear_density = 1e-3\n"), refused("linear_density", "0.001"));
     EXPECT_EQ(message(steel + "bending_stiffness = 0\n"), refused("bending_stiffness", "0"));
-    EXPECT_EQ(message(wire + "material = \"steel\"\n"), "scene.toml:3: string.0.diameter: found nothing, expected a positive number [m]");
+    EXPECT_EQ(message(wire + "material = \"steel\"\n"),
+              "scene.toml:3: string.0.diameter: found nothing, expected a positive number [m]");
     EXPECT_EQ(message(wire + "material = \"steel\"\ndiameter = 0\n"),
               "scene.toml:7: string.0.diameter: found 0, expected a positive number [m]");
-    EXPECT_EQ(message(wire + "diameter = 1e-3\n").substr(0, 66), "scene.toml:3: string.0.material: found nothing, expected one of \"s");
-    EXPECT_NE(message(wire + "material = \"stel\"\ndiameter = 1e-3\n").find("did you mean \"steel\"?"), std::string::npos);
+    EXPECT_EQ(message(wire + "diameter = 1e-3\n").substr(0, 66),
+              "scene.toml:3: string.0.material: found nothing, expected one of \"s");
+    EXPECT_NE(
+        message(wire + "material = \"stel\"\ndiameter = 1e-3\n").find("did you mean \"steel\"?"),
+        std::string::npos);
     const auto of = [](const std::string& text, const std::vector<std::string>& set) {
         return parse_scene(text, "s.toml", set).strings[0];
     };
     EXPECT_EQ(of(steel, {"string.0.bending_stiffness=0"}).bending_stiffness, 0);
-    EXPECT_EQ(of(steel, {"string.0.bending_stiffness=0"}).linear_density, of(steel, {}).linear_density);
+    EXPECT_EQ(of(steel, {"string.0.bending_stiffness=0"}).linear_density,
+              of(steel, {}).linear_density);
     EXPECT_GT(of(steel, {"string.0.diameter=1e-3"}).linear_density, of(steel, {}).linear_density);
-    const String nylon = read_scene("tanpura_c3", {"string.0.material=nylon", "string.0.diameter=1e-3"}).strings[0];
+    const String nylon =
+        read_scene("tanpura_c3", {"string.0.material=nylon", "string.0.diameter=1e-3"}).strings[0];
     EXPECT_NEAR(nylon.linear_density, 8.9535e-4, 1e-8);
 }
 
 // ---- Pitch in place of tension
 
-const std::string stiff = head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nbending_stiffness = 6.03e-5\n";  // 3-6
+// 3-6
+const std::string stiff =
+    head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nbending_stiffness = 6.03e-5\n";
 
 TEST(Pitch, TheTensionIsThatAtWhichTheFirstModeHasIt) {
     EXPECT_NEAR(first_mode(parse_scene(stiff + "frequency = 130.5\n", "s.toml")), 130.5, 1e-11);
     EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"A4\"\n", "s.toml")), 440, 1e-10);
-    EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"C4\"\n", "s.toml")), 261.6255653006, 1e-9);  // middle C
+    // middle C
+    EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"C4\"\n", "s.toml")), 261.6255653006, 1e-9);
     EXPECT_NEAR(first_mode(parse_scene(stiff + "note = \"F#2\"\n", "s.toml")),
                 first_mode(parse_scene(stiff + "note = \"Gb2\"\n", "s.toml")), 1e-11);
-    EXPECT_NEAR(2 * first_mode(parse_scene(stiff + "note = \"C-1\"\n", "s.toml")), 16.3515978313, 1e-9);
+    EXPECT_NEAR(2 * first_mode(parse_scene(stiff + "note = \"C-1\"\n", "s.toml")), 16.3515978313,
+                1e-9);
     const double T = parse_scene(stiff + "note = \"C3\"\n", "s.toml").strings[0].tension;
     EXPECT_NEAR(T, 33.1, 0.05);  // the paper's C3, Table 1
-    EXPECT_NEAR(parse_scene(head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n", "s.toml").strings[0].tension,
-                T + 6.03e-5 * std::numbers::pi * std::numbers::pi, 1e-12);                         // without stiffness it has to pull more
-    EXPECT_NEAR(first_mode(read_scene("tanpura_c3", {"string.0.note=G2"})), 97.9988589954, 1e-9);  // the file's tension stays unread
+    EXPECT_NEAR(
+        parse_scene(head + "[[string]]\nlength = 1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n",
+                    "s.toml")
+            .strings[0]
+            .tension,
+        // without stiffness it has to pull more
+        T + 6.03e-5 * std::numbers::pi * std::numbers::pi, 1e-12);
+    // the file's tension stays unread
+    EXPECT_NEAR(first_mode(read_scene("tanpura_c3", {"string.0.note=G2"})), 97.9988589954, 1e-9);
 }
 
 TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
@@ -464,23 +564,30 @@ TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
 }
 
 TEST(Pitch, ErrorsNameLineAndKey) {
-    const std::string note = "expected a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"";
+    const std::string note =
+        "expected a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"";
     for (const char* wrong : {"H3", "C", "C10", "C-2", "c3", "C3 ", "C#b3", "Cis3"})
         EXPECT_EQ(message(stiff + "note = \"" + wrong + "\"\n"),
                   "scene.toml:7: string.0.note: found \"" + std::string(wrong) + "\", " + note);
-    EXPECT_EQ(message(stiff + "note = 3\n"), "scene.toml:7: string.0.note: found 3, expected a text");
-    EXPECT_EQ(message(stiff + "frequency = 0\n"), "scene.toml:7: string.0.frequency: found 0, expected a positive number [Hz]");
-    EXPECT_EQ(message(stiff + "frequency = \"A\"\n"), "scene.toml:7: string.0.frequency: found \"A\", expected a positive number [Hz]");
+    EXPECT_EQ(message(stiff + "note = 3\n"),
+              "scene.toml:7: string.0.note: found 3, expected a text");
+    EXPECT_EQ(message(stiff + "frequency = 0\n"),
+              "scene.toml:7: string.0.frequency: found 0, expected a positive number [Hz]");
+    EXPECT_EQ(message(stiff + "frequency = \"A\"\n"),
+              "scene.toml:7: string.0.frequency: found \"A\", expected a positive number [Hz]");
     EXPECT_EQ(message(one + "note = \"C3\"\n"),
-              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside tension: give one of tension, frequency and note");
+              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside tension: give "
+              "one of tension, frequency and note");
     EXPECT_EQ(message(stiff + "note = \"C3\"\nfrequency = 130.8\n"),
-              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside frequency: give one of tension, frequency and note");
-    EXPECT_TRUE(
-        message(stiff + "frequency = 0.1\n")
-            .starts_with("scene.toml:7: string.0.frequency: found 0.1, expected a pitch that a tension gives: the bending stiffness "
-                         "alone gives 0.555"));
-    EXPECT_EQ(message(head + "[[string]]\nlength = -1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n"),
-              "scene.toml:4: string.0.length: found -1, expected a positive number [m]");
+              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside frequency: give "
+              "one of tension, frequency and note");
+    EXPECT_TRUE(message(stiff + "frequency = 0.1\n")
+                    .starts_with("scene.toml:7: string.0.frequency: found 0.1, expected a pitch "
+                                 "that a tension gives: the bending stiffness "
+                                 "alone gives 0.555"));
+    EXPECT_EQ(
+        message(head + "[[string]]\nlength = -1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n"),
+        "scene.toml:4: string.0.length: found -1, expected a positive number [m]");
 }
 
 // ---- Bad input
@@ -492,62 +599,88 @@ const std::string laws = "\"none\", \"polynomial\", \"quality_factor\", \"table\
 
 const std::vector<Bad> bad_scenes{
     // no TOML
-    {"name = ", "scene.toml:1: not valid TOML: Error while parsing key-value pair: encountered end-of-file"},
+    {"name = ",
+     "scene.toml:1: not valid TOML: Error while parsing key-value pair: encountered end-of-file"},
     {head + "duration = 2.0\n",
-     "scene.toml:3: not valid TOML: Error while parsing key-value pair: cannot redefine existing floating-point 'duration'"},
+     "scene.toml:3: not valid TOML: Error while parsing key-value pair: cannot redefine existing "
+     "floating-point 'duration'"},
     {one + "[string.initial]\nshape = \"mode\"\nshape = \"triangle\"\n",
-     "scene.toml:9: not valid TOML: Error while parsing key-value pair: cannot redefine existing string 'shape'"},
+     "scene.toml:9: not valid TOML: Error while parsing key-value pair: cannot redefine existing "
+     "string 'shape'"},
     {"\xff\xfe", "scene.toml:1: not valid TOML: Encountered invalid utf-8 sequence"},
     {"x = " + std::string(5000, '['),
-     "scene.toml:1: not valid TOML: Error while parsing value: exceeded maximum nested value depth of 256 (TOML_MAX_NESTED_VALUES)"},
-    {head + "x = [[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", "scene.toml:3: found tables or arrays nested deeper than 16"},
-    {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
+     "scene.toml:1: not valid TOML: Error while parsing value: exceeded maximum nested value depth "
+     "of 256 (TOML_MAX_NESTED_VALUES)"},
+    {head + "x = [[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n",
+     "scene.toml:3: found tables or arrays nested deeper than 16"},
+    {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
+     "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
      "a = 1",
      "scene.toml:1: found a key with more than 64 dots, expected fewer"},
-    {std::string((1 << 20) + 1, ' '), "scene.toml:1: found 1048577 bytes, expected at most 1048576"},
+    {std::string((1 << 20) + 1, ' '),
+     "scene.toml:1: found 1048577 bytes, expected at most 1048576"},
     // keys
     {"", "scene.toml:1: name: found nothing, expected a text"},
     {head, "scene.toml:1: string: found no string, expected at least one [[string]]"},
-    {head + "string = []\n", "scene.toml:3: string: found no string, expected at least one [[string]]"},
+    {head + "string = []\n",
+     "scene.toml:3: string: found no string, expected at least one [[string]]"},
     {"druation = 1.0\n", "scene.toml:1: druation: unknown key; did you mean \"duration\"?"},
-    {head + "[[string]]\ntensoin = 33.1\n", "scene.toml:4: string.0.tensoin: unknown key; did you mean \"tension\"?"},
-    {one + "[string.damping]\nlwa = \"none\"\n", "scene.toml:8: string.0.damping.lwa: unknown key; did you mean \"law\"?"},
-    {one + "[string.damping]\nlaw = \"none\"\nsigma0 = 1\n", "scene.toml:9: string.0.damping.sigma0: unknown key; known here: \"law\""},
+    {head + "[[string]]\ntensoin = 33.1\n",
+     "scene.toml:4: string.0.tensoin: unknown key; did you mean \"tension\"?"},
+    {one + "[string.damping]\nlwa = \"none\"\n",
+     "scene.toml:8: string.0.damping.lwa: unknown key; did you mean \"law\"?"},
+    {one + "[string.damping]\nlaw = \"none\"\nsigma0 = 1\n",
+     "scene.toml:9: string.0.damping.sigma0: unknown key; known here: \"law\""},
     {one + "\"a\\nb\" = 1\n",
-     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"material\", \"diameter\", \"linear_density\", "
+     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"material\", "
+     "\"diameter\", \"linear_density\", "
      "\"tension\", \"frequency\", \"note\", "
      "\"bending_stiffness\", \"axial_stiffness\", "
      "\"damping\", "
      "\"barrier\", \"thread\", \"initial\", \"pluck\", \"polarisation\""},
     {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\n",
      "scene.toml:3: string.0.tension: found nothing, expected a positive number [N]"},
-    {one + "[string.damping]\nsigma0 = 1\n", "scene.toml:7: string.0.damping.law: found nothing, expected one of " + laws},
-    {one + "[string.thread]\nposition = 5e-3\n", "scene.toml:7: string.0.thread.stiffness: found nothing, expected a number >= 0 [N/m]"},
+    {one + "[string.damping]\nsigma0 = 1\n",
+     "scene.toml:7: string.0.damping.law: found nothing, expected one of " + laws},
+    {one + "[string.thread]\nposition = 5e-3\n",
+     "scene.toml:7: string.0.thread.stiffness: found nothing, expected a number >= 0 [N/m]"},
     // types
     {"name = 3\nduration = 1.0\n", "scene.toml:1: name: found 3, expected a text"},
     {"name = \"\"\nduration = 1.0\n", "scene.toml:1: name: found \"\", expected a text"},
-    {"name = \"s\"\nduration = \"1 s\"\n", "scene.toml:2: duration: found \"1 s\", expected a positive number [s]"},
-    {"name = \"s\"\nduration = 1979-05-27\n", "scene.toml:2: duration: found a date or time, expected a positive number [s]"},
-    {"name = \"s\"\nduration = true\n", "scene.toml:2: duration: found true, expected a positive number [s]"},
-    {"name = \"s\"\nduration = [1]\n", "scene.toml:2: duration: found an array, expected a positive number [s]"},
+    {"name = \"s\"\nduration = \"1 s\"\n",
+     "scene.toml:2: duration: found \"1 s\", expected a positive number [s]"},
+    {"name = \"s\"\nduration = 1979-05-27\n",
+     "scene.toml:2: duration: found a date or time, expected a positive number [s]"},
+    {"name = \"s\"\nduration = true\n",
+     "scene.toml:2: duration: found true, expected a positive number [s]"},
+    {"name = \"s\"\nduration = [1]\n",
+     "scene.toml:2: duration: found an array, expected a positive number [s]"},
     {head + "string = 3\n", "scene.toml:3: string: found 3, expected an array of tables, [[...]]"},
-    {head + "[string]\nlength = 1.0\n", "scene.toml:3: string: found a table, expected an array of tables, [[...]]"},
+    {head + "[string]\nlength = 1.0\n",
+     "scene.toml:3: string: found a table, expected an array of tables, [[...]]"},
     {head + "string = [3]\n", "scene.toml:3: string.0: found 3, expected a table"},
-    {one + "[[string.initial]]\nshape = \"mode\"\n", "scene.toml:7: string.0.initial: found an array, expected a table"},
+    {one + "[[string.initial]]\nshape = \"mode\"\n",
+     "scene.toml:7: string.0.initial: found an array, expected a table"},
     {one + "thread = 5e-3\n", "scene.toml:7: string.0.thread: found 0.005, expected a table"},
     {one + "thread = \"" + std::string(70, 'x') + "\"\n",
-     "scene.toml:7: string.0.thread: found \"" + std::string(60, 'x') + "\"... (70 bytes), expected a table"},
+     "scene.toml:7: string.0.thread: found \"" + std::string(60, 'x') +
+         "\"... (70 bytes), expected a table"},
     // choices
     {one + "[string.damping]\nlaw = \"polynomal\"\n",
-     "scene.toml:8: string.0.damping.law: found \"polynomal\", expected one of " + laws + "; did you mean \"polynomial\"?"},
-    {one + "[string.damping]\nlaw = 3\n", "scene.toml:8: string.0.damping.law: found 3, expected one of " + laws},
+     "scene.toml:8: string.0.damping.law: found \"polynomal\", expected one of " + laws +
+         "; did you mean \"polynomial\"?"},
+    {one + "[string.damping]\nlaw = 3\n",
+     "scene.toml:8: string.0.damping.law: found 3, expected one of " + laws},
     {one + "[[string.barrier]]\nshape = \"round\"\n",
-     "scene.toml:8: string.0.barrier.0.shape: found \"round\", expected one of \"lumped\", \"profile\""},
+     "scene.toml:8: string.0.barrier.0.shape: found \"round\", expected one of \"lumped\", "
+     "\"profile\""},
     {tap + "quantity = \"position\"\n",
-     "scene.toml:9: tap.0.quantity: found \"position\", expected one of \"displacement\", \"velocity\", \"nut_force\", \"bridge_force\", "
+     "scene.toml:9: tap.0.quantity: found \"position\", expected one of \"displacement\", "
+     "\"velocity\", \"nut_force\", \"bridge_force\", "
      "\"thread_force\", \"driving_force\""},
     // numbers
-    {"name = \"s\"\nduration = 0.0\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = 33.1\n",
+    {"name = \"s\"\nduration = 0.0\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = "
+     "33.1\n",
      "scene.toml:2: duration: found 0, expected a positive number [s]"},
     {head + "[[string]]\nlength = -1.0\nlinear_density = 1e-3\ntension = 33.1\n",
      "scene.toml:4: string.0.length: found -1, expected a positive number [m]"},
@@ -557,7 +690,8 @@ const std::vector<Bad> bad_scenes{
      "scene.toml:5: string.0.linear_density: found nan, expected a positive number [kg/m]"},
     {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = 0\n",
      "scene.toml:6: string.0.tension: found 0, expected a positive number [N]"},
-    {one + "bending_stiffness = -1e-5\n", "scene.toml:7: string.0.bending_stiffness: found -1e-05, expected a number >= 0 [N m^2]"},
+    {one + "bending_stiffness = -1e-5\n",
+     "scene.toml:7: string.0.bending_stiffness: found -1e-05, expected a number >= 0 [N m^2]"},
     {one + "[string.damping]\nlaw = \"polynomial\"\nsigma3 = -1\n",
      "scene.toml:9: string.0.damping.sigma3: found -1, expected a number >= 0 [m^3/s]"},
     {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 1.5\n",
@@ -565,11 +699,15 @@ const std::vector<Bad> bad_scenes{
     {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 0.0\n",
      "scene.toml:9: string.0.damping.factor: found 0, expected a number above 0 and at most 1"},
     {one + "[string.damping]\nlaw = \"table\"\nfile = \"none.csv\"\n",
-     "scene.toml:9: string.0.damping.file: found \"none.csv\", which is not a file, expected a CSV file with the columns \"frequency_hz\", "
+     "scene.toml:9: string.0.damping.file: found \"none.csv\", which is not a file, expected a CSV "
+     "file with the columns \"frequency_hz\", "
      "\"decay_rate_per_s\""},
-    {lumped + "exponent = 0.5\n", "scene.toml:11: string.0.barrier.0.exponent: found 0.5, expected a number >= 1"},
-    {lumped + "contact_loss = -0.5\n", "scene.toml:11: string.0.barrier.0.contact_loss: found -0.5, expected a number >= 0 [s/m]"},
-    {lumped + "height = nan\n", "scene.toml:11: string.0.barrier.0.height: found nan, expected a finite number [m]"},
+    {lumped + "exponent = 0.5\n",
+     "scene.toml:11: string.0.barrier.0.exponent: found 0.5, expected a number >= 1"},
+    {lumped + "contact_loss = -0.5\n",
+     "scene.toml:11: string.0.barrier.0.contact_loss: found -0.5, expected a number >= 0 [s/m]"},
+    {lumped + "height = nan\n",
+     "scene.toml:11: string.0.barrier.0.height: found nan, expected a finite number [m]"},
     {one + "[string.initial]\nshape = \"mode\"\nnumber = 0\namplitude = 1e-3\n",
      "scene.toml:9: string.0.initial.number: found 0, expected a whole number >= 1"},
     {one + "[string.initial]\nshape = \"mode\"\nnumber = 1.5\namplitude = 1e-3\n",
@@ -586,62 +724,87 @@ const std::vector<Bad> bad_scenes{
     {one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 0\nstiffness = 1e9\n",
      "scene.toml:9: string.0.barrier.0.position: found 0, expected 0 < x < 1 [m], on the string"},
     {lumped + "width = 0.1\n",
-     "scene.toml:11: string.0.barrier.0.width: found 0.1, expected at most 0.02 [m], so that the footprint ends on the string"},
+     "scene.toml:11: string.0.barrier.0.width: found 0.1, expected at most 0.02 [m], so that the "
+     "footprint ends on the string"},
     {one + "[string.thread]\nposition = 0.999\nwidth = 0.01\nstiffness = 1e5\n",
-     "scene.toml:9: string.0.thread.width: found 0.01, expected at most 0.0020000000000000018 [m], so that the footprint ends on the "
+     "scene.toml:9: string.0.thread.width: found 0.01, expected at most 0.0020000000000000018 [m], "
+     "so that the footprint ends on the "
      "string"},
     {one + "[string.pluck]\namplitude = 1\nduration = 1\nposition = -0.5\n",
      "scene.toml:10: string.0.pluck.position: found -0.5, expected 0 < x < 1 [m], on the string"},
     {one + "[string.initial]\nshape = \"triangle\"\nposition = 1.0\namplitude = 1e-3\n",
      "scene.toml:9: string.0.initial.position: found 1, expected 0 < x < 1 [m], on the string"},
-    {one + "[string.initial]\nshape = \"triangle\"\nposition = 0.5\namplitude = 1e-3\nsmoothing = 2\n",
-     "scene.toml:11: string.0.initial.smoothing: found 2, expected at most the length of the string, 1 [m]"},
-    {profile + "from = 0.02\nto = 0.01\n", "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.02 [m]"},
-    {profile + "from = 0.01\nto = 0.01\n", "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.01 [m]"},
-    {profile + "from = 0.9\nto = 1.1\n", "scene.toml:12: string.0.barrier.0.to: found 1.1, expected 0 <= x <= 1 [m], on the string"},
-    {profile + "from = -0.1\nto = 0.1\n", "scene.toml:11: string.0.barrier.0.from: found -0.1, expected 0 <= x <= 1 [m], on the string"},
+    {one + "[string.initial]\nshape = \"triangle\"\nposition = 0.5\namplitude = 1e-3\nsmoothing = "
+           "2\n",
+     "scene.toml:11: string.0.initial.smoothing: found 2, expected at most the length of the "
+     "string, 1 [m]"},
+    {profile + "from = 0.02\nto = 0.01\n",
+     "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.02 [m]"},
+    {profile + "from = 0.01\nto = 0.01\n",
+     "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.01 [m]"},
+    {profile + "from = 0.9\nto = 1.1\n",
+     "scene.toml:12: string.0.barrier.0.to: found 1.1, expected 0 <= x <= 1 [m], on the string"},
+    {profile + "from = -0.1\nto = 0.1\n",
+     "scene.toml:11: string.0.barrier.0.from: found -0.1, expected 0 <= x <= 1 [m], on the string"},
     {profile + "from = 0\nto = 0.1\nwidth = 2e-3\n",
-     "scene.toml:13: string.0.barrier.0.width: unknown key; known here: \"shape\", \"curve\", \"from\", \"to\", \"stiffness_density\", "
+     "scene.toml:13: string.0.barrier.0.width: unknown key; known here: \"shape\", \"curve\", "
+     "\"from\", \"to\", \"stiffness_density\", "
      "\"exponent\", \"contact_loss\""},
     // taps
-    {tap + "quantity = \"nut_force\"\nstring = 1\n", "scene.toml:10: tap.0.string: found 1, expected a string of the scene, 0 to 0"},
-    {tap + "quantity = \"nut_force\"\nstring = -1\n", "scene.toml:10: tap.0.string: found -1, expected a whole number >= 0"},
+    {tap + "quantity = \"nut_force\"\nstring = 1\n",
+     "scene.toml:10: tap.0.string: found 1, expected a string of the scene, 0 to 0"},
+    {tap + "quantity = \"nut_force\"\nstring = -1\n",
+     "scene.toml:10: tap.0.string: found -1, expected a whole number >= 0"},
     {tap + "quantity = \"nut_force\"\nposition = 0.3\n",
-     "scene.toml:10: tap.0.position: found 0.3, expected no position, which only displacement and velocity have"},
-    {tap + "quantity = \"displacement\"\nstring = 0\n", "scene.toml:7: tap.0.position: found nothing, expected a finite number [m]"},
+     "scene.toml:10: tap.0.position: found 0.3, expected no position, which only displacement and "
+     "velocity have"},
+    {tap + "quantity = \"displacement\"\nstring = 0\n",
+     "scene.toml:7: tap.0.position: found nothing, expected a finite number [m]"},
     {tap + "quantity = \"displacement\"\nposition = 0.3\n",
      "scene.toml:7: tap.0.string: found nothing, expected the string whose displacement is meant"},
     {tap + "quantity = \"velocity\"\nstring = 0\nposition = 1.3\n",
      "scene.toml:11: tap.0.position: found 1.3, expected 0 <= x <= 1 [m], on the string"},
     {tap + "quantity = \"thread_force\"\nstring = 0\n",
-     "scene.toml:9: tap.0.quantity: found \"thread_force\" of a string without a thread, expected a quantity that the string has"},
+     "scene.toml:9: tap.0.quantity: found \"thread_force\" of a string without a thread, expected "
+     "a quantity that the string has"},
     {tap + "quantity = \"bridge_force\"\n",
-     "scene.toml:9: tap.0.quantity: found \"bridge_force\" of a string without a barrier, expected a quantity that the string has"},
+     "scene.toml:9: tap.0.quantity: found \"bridge_force\" of a string without a barrier, expected "
+     "a quantity that the string has"},
     {tap + "quantity = \"driving_force\"\n",
-     "scene.toml:9: tap.0.quantity: found \"driving_force\" of a string without a barrier or a thread, expected a quantity that the string "
+     "scene.toml:9: tap.0.quantity: found \"driving_force\" of a string without a barrier or a "
+     "thread, expected a quantity that the string "
      "has"},
     {tap + "quantity = \"nut_force\"\n[[tap]]\nname = \"a\"\nquantity = \"nut_force\"\n",
      "scene.toml:11: tap.1.name: found \"a\" a second time, expected a unique name"},
     {one + "[[tap]]\nname = \"a,b\"\nquantity = \"nut_force\"\n",
-     "scene.toml:8: tap.0.name: found \"a,b\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
+     "scene.toml:8: tap.0.name: found \"a,b\", expected letters, digits, _ . and -, neither time_s "
+     "nor energy_..."},
     {one + "[[tap]]\nname = \"time_s\"\nquantity = \"nut_force\"\n",
-     "scene.toml:8: tap.0.name: found \"time_s\", expected letters, digits, _ . and -, neither time_s nor energy_..."},
-    {one + "[body]\n", "scene.toml:7: body: found neither bridge nor nut nor mode, expected at least one of them"},
-    {one + "[[body.mode]]\nmass = -1\nstiffness = 1\n", "scene.toml:8: body.mode.0.mass: found -1, expected a positive number [kg]"},
-    {one + "[[body.mode]]\nmass = 1\nstiffness = 0\n", "scene.toml:9: body.mode.0.stiffness: found 0, expected a positive number [N/m]"},
+     "scene.toml:8: tap.0.name: found \"time_s\", expected letters, digits, _ . and -, neither "
+     "time_s nor energy_..."},
+    {one + "[body]\n",
+     "scene.toml:7: body: found neither bridge nor nut nor mode, expected at least one of them"},
+    {one + "[[body.mode]]\nmass = -1\nstiffness = 1\n",
+     "scene.toml:8: body.mode.0.mass: found -1, expected a positive number [kg]"},
+    {one + "[[body.mode]]\nmass = 1\nstiffness = 0\n",
+     "scene.toml:9: body.mode.0.stiffness: found 0, expected a positive number [N/m]"},
     {one + "[[body.mode]]\nmass = 1\nstiffness = 1\ndamping = -0.5\n",
      "scene.toml:10: body.mode.0.damping: found -0.5, expected a number >= 0 [kg/s]"},
-    {one + "[[body.mode]]\nmass = 1\n", "scene.toml:7: body.mode.0.stiffness: found nothing, expected a positive number [N/m]"},
+    {one + "[[body.mode]]\nmass = 1\n",
+     "scene.toml:7: body.mode.0.stiffness: found nothing, expected a positive number [N/m]"},
     {one + "[[body.mode]]\nmass = 1\nstiffness = 1\nfrequency = 1\n",
-     "scene.toml:10: body.mode.0.frequency: unknown key; known here: \"mass\", \"stiffness\", \"damping\""},
+     "scene.toml:10: body.mode.0.frequency: unknown key; known here: \"mass\", \"stiffness\", "
+     "\"damping\""},
 };
 
 TEST(BadScenes, EachSaysWhereWhatWasFoundAndWhatWasExpected) {
-    for (const Bad& bad : bad_scenes) EXPECT_EQ(message(bad.text), bad.says) << bad.text.substr(0, 300);
+    for (const Bad& bad : bad_scenes)
+        EXPECT_EQ(message(bad.text), bad.says) << bad.text.substr(0, 300);
 }
 
 TEST(BadScenes, TheTextsTheyAreMadeFromAreGood) {
-    for (const std::string& text : {one, lumped, profile + "from = 0\nto = 0.1\n", tap + "quantity = \"nut_force\"\n"})
+    for (const std::string& text :
+         {one, lumped, profile + "from = 0\nto = 0.1\n", tap + "quantity = \"nut_force\"\n"})
         EXPECT_EQ(message(text), "(read without an error)");
 }
 
@@ -649,12 +812,12 @@ TEST(BadScenes, AMissingSceneNamesTheNearestOfTheLibrary) {
     const auto says = [](const std::string& name) {
         try {
             read_scene(name);
-        } catch (const SceneFileError& e) {
-            return std::string(e.what());
-        }
+        } catch (const SceneFileError& e) { return std::string(e.what()); }
         return std::string();
     };
-    EXPECT_EQ(says("tanpura_c4"), "\"tanpura_c4\": neither a file nor a scene of the library; did you mean \"tanpura_c3\"?");
+    EXPECT_EQ(
+        says("tanpura_c4"),
+        "\"tanpura_c4\": neither a file nor a scene of the library; did you mean \"tanpura_c3\"?");
     EXPECT_EQ(says("no/such/scene.toml"), "\"no/such/scene.toml\" cannot be read");
     EXPECT_EQ(says("/"), "\"/\" is no file");
     EXPECT_EQ(says("/dev/zero"), "\"/dev/zero\" is larger than 1048576 bytes");

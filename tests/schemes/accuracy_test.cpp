@@ -1,4 +1,5 @@
-// modal_two_point against the exact reference on the released C3 string: the errors that an independent program found, and their fall.
+// modal_two_point against the exact reference on the released C3 string: the errors that an
+// independent program found, and their fall.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,11 +29,15 @@ TEST(Accuracy, TheTwoPointSchemeErrsByWhatAnIndependentProgramFound) {
     const auto truth = run(exact, scene, {0, 44100, 133, {}});
     struct {
         int multiple;
-        double error;  // nut force, relative L2, 0-50 ms; a separate implementation of the scheme and of the exact solution
+        // nut force, relative L2, 0-50 ms; a separate implementation of the scheme and of the exact
+        // solution
+        double error;
     } const table[] = {{1, 6.8e-2}, {4, 4.1e-3}, {16, 7.1e-4}, {64, 1.8e-4}};
     for (const auto& row : table) {
         const auto r = run(schemes()[0], scene, {44100.0 * row.multiple, 44100, 133, {}});
-        EXPECT_NEAR(relative_l2(r.trace.column(0), truth.trace.column(0)), row.error, 0.05 * row.error) << "x" << row.multiple;
+        EXPECT_NEAR(relative_l2(r.trace.column(0), truth.trace.column(0)), row.error,
+                    0.05 * row.error)
+            << "x" << row.multiple;
     }
 }
 

@@ -1,5 +1,5 @@
-// The vector contact equation against references in long double: coordinate-wise bisection where Theta has full rank, one bisection on
-// X = g.f where Theta = g g' has rank one.
+// The vector contact equation against references in long double: coordinate-wise bisection where
+// Theta has full rank, one bisection on X = g.f where Theta = g g' has rank one.
 #include "schemes/contact/contact_gram.hpp"
 
 #include <gtest/gtest.h>
@@ -13,11 +13,14 @@ namespace {
 using Real = long double;
 
 Real potential(const ContactLaw& law, Real eta) {
-    return eta <= 0 ? 0 : law.k * std::pow(eta, static_cast<Real>(law.alpha) + 1) / (static_cast<Real>(law.alpha) + 1);
+    return eta <= 0 ? 0
+                    : law.k * std::pow(eta, static_cast<Real>(law.alpha) + 1) /
+                          (static_cast<Real>(law.alpha) + 1);
 }
 
 Real force_over(const ContactLaw& law, Real eta, Real r) {  // [V(eta) - V(eta - r)]/r
-    if (std::abs(r) < 1e-7L * std::abs(eta)) {              // midpoint and its first correction: relative error (r/eta)^4
+    // midpoint and its first correction: relative error (r/eta)^4
+    if (std::abs(r) < 1e-7L * std::abs(eta)) {
         if (eta <= 0) return 0;
         const Real mid = eta - r / 2, a = law.alpha;
         return law.k * std::pow(mid, a) * (1 + a * (a - 1) / 24 * (r / mid) * (r / mid));
@@ -57,11 +60,17 @@ Answer sweep_reference(const Problem& p) {
             const Real theta = p.theta[a * n + a], eta = p.eta[a];
             Real f = 0;
             if (eta > 0 || eta + held > 0) {
-                const Real far = std::sqrt(2 * theta * potential(p.laws[a], eta) * 4) + std::abs(held) + std::abs(eta);
-                const auto g = [&](Real r) { return r + held - theta * force_over(p.laws[a], eta, r); };
+                const Real far = std::sqrt(2 * theta * potential(p.laws[a], eta) * 4) +
+                                 std::abs(held) + std::abs(eta);
+                const auto g = [&](Real r) {
+                    return r + held - theta * force_over(p.laws[a], eta, r);
+                };
                 const Real r = root(g, -held, -held + 4 * far);
                 f = (r + held) / theta;
-                if (theta * p.laws[a].k * std::pow(std::max<Real>(eta - r, 0), static_cast<Real>(p.laws[a].alpha) - 1) < 1)
+                if (theta * p.laws[a].k *
+                        std::pow(std::max<Real>(eta - r, 0),
+                                 static_cast<Real>(p.laws[a].alpha) - 1) <
+                    1)
                     f = force_over(p.laws[a], eta, r);
             }
             change = std::max(change, std::abs(f - s.f[a]));
@@ -80,7 +89,8 @@ Answer sweep_reference(const Problem& p) {
 Answer rank_one_reference(const Problem& p, const std::vector<double>& g) {
     const auto h = [&](Real X) {
         Real sum = X;
-        for (int a = 0; a < p.n(); ++a) sum -= g[a] * force_over(p.laws[a], p.eta[a], -static_cast<Real>(p.b[a]) + g[a] * X);
+        for (int a = 0; a < p.n(); ++a)
+            sum -= g[a] * force_over(p.laws[a], p.eta[a], -static_cast<Real>(p.b[a]) + g[a] * X);
         return sum;
     };
     Real far = 1e-12L;
@@ -110,7 +120,9 @@ Real reach(const Problem& p, const std::vector<double>& f, int a) {
 
 struct Draw {
     std::mt19937 random{7};
-    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+    double uniform(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    }
     double power(double low, double high) { return std::pow(10.0, uniform(low, high)); }
     Problem contacts(int n) {
         Problem p;
@@ -118,11 +130,15 @@ struct Draw {
         const bool same = uniform(0, 1) < 0.5;
         const ContactLaw common{power(2, 16), alphas[static_cast<int>(uniform(0, 7))]};
         for (int a = 0; a < n; ++a) {
-            p.laws.push_back(same ? common : ContactLaw{power(2, 16), alphas[static_cast<int>(uniform(0, 7))]});
+            p.laws.push_back(
+                same ? common : ContactLaw{power(2, 16), alphas[static_cast<int>(uniform(0, 7))]});
             const double what = uniform(0, 1);
-            p.eta.push_back(what < 0.15 ? 0.0 : what < 0.6 ? -scale * uniform(0, 1) : scale * power(-6, 0));
+            p.eta.push_back(what < 0.15  ? 0.0
+                            : what < 0.6 ? -scale * uniform(0, 1)
+                                         : scale * power(-6, 0));
             p.b.push_back(scale * uniform(-2, 2));
-            if (uniform(0, 1) < 0.1) p.b[a] = -p.eta[a];  // grazing: the force-free motion ends exactly at the surface
+            // grazing: the force-free motion ends exactly at the surface
+            if (uniform(0, 1) < 0.1) p.b[a] = -p.eta[a];
             if (uniform(0, 1) < 0.05) p.b[a] = 0;
         }
         return p;
@@ -142,8 +158,11 @@ TEST(ContactGram, AgreesWithCoordinatewiseBisectionInLongDouble) {
             p.theta.assign(n * n, 0.0);
             for (int a = 0; a < n; ++a)
                 for (int c = 0; c < n; ++c)
-                    for (int l = 0; l < n + 2; ++l) p.theta[a * n + c] += size * g[a * (n + 2) + l] * g[c * (n + 2) + l] / (n + 2);
-            for (int a = 0; a < n; ++a) p.theta[a * n + a] *= 1.5;  // the reference's sweeps converge at a rate of the coupling
+                    for (int l = 0; l < n + 2; ++l)
+                        p.theta[a * n + c] +=
+                            size * g[a * (n + 2) + l] * g[c * (n + 2) + l] / (n + 2);
+            // the reference's sweeps converge at a rate of the coupling
+            for (int a = 0; a < n; ++a) p.theta[a * n + a] *= 1.5;
             const Answer want = sweep_reference(p);
             const Solved got = solve(p);
             ASSERT_TRUE(got.info.converged) << trial << " n " << n;
@@ -155,7 +174,9 @@ TEST(ContactGram, AgreesWithCoordinatewiseBisectionInLongDouble) {
                 ASSERT_GE(got.f[a], 0) << trial;
                 const double error = std::abs(got.r[a] - want.r[a]) / reach(p, got.f, a);
                 worst_r = std::max(worst_r, reach(p, got.f, a) > 0 ? error : 0);
-                if (n > 1 && largest > 0) worst_f = std::max(worst_f, static_cast<double>(std::abs(got.f[a] - want.f[a]) / largest));
+                if (n > 1 && largest > 0)
+                    worst_f = std::max(
+                        worst_f, static_cast<double>(std::abs(got.f[a] - want.f[a]) / largest));
             }
         }
     }
@@ -163,7 +184,8 @@ TEST(ContactGram, AgreesWithCoordinatewiseBisectionInLongDouble) {
     EXPECT_LT(worst_f, 1e-11);
     EXPECT_LT(worst_residual, 1e-12);
     EXPECT_LE(most, 25);
-    std::printf("[ measured ] r %.1e, f %.1e, residual %.1e, iterations %d\n", worst_r, worst_f, worst_residual, most);
+    std::printf("[ measured ] r %.1e, f %.1e, residual %.1e, iterations %d\n", worst_r, worst_f,
+                worst_residual, most);
 }
 
 TEST(ContactGram, ASingularThetaHasOneMotionAndItIsFound) {
@@ -184,7 +206,8 @@ TEST(ContactGram, ASingularThetaHasOneMotionAndItIsFound) {
             most = std::max(most, got.info.iterations);
             for (int a = 0; a < n; ++a)
                 if (const Real scale = reach(p, got.f, a); scale > 0)
-                    worst = std::max(worst, static_cast<double>(std::abs(got.r[a] - want.r[a]) / scale));
+                    worst = std::max(worst,
+                                     static_cast<double>(std::abs(got.r[a] - want.r[a]) / scale));
         }
     }
     EXPECT_LT(worst, 1e-13);
@@ -201,10 +224,14 @@ TEST(ContactGram, WorkOfTheForcesIsTheLossOfPotential) {
         ASSERT_TRUE(s.info.converged);
         for (int a = 0; a < 3; ++a) {
             const Real work = static_cast<Real>(s.f[a]) * s.r[a];
-            const Real lost = potential(p.laws[a], p.eta[a]) - potential(p.laws[a], static_cast<Real>(p.eta[a]) - s.r[a]);
+            const Real lost = potential(p.laws[a], p.eta[a]) -
+                              potential(p.laws[a], static_cast<Real>(p.eta[a]) - s.r[a]);
             // r is a double: its last bit moves the potential by F' r eps
-            const double slope = p.laws[a].force(std::abs(p.eta[a] - s.r[a])) * 4e-15 * static_cast<double>(reach(p, s.f, a));
-            EXPECT_NEAR(static_cast<double>(work - lost), 0, 1e-9 * std::abs(static_cast<double>(work)) + 10 * slope) << trial;
+            const double slope = p.laws[a].force(std::abs(p.eta[a] - s.r[a])) * 4e-15 *
+                                 static_cast<double>(reach(p, s.f, a));
+            EXPECT_NEAR(static_cast<double>(work - lost), 0,
+                        1e-9 * std::abs(static_cast<double>(work)) + 10 * slope)
+                << trial;
         }
     }
 }
@@ -217,11 +244,14 @@ TEST(ContactGram, ContactsInAChainAreSolvedTogether) {
         Problem p = draw.contacts(5);
         p.theta.assign(25, 0.0);
         for (int i = 0; i < 5; ++i) p.theta[order[i] * 6] = 3e-4;
-        for (int i = 1; i < 5; ++i) p.theta[order[i] * 5 + order[i - 1]] = p.theta[order[i - 1] * 5 + order[i]] = 1e-4;
+        for (int i = 1; i < 5; ++i)
+            p.theta[order[i] * 5 + order[i - 1]] = p.theta[order[i - 1] * 5 + order[i]] = 1e-4;
         const Answer want = sweep_reference(p);
         const Solved got = solve(p);
         ASSERT_TRUE(got.info.converged) << trial;
-        for (int a = 0; a < 5; ++a) EXPECT_LE(std::abs(got.r[a] - want.r[a]), 1e-13L * reach(p, got.f, a)) << trial << " contact " << a;
+        for (int a = 0; a < 5; ++a)
+            EXPECT_LE(std::abs(got.r[a] - want.r[a]), 1e-13L * reach(p, got.f, a))
+                << trial << " contact " << a;
     }
 }
 

@@ -1,4 +1,5 @@
-// Contacts, and perhaps a thread, under a string of a few modes drawn at random: what obstacle rules are tested on.
+// Contacts, and perhaps a thread, under a string of a few modes drawn at random: what obstacle
+// rules are tested on.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,9 @@ struct Points {
     std::optional<Thread> thread;
     std::vector<double> theta;  // [m/N], a row for each point
     int count() const { return contacts.count() + (thread ? 1 : 0); }
-    std::vector<Thread> threads() const { return thread ? std::vector{*thread} : std::vector<Thread>{}; }
+    std::vector<Thread> threads() const {
+        return thread ? std::vector{*thread} : std::vector<Thread>{};
+    }
 };
 
 // Theta of five modes whose weights lie within `most` of 0.
@@ -26,7 +29,8 @@ inline void couple(Points& p, std::mt19937& random, double most) {
     p.theta.assign(n * n, 0.0);
     for (int a = 0; a < n; ++a)
         for (int b = 0; b < n; ++b)
-            for (int i = 0; i < modes; ++i) p.theta[a * n + b] += g[a * modes + i] * g[b * modes + i];
+            for (int i = 0; i < modes; ++i)
+                p.theta[a * n + b] += g[a * modes + i] * g[b * modes + i];
 }
 
 }  // namespace jvari

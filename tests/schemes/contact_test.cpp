@@ -1,4 +1,5 @@
-// The scalar contact equation against a bisection in long double: every case, stiffness 1e2 to 1e16, exponents 1 to 3.
+// The scalar contact equation against a bisection in long double: every case, stiffness 1e2 to
+// 1e16, exponents 1 to 3.
 #include "schemes/contact/contact.hpp"
 
 #include <gtest/gtest.h>
@@ -23,12 +24,15 @@ Real potential(const ContactLaw& law, Real eta) {
 Real mean_force(const ContactLaw& law, Real eta, Real r) {
     if (eta > 0 && std::abs(r) < Real(1e-5) * eta) {
         const Real a = law.alpha, z = -r / eta;
-        return law.k * std::pow(eta, a) * (1 + a / 2 * z * (1 + (a - 1) / 3 * z * (1 + (a - 2) / 4 * z * (1 + (a - 3) / 5 * z))));
+        return law.k * std::pow(eta, a) *
+               (1 +
+                a / 2 * z * (1 + (a - 1) / 3 * z * (1 + (a - 2) / 4 * z * (1 + (a - 3) / 5 * z))));
     }
     return (potential(law, eta) - potential(law, eta - r)) / r;
 }
 
-// Bisection on r for a string that stays or leaves, on the depth eta - r for one that enters: nothing shared with the solver.
+// Bisection on r for a string that stays or leaves, on the depth eta - r for one that enters:
+// nothing shared with the solver.
 Truth bisect(const ContactLaw& law, Real eta, Real b, Real theta) {
     if (eta <= 0 && eta + b <= 0) return {-b, 0};
     const bool enters = eta <= 0;
@@ -51,8 +55,9 @@ Truth bisect(const ContactLaw& law, Real eta, Real b, Real theta) {
 
 void agrees(const ContactLaw& law, double eta, double b, double theta, const ContactSolution& s) {
     const Truth truth = bisect(law, eta, b, theta);
-    const auto where = ::testing::Message() << "k " << law.k << " alpha " << law.alpha << " eta " << eta << " b " << b << " theta " << theta
-                                            << " r " << s.r << " for " << double(truth.r);
+    const auto where = ::testing::Message()
+                       << "k " << law.k << " alpha " << law.alpha << " eta " << eta << " b " << b
+                       << " theta " << theta << " r " << s.r << " for " << double(truth.r);
     ASSERT_TRUE(s.converged) << where;
     EXPECT_LE(std::abs(s.r - truth.r), 4e-15L * (std::abs(Real(b)) + std::abs(truth.r))) << where;
     EXPECT_LE(std::abs(s.force - truth.force), 2e-13L * truth.force + 1e-300L)
@@ -65,7 +70,9 @@ const double exponents[] = {1.0, 1.1, 1.3, 1.5, 2.0, 2.5, 3.0};
 TEST(Contact, AgreesWithBisectionInEveryCaseFromSoftToStiff) {
     std::mt19937_64 random(20160905);
     std::uniform_real_distribution<double> unit(0, 1);
-    const auto decade = [&](double low, double high) { return std::pow(10, low + (high - low) * unit(random)); };
+    const auto decade = [&](double low, double high) {
+        return std::pow(10, low + (high - low) * unit(random));
+    };
     long iterations = 0, solves = 0;
     for (double alpha : exponents)
         for (int i = 0; i < 1500; ++i) {
@@ -89,7 +96,8 @@ TEST(Contact, TheLimitOfNoIncrementIsTheStaticForce) {
             for (double eta : {1e-10, 1e-7, 1e-4}) {
                 const ContactLaw law{k, alpha};
                 const double theta = 1e-9, still = theta * law.force(eta);
-                for (double part : {0.0, 1e-16, -1e-12, 1e-9, -1e-6, 1e-4}) {  // r about -part still
+                // r about -part still
+                for (double part : {0.0, 1e-16, -1e-12, 1e-9, -1e-6, 1e-4}) {
                     const double b = still * (1 + part);
                     agrees(law, eta, b, theta, solve_power_contact(law, eta, b, theta));
                     agrees(law, eta, b, theta, solve_contact(law, eta, b, theta));
@@ -103,13 +111,17 @@ TEST(Contact, GrazingAndZeroPenetrationAreOrdinary) {
         for (double k : {1e2, 1e9, 1e16}) {
             const ContactLaw law{k, alpha};
             for (double eta : {0.0, -1e-9, -1e-4}) {
-                const auto touch = solve_contact(law, eta, -eta, 1e-9);  // ends exactly at the surface
+                // ends exactly at the surface
+                const auto touch = solve_contact(law, eta, -eta, 1e-9);
                 EXPECT_EQ(touch.force, 0);
                 EXPECT_EQ(touch.r, eta);
-                for (double past : {1e-25, 1e-18, 1e-13}) agrees(law, eta, -eta + past, 1e-9, solve_contact(law, eta, -eta + past, 1e-9));
+                for (double past : {1e-25, 1e-18, 1e-13})
+                    agrees(law, eta, -eta + past, 1e-9, solve_contact(law, eta, -eta + past, 1e-9));
             }
-            for (double b : {-1e-5, 1e-5, 1e-12, 1e-30}) agrees(law, 0.0, b, 1e-9, solve_contact(law, 0.0, b, 1e-9));
-            for (double b : {-1e-5, 0.0, 1e-5, 1e-12}) agrees(law, 1e-25, b, 1e-9, solve_contact(law, 1e-25, b, 1e-9));
+            for (double b : {-1e-5, 1e-5, 1e-12, 1e-30})
+                agrees(law, 0.0, b, 1e-9, solve_contact(law, 0.0, b, 1e-9));
+            for (double b : {-1e-5, 0.0, 1e-5, 1e-12})
+                agrees(law, 1e-25, b, 1e-9, solve_contact(law, 1e-25, b, 1e-9));
             EXPECT_EQ(solve_contact(law, 0.0, 0.0, 1e-9).r, 0);
         }
 }
@@ -120,7 +132,8 @@ TEST(Contact, LeavingAndStayingMeetWhereTheStringEndsAtTheSurface) {
         const double theta = 1e-9, eta = 1e-7;
         const double b = theta * law.potential(eta) / eta - eta;  // r = eta
         for (double nudge : {-1e-13, -1e-16, 0.0, 1e-16, 1e-13})
-            agrees(law, eta, b * (1 + nudge), theta, solve_contact(law, eta, b * (1 + nudge), theta));
+            agrees(law, eta, b * (1 + nudge), theta,
+                   solve_contact(law, eta, b * (1 + nudge), theta));
     }
 }
 
@@ -140,23 +153,31 @@ TEST(Contact, ForceTimesIncrementIsThePotentialGivenUp) {
 TEST(Contact, HighExponentsAreSolvedToo) {  // where powers of a depth leave double's range as well
     std::mt19937_64 random(20260905);
     std::uniform_real_distribution<double> unit(0, 1);
-    const auto decade = [&](double low, double high) { return std::pow(10, low + (high - low) * unit(random)); };
+    const auto decade = [&](double low, double high) {
+        return std::pow(10, low + (high - low) * unit(random));
+    };
     for (double alpha : {5.0, 10.0, 20.0, 30.0, 50.0}) {
         const ContactLaw example{4.4e13, alpha};
-        const auto graze = solve_contact(example, 1.1e-12, 9.2e-3, 4e-5);  // eta^30 is no double, (b/eta)^31 neither
+        // eta^30 is no double, (b/eta)^31 neither
+        const auto graze = solve_contact(example, 1.1e-12, 9.2e-3, 4e-5);
         ASSERT_TRUE(graze.converged) << alpha;
         EXPECT_NEAR(graze.r, double(bisect(example, 1.1e-12, 9.2e-3, 4e-5).r), 1e-15) << alpha;
         for (int i = 0; i < 300; ++i) {
             const ContactLaw law{decade(0, 60), alpha};
-            const double theta = decade(-30, 0), eta = (unit(random) < 0.5 ? -1 : 1) * decade(-30, 0),
+            const double theta = decade(-30, 0),
+                         eta = (unit(random) < 0.5 ? -1 : 1) * decade(-30, 0),
                          b = (unit(random) < 0.5 ? -1 : 1) * decade(-30, 0);
             const auto s = solve_contact(law, eta, b, theta);
             const Truth truth = bisect(law, eta, b, theta);
-            const auto where = ::testing::Message() << "k " << law.k << " alpha " << alpha << " eta " << eta << " b " << b << " theta "
-                                                    << theta << " r " << s.r << " for " << double(truth.r);
+            const auto where = ::testing::Message()
+                               << "k " << law.k << " alpha " << alpha << " eta " << eta << " b "
+                               << b << " theta " << theta << " r " << s.r << " for "
+                               << double(truth.r);
             ASSERT_TRUE(s.converged && std::isfinite(s.force)) << where;
             // a power's rounding is that of its base as many times as the exponent says
-            ASSERT_LE(std::abs(s.r - truth.r), 4e-16L * (10 + alpha) * (std::abs(Real(b)) + std::abs(truth.r))) << where;
+            ASSERT_LE(std::abs(s.r - truth.r),
+                      4e-16L * (10 + alpha) * (std::abs(Real(b)) + std::abs(truth.r)))
+                << where;
             ASSERT_LE(s.iterations, 10 + 0.8 * alpha) << where;
         }
     }

@@ -1,4 +1,5 @@
-// Rules of impact and of mean forces against closed forms: a free mass that strikes a barrier, one mode of generalised-alpha, one equation.
+// Rules of impact and of mean forces against closed forms: a free mass that strikes a barrier, one
+// mode of generalised-alpha, one equation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,8 @@ const Descriptor& scheme(const std::string& name) {
     throw Refusal("no scheme " + name);
 }
 
-// A mass m that flies at v [m/s] and strikes: its speed after is -e v, and m v^2 (1 - e^2)/2 is lost.
+// A mass m that flies at v [m/s] and strikes: its speed after is -e v, and m v^2 (1 - e^2)/2 is
+// lost.
 TEST(MoreauJean, AMassLeavesWithItsSpeedTimesTheCoefficientAndLosesTheRest) {
     constexpr double m = 0.2, dt = 1e-3, v = -1.5;
     for (const int levels : {1, 2})
@@ -32,15 +34,18 @@ TEST(MoreauJean, AMassLeavesWithItsSpeedTimesTheCoefficientAndLosesTheRest) {
             const double theta = levels == 1 ? dt * dt / (2 * m) : dt * dt / m;
             MoreauJeanRule rule(std::span(&law, 1), std::span(&theta, 1), levels);
             rule.choose({1 / dt, 1 / dt, 1, {{"restitution", std::to_string(e)}}});
-            double eta = -2.2 * -v * dt, older = eta + v * dt, now_speed = v, lost = 0;  // it strikes in the third step
+            // it strikes in the third step
+            double eta = -2.2 * -v * dt, older = eta + v * dt, now_speed = v, lost = 0;
             rule.begin(&eta);
-            if (levels == 1) {  // from rest the rule knows no speed: one step without contact, r = v dt/2 + 0
+            // from rest the rule knows no speed: one step without contact, r = v dt/2 + 0
+            if (levels == 1) {
                 const double far = -1, b = -0.5 * v * dt;
                 double r, F;
                 rule.solve({&far, &far, &b}, &r, &F);
             }
             for (int step = 0; step < 6; ++step) {
-                const double b = -(levels == 1 ? now_speed * dt : 2 * now_speed * dt);  // minus the free increment
+                // minus the free increment
+                const double b = -(levels == 1 ? now_speed * dt : 2 * now_speed * dt);
                 double r = 0, F = 0;
                 rule.solve({levels == 1 ? &eta : &older, &eta, &b}, &r, &F);
                 lost += rule.lost();
@@ -50,13 +55,15 @@ TEST(MoreauJean, AMassLeavesWithItsSpeedTimesTheCoefficientAndLosesTheRest) {
                 eta = levels == 1 ? eta - r : eta - now_speed * dt;
             }
             EXPECT_NEAR(now_speed, -e * v, 1e-12) << "levels " << levels << ", e " << e;
-            EXPECT_NEAR(lost, 0.5 * m * v * v * (1 - e * e), 1e-12) << "levels " << levels << ", e " << e;
+            EXPECT_NEAR(lost, 0.5 * m * v * v * (1 - e * e), 1e-12)
+                << "levels " << levels << ", e " << e;
         }
 }
 
 TEST(MoreauJean, ItsEnergyLedgerIsClosedAndOneLosesNothing) {
     Scene scene = read_scene("rigid_point_bridge", {"string.0.damping.law=none", "duration=0.01"});
-    for (const char* name : {"modal_moreau_jean", "modal_two_point_moreau_jean", "finite_difference_hamiltonian_moreau_jean"}) {
+    for (const char* name : {"modal_moreau_jean", "modal_two_point_moreau_jean",
+                             "finite_difference_hamiltonian_moreau_jean"}) {
         const auto spent = [&](const char* e) {
             const Settings s{352800, 44100, 60, {{"restitution", e}}};
             const jvari::Run r = run(scheme(name), scene, s, {.energy = true});
@@ -64,8 +71,9 @@ TEST(MoreauJean, ItsEnergyLedgerIsClosedAndOneLosesNothing) {
             const double start = r.trace.energy_column(0)[0];
             for (long i = 1; i < r.trace.rows; ++i) {
                 lost += r.trace.energy_column(2)[i];
-                worst =
-                    std::max(worst, std::abs(r.trace.energy_column(0)[i] - r.trace.energy_column(0)[i - 1] + r.trace.energy_column(2)[i]));
+                worst = std::max(
+                    worst, std::abs(r.trace.energy_column(0)[i] - r.trace.energy_column(0)[i - 1] +
+                                    r.trace.energy_column(2)[i]));
             }
             EXPECT_LT(worst / start, 1e-11) << name << " " << e;
             return lost / start;
@@ -88,13 +96,15 @@ TEST(EndForces, AreTheMeanOfThoseAtBothEndsForOnePointAndForSeveral) {
                 const double share = 0.5 + 0.4 * unit(random);
                 rule.take_share(share);
                 double eta[3], b[3], r[3], F[3];
-                for (int a = 0; a < n; ++a) eta[a] = 1e-6 * unit(random), b[a] = 3e-6 * unit(random);
+                for (int a = 0; a < n; ++a)
+                    eta[a] = 1e-6 * unit(random), b[a] = 3e-6 * unit(random);
                 const BeforeStep at{eta, eta, b};
                 if (!rule.acts(at)) continue;
                 ASSERT_TRUE(rule.solve(at, r, F).converged);
                 for (int a = 0; a < n; ++a) {
                     const ContactLaw& law = p.contacts.laws[a];
-                    const double mean = (1 - share) * law.force(eta[a] - r[a]) + share * law.force(eta[a]);
+                    const double mean =
+                        (1 - share) * law.force(eta[a] - r[a]) + share * law.force(eta[a]);
                     double moved = -b[a];
                     for (int c = 0; c < n; ++c) moved += p.theta[a * n + c] * F[c];
                     EXPECT_NEAR(F[a], mean, 1e-7 * (std::abs(mean) + law.force(3e-6)));
@@ -104,26 +114,32 @@ TEST(EndForces, AreTheMeanOfThoseAtBothEndsForOnePointAndForSeveral) {
 }
 
 Trace free_mode(const char* method, const char* rho, int number, double rate) {
-    const Scene scene = read_scene("free_string", {"string.0.damping.law=none", "duration=0.06", "string.0.initial.shape=mode",
-                                                   "string.0.initial.number=" + std::to_string(number), "string.0.initial.amplitude=1e-3"});
+    const Scene scene = read_scene(
+        "free_string",
+        {"string.0.damping.law=none", "duration=0.06", "string.0.initial.shape=mode",
+         "string.0.initial.number=" + std::to_string(number), "string.0.initial.amplitude=1e-3"});
     const Settings s{rate, rate, number, {{"method", method}, {"rho", rho}}};
     return run(scheme("modal_generalised_alpha"), scene, s, {.energy = true}).trace;
 }
 
-// rho = 1 is the trapezoidal rule: a mode turns by 2 atan(omega dt/2) in a step, and keeps its energy.
+// rho = 1 is the trapezoidal rule: a mode turns by 2 atan(omega dt/2) in a step, and keeps its
+// energy.
 TEST(GeneralisedAlpha, WithoutDampingIsTheTrapezoidalRule) {
     const Scene scene = read_scene("free_string");
     const double rate = 4000, omega = modes_of(scene.strings[0], 3).omega0[2];
     for (const char* method : {"generalised_alpha", "hht"}) {
         const Trace t = free_mode(method, "1", 3, rate);
         for (long n = 0; n < t.rows; ++n) {
-            EXPECT_NEAR(t.column(0)[n] / t.column(0)[0], std::cos(2 * n * std::atan(0.5 * omega / rate)), 1e-10) << method << n;
+            EXPECT_NEAR(t.column(0)[n] / t.column(0)[0],
+                        std::cos(2 * n * std::atan(0.5 * omega / rate)), 1e-10)
+                << method << n;
             EXPECT_NEAR(t.energy_column(0)[n] / t.energy_column(0)[0], 1, 1e-10) << method << n;
         }
     }
 }
 
-// rho = 0 annihilates what the rate cannot resolve; rho = 1/2 of HHT keeps less than half of it per step, and both leave low modes alone.
+// rho = 0 annihilates what the rate cannot resolve; rho = 1/2 of HHT keeps less than half of it per
+// step, and both leave low modes alone.
 TEST(GeneralisedAlpha, DampsModesFarAboveTheRateAsItsOptionSays) {
     const auto left = [](const char* method, const char* rho, int number, double rate) {
         const Trace t = free_mode(method, rho, number, rate);

@@ -35,11 +35,11 @@ LumpedBarrier& barrier(Scene& s) {
     return std::get<LumpedBarrier>(s.strings.front().barriers.front());
 }
 double limit(const Scene& scene, double rate, int modes) {
-    return fact(make_scheme(scheme("modal_explicit_penalty"), scene, {rate, rate, modes, {}})->facts(), "stable_stiffness_limit");
+    return fact(
+        make_scheme(scheme("modal_explicit_penalty"), scene, {rate, rate, modes, {}})->facts(),
+        "stable_stiffness_limit");
 }
-const Settings probe_settings(double rate, int modes) {
-    return {rate, 44100, modes, {}};
-}
+const Settings probe_settings(double rate, int modes) { return {rate, 44100, modes, {}}; }
 
 TEST(ExplicitPenalty, TheStiffnessLimitOfC3IsReachedAt5190Kilohertz) {
     Scene scene = c3_release();
@@ -47,11 +47,13 @@ TEST(ExplicitPenalty, TheStiffnessLimitOfC3IsReachedAt5190Kilohertz) {
     const Modes m = modes_of(scene.strings.front(), 133);
     double sum = 0;
     for (double g : footprint_weights(m, 10e-3, 2e-3)) sum += g * g;
-    EXPECT_NEAR(limit(scene, 5.19e6, 133) / (4 * m.mass * 5.19e6 * 5.19e6 / sum), 1, 1e-3);  // 4m/(k^2 sum g^2): modes far below Nyquist
+    // 4m/(k^2 sum g^2): modes far below Nyquist
+    EXPECT_NEAR(limit(scene, 5.19e6, 133) / (4 * m.mass * 5.19e6 * 5.19e6 / sum), 1, 1e-3);
 }
 
 TEST(ExplicitPenalty, TheBoundaryOfLastingContactIsWithinOnePercentOfTheory) {
-    Scene one = lossless(c3_free());  // one mode about its equilibrium on a bed below which it never rises
+    // one mode about its equilibrium on a bed below which it never rises
+    Scene one = lossless(c3_free());
     one.strings.front().barriers = {LumpedBarrier{0.3, 0, 1e-3, {0}, 1, 0}};
     for (bool thread : {false, true}) {
         for (double part : {0.5, 0.99, 0.999, 1.001, 1.01}) {
@@ -62,8 +64,10 @@ TEST(ExplicitPenalty, TheBoundaryOfLastingContactIsWithinOnePercentOfTheory) {
             const Modes m = modes_of(s.strings.front(), 1);
             const double g = displacement_weights(m, 0.3)[0], gc = displacement_weights(m, 0.45)[0];
             // The recursion's own equilibrium: num q = dt^2/m (k g (h - g q) - k_c g_c^2 q)
-            const double num = 4 * std::pow(std::sin(m.omega0[0] / rate / 2), 2), e = 1 / (rate * rate * m.mass);
-            const double rest = e * k * g * 1e-3 / (num + e * k * g * g + (thread ? e * 4e4 * gc * gc : 0));
+            const double num = 4 * std::pow(std::sin(m.omega0[0] / rate / 2), 2),
+                         e = 1 / (rate * rate * m.mass);
+            const double rest =
+                e * k * g * 1e-3 / (num + e * k * g * g + (thread ? e * 4e4 * gc * gc : 0));
             ASSERT_GT(1e-3 - g * rest, 0);  // in contact
             s.strings.front().initial = ModeInitial{1, rest * (1 + 1e-9)};
             s.duration = 0.05;
@@ -83,7 +87,8 @@ TEST(ExplicitPenalty, TheBoundaryOfLastingContactIsWithinOnePercentOfTheory) {
 
 TEST(ExplicitPenalty, AStringOfSeveralModesPressedOnAPointIsQuietBelowTheLimitAndHammersAboveIt) {
     Scene s = lossless(c3_free());
-    s.strings.front().bending_stiffness = 0;  // then a point load bends the string into the triangle
+    // then a point load bends the string into the triangle
+    s.strings.front().bending_stiffness = 0;
     s.strings.front().initial = TriangleInitial{0.3, 1e-3, 0};
     s.strings.front().barriers = {LumpedBarrier{0.3, 0, 0, {1}, 1, 0}};
     s.duration = 0.5;
@@ -118,23 +123,29 @@ TEST(ExplicitPenalty, C3At44100GoesOutOfRangeAndSaysAtWhichStep) {
     EXPECT_LT(r.trace.rows, r.trace.stride);
     EXPECT_GT(r.trace.rows, 10);
     for (long n = 0; n < r.trace.rows; ++n)
-        ASSERT_TRUE(std::isfinite(r.trace.column(0)[n]) && std::isfinite(r.trace.energy_column(0)[n])) << n << " of " << r.trace.rows;
+        ASSERT_TRUE(std::isfinite(r.trace.column(0)[n]) &&
+                    std::isfinite(r.trace.energy_column(0)[n]))
+            << n << " of " << r.trace.rows;
 }
 
-TEST(ExplicitPenalty, ImpactsGainEnergyEvenAboveTheRateOfTheLimit) {  // the limit is that of lasting contact: necessary, not sufficient
+// the limit is that of lasting contact: necessary, not sufficient
+TEST(ExplicitPenalty, ImpactsGainEnergyEvenAboveTheRateOfTheLimit) {
     Scene scene = lossless(c3_release());
     scene.duration = 5e-3;
     RunOptions options;
     options.energy = true;
     const auto play = [&](int times) {
-        const auto r = run(scheme("modal_explicit_penalty"), scene, {44100.0 * times, 44100, 133, {}}, options);
+        const auto r = run(scheme("modal_explicit_penalty"), scene,
+                           {44100.0 * times, 44100, 133, {}}, options);
         EXPECT_GT(fact(r.facts, "stable_stiffness_limit"), 4.39e8);
         return r;
     };
-    EXPECT_EQ(play(118).status.outcome, Outcome::diverged);  // 5.20 MHz, limit 5.19 MHz: out of its energy budget
+    // 5.20 MHz, limit 5.19 MHz: out of its energy budget
+    EXPECT_EQ(play(118).status.outcome, Outcome::diverged);
     const auto sound = play(400);
     EXPECT_EQ(sound.status.outcome, Outcome::ok);
-    EXPECT_NEAR(sound.trace.energy_column(0).back() / sound.trace.energy_column(0).front(), 1, 0.02);
+    EXPECT_NEAR(sound.trace.energy_column(0).back() / sound.trace.energy_column(0).front(), 1,
+                0.02);
 }
 
 TEST(ExplicitPenalty, ASoftContactIsPlayedRight) {
@@ -144,7 +155,8 @@ TEST(ExplicitPenalty, ASoftContactIsPlayedRight) {
     const auto truth = run(scheme("modal_two_point"), scene, {44100.0 * 64, 44100, 133, {}});
     double last = 1;
     for (int times : {8, 16, 32}) {
-        const auto r = run(scheme("modal_explicit_penalty"), scene, {44100.0 * times, 44100, 133, {}});
+        const auto r =
+            run(scheme("modal_explicit_penalty"), scene, {44100.0 * times, 44100, 133, {}});
         const double e = distance(r.trace.column(0), truth.trace.column(0));
         EXPECT_LT(e, 0.5 * last);
         last = e;
@@ -154,7 +166,9 @@ TEST(ExplicitPenalty, ASoftContactIsPlayedRight) {
 
 TEST(ExplicitPenalty, HasNoMatchedComplianceOnAnyString) {
     const auto is_refused = [](const Descriptor& d) {
-        EXPECT_THROW(make_scheme(d, c3_release(), {88200, 44100, 40, {{"compliance", "matched"}}}), Refusal) << d.name;
+        EXPECT_THROW(make_scheme(d, c3_release(), {88200, 44100, 40, {{"compliance", "matched"}}}),
+                     Refusal)
+            << d.name;
     };
     is_refused(scheme("modal_explicit_penalty"));
     int pairs = 0;
@@ -165,21 +179,25 @@ TEST(ExplicitPenalty, HasNoMatchedComplianceOnAnyString) {
 
 // ---- Several contacts
 
-TEST(ExplicitPenaltyOnSeveralContacts, OneOfThemThatNothingTouchesChangesNothing) {  // one contact goes through other code
+// one contact goes through other code
+TEST(ExplicitPenaltyOnSeveralContacts, OneOfThemThatNothingTouchesChangesNothing) {
     for (Scene scene : {c3_release(), c3_pluck()}) {
         scene.duration = 3e-3;
         barrier(scene).stiffness.k = 1e6;
-        for (const Quantity q : {Quantity::velocity, Quantity::driving_force}) scene.taps.push_back({"more", q, 0, 0.4});
+        for (const Quantity q : {Quantity::velocity, Quantity::driving_force})
+            scene.taps.push_back({"more", q, 0, 0.4});
         const RunOptions options{.energy = true};
         const Settings settings{44100 * 8, 44100, 60, {}};
         const auto one = run(scheme("modal_explicit_penalty"), scene, settings, options);
         scene.strings.front().barriers.push_back(LumpedBarrier{0.6, 0, -1, {1e6}, 1, 0.5});
         const auto two = run(scheme("modal_explicit_penalty"), scene, settings, options);
         EXPECT_EQ(fact(two.facts, "contact_points"), 2);
-        for (int k = 0; k < one.trace.taps(); ++k) EXPECT_LT(distance(two.trace.column(k), one.trace.column(k)), 1e-9) << k;
+        for (int k = 0; k < one.trace.taps(); ++k)
+            EXPECT_LT(distance(two.trace.column(k), one.trace.column(k)), 1e-9) << k;
         for (int k = 0; k < 3; ++k)
             for (long n = 0; n < one.trace.rows; ++n)
-                ASSERT_NEAR(two.trace.energy_column(k)[n], one.trace.energy_column(k)[n], 1e-9 * one.trace.energy_column(0).back())
+                ASSERT_NEAR(two.trace.energy_column(k)[n], one.trace.energy_column(k)[n],
+                            1e-9 * one.trace.energy_column(0).back())
                     << k << " row " << n;
     }
 }
@@ -199,7 +217,8 @@ TEST(ExplicitPenaltyOnSeveralContacts, ConvergeToTheTwoPointScheme) {
     for (int tap : {0, 1, 2}) {
         double last = 1;
         for (int times : {8, 16, 32}) {
-            const auto r = run(scheme("modal_explicit_penalty"), scene, {44100.0 * times, 44100, 60, {}});
+            const auto r =
+                run(scheme("modal_explicit_penalty"), scene, {44100.0 * times, 44100, 60, {}});
             const double e = distance(r.trace.column(tap), truth.trace.column(tap));
             EXPECT_LT(e, 0.7 * last) << "tap " << tap << " at " << times;
             last = e;
@@ -213,8 +232,10 @@ TEST(ExplicitPenaltyOnSeveralContacts, ALossTakesEnergyAndIsAccountedFor) {
     scene.strings.front().thread.reset();
     scene.taps.pop_back();
     const auto end = [&](double beta) {
-        for (Barrier& b : scene.strings.front().barriers) std::get<LumpedBarrier>(b).contact_loss = beta;
-        const auto r = run(scheme("modal_explicit_penalty"), scene, {44100.0 * 64, 44100, 60, {}}, {.energy = true});
+        for (Barrier& b : scene.strings.front().barriers)
+            std::get<LumpedBarrier>(b).contact_loss = beta;
+        const auto r = run(scheme("modal_explicit_penalty"), scene, {44100.0 * 64, 44100, 60, {}},
+                           {.energy = true});
         double lost = 0;
         for (double x : r.trace.energy_column(2)) lost += x;
         const double start = r.trace.energy_column(0)[0], left = r.trace.energy_column(0).back();

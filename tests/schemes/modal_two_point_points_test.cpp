@@ -1,5 +1,6 @@
-// The modal two-point scheme on several contact points: one point of many is the scheme of one, the energy ledger closes in every step, and
-// the error against the exact solution of the same points falls with the rate.
+// The modal two-point scheme on several contact points: one point of many is the scheme of one, the
+// energy ledger closes in every step, and the error against the exact solution of the same points
+// falls with the rate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,26 +51,33 @@ TEST(SeveralPoints, OnePointThatIsInReachIsTheSchemeOfOnePoint) {
             for (const char* name : {"modal_two_point", "modal_two_point_trapezoidal"}) {
                 const Settings settings{88200, 44100, 60, {}};
                 const jvari::Run a = run(named(name), one, settings, {.energy = true}),
-                                 b = run(named(name), with_a_barrier_out_of_reach(one), settings, {.energy = true});
+                                 b = run(named(name), with_a_barrier_out_of_reach(one), settings,
+                                         {.energy = true});
                 EXPECT_EQ(fact(b, "contact_points"), 2);
                 EXPECT_TRUE(std::isnan(fact(a, "contact_points")));
                 for (int k = 0; k < a.trace.taps(); ++k)
-                    EXPECT_LT(difference(b.trace.column(k), a.trace.column(k)), 1e-7) << name << " " << k;
-                EXPECT_LT(difference(b.trace.energy_column(0), a.trace.energy_column(0)), 1e-12) << name;
+                    EXPECT_LT(difference(b.trace.column(k), a.trace.column(k)), 1e-7)
+                        << name << " " << k;
+                EXPECT_LT(difference(b.trace.energy_column(0), a.trace.energy_column(0)), 1e-12)
+                    << name;
             }
         }
 }
 
-double largest_residual(const jvari::Run& r) {  // of one step, relative to the largest stored energy
-    const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1), dissipated = r.trace.energy_column(2);
+// of one step, relative to the largest stored energy
+double largest_residual(const jvari::Run& r) {
+    const auto stored = r.trace.energy_column(0), supplied = r.trace.energy_column(1),
+               dissipated = r.trace.energy_column(2);
     double worst = 0, most = 0;
-    for (long n = 1; n < r.trace.rows; ++n) worst = std::max(worst, std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]));
+    for (long n = 1; n < r.trace.rows; ++n)
+        worst = std::max(worst, std::abs(stored[n] - stored[n - 1] - supplied[n] + dissipated[n]));
     for (const double E : stored) most = std::max(most, E);
     return worst / most;
 }
 
 Scene with_loss(Scene scene, double beta) {
-    for (Barrier& b : scene.strings.front().barriers) std::visit([beta](auto& x) { x.contact_loss = beta; }, b);
+    for (Barrier& b : scene.strings.front().barriers)
+        std::visit([beta](auto& x) { x.contact_loss = beta; }, b);
     return scene;
 }
 
@@ -77,7 +85,8 @@ TEST(SeveralPoints, TheEnergyLedgerClosesInEveryStep) {
     for (const char* scene : {"sitar_parabola", "two_point_bridge"})
         for (const double beta : {0.0, 5.0}) {
             const Scene s = with_loss(lasting(read_scene(scene), 0.02), beta);
-            const jvari::Run r = run(named("modal_two_point"), s, {128e3, 128e3, 80, {}}, {.energy = true});
+            const jvari::Run r =
+                run(named("modal_two_point"), s, {128e3, 128e3, 80, {}}, {.energy = true});
             ASSERT_EQ(r.status.outcome, Outcome::ok) << scene;
             EXPECT_LE(largest_residual(r), 1e-13) << scene << " " << beta;
             EXPECT_GT(fact(r, "deepest_penetration"), 0) << scene;
@@ -90,8 +99,8 @@ TEST(SeveralPoints, TheEnergyLedgerClosesInEveryStep) {
         }
 }
 
-// Pressed in by 4 mm and held back by a loss of 1000 s/m a string creeps out: spring and loss nearly cancel, a step moves it by a
-// thousandth of what it would move alone.
+// Pressed in by 4 mm and held back by a loss of 1000 s/m a string creeps out: spring and loss
+// nearly cancel, a step moves it by a thousandth of what it would move alone.
 TEST(SeveralPoints, AContactThatCreepsUnderAStrongLossKeepsItsLedger) {
     Scene scene = lasting(c3_free(), 2e-3);
     String& s = scene.strings[0];
@@ -100,7 +109,8 @@ TEST(SeveralPoints, AContactThatCreepsUnderAStrongLossKeepsItsLedger) {
     for (const bool two : {false, true}) {
         s.barriers = {LumpedBarrier{0.6, 0, 0, {2e7}, 1, 1000}};
         if (two) s.barriers.emplace_back(LumpedBarrier{0.62, 0, 0, {1e7}, 1.5, 3000});
-        const jvari::Run r = run(named("modal_two_point"), scene, {44100, 44100, 10, {}}, {.energy = true});
+        const jvari::Run r =
+            run(named("modal_two_point"), scene, {44100, 44100, 10, {}}, {.energy = true});
         ASSERT_EQ(r.status.outcome, Outcome::ok);
         EXPECT_LE(largest_residual(r), 1e-13) << two;
     }
@@ -109,7 +119,8 @@ TEST(SeveralPoints, AContactThatCreepsUnderAStrongLossKeepsItsLedger) {
 TEST(SeveralPoints, AContactThatLosesEnergyTakesEnergy) {
     const auto left = [](double beta) {
         const Scene s = lossless(with_loss(lasting(read_scene("two_point_bridge"), 0.02), beta));
-        const jvari::Run r = run(named("modal_two_point"), s, {128e3, 128e3, 80, {}}, {.energy = true});
+        const jvari::Run r =
+            run(named("modal_two_point"), s, {128e3, 128e3, 80, {}}, {.energy = true});
         return r.trace.energy_column(0)[r.trace.rows - 1] / r.trace.energy_column(0)[0];
     };
     EXPECT_NEAR(left(0), 1, 1e-11);
@@ -123,7 +134,8 @@ void converges(const Scene& scene, int modes, const std::string& points, double 
     ASSERT_EQ(truth.status.outcome, Outcome::ok);
     double last = HUGE_VAL;
     for (const int rate : {4, 16, 64}) {
-        const jvari::Run r = run(named("modal_two_point"), scene, {44100.0 * rate, 44100, modes, {{"points", points}}});
+        const jvari::Run r = run(named("modal_two_point"), scene,
+                                 {44100.0 * rate, 44100, modes, {{"points", points}}});
         ASSERT_EQ(r.status.outcome, Outcome::ok);
         const double error = difference(r.trace.column(0), truth.trace.column(0));
         EXPECT_LT(error, 0.5 * last) << scene.name << " at " << rate;
@@ -136,7 +148,8 @@ TEST(SeveralPoints, TheErrorAgainstTheSamePointsFallsWithTheRate) {
     Scene scene = lasting(read_scene("sitar_parabola"), 2e-3);
     const double L = scene.strings.front().length;
     scene.taps = {{"y", Quantity::displacement, 0, 0.1 * L}};
-    scene.strings.front().initial = TriangleInitial{0.12 * L, 1.8e-3, 0.1 * L};  // it meets the obstacle within 2 ms
+    // it meets the obstacle within 2 ms
+    scene.strings.front().initial = TriangleInitial{0.12 * L, 1.8e-3, 0.1 * L};
     converges(scene, 30, "4", 1e-3);
     converges(with_loss(scene, 5), 30, "4", 1e-3);
 }
@@ -174,22 +187,30 @@ TEST(SeveralQuadratisedPoints, OnePointThatIsInReachIsTheSchemeOfOnePoint) {
                 Scene one = scene;
                 std::get<LumpedBarrier>(one.strings[0].barriers[0]).exponent = exponent;
                 const Settings settings = quadratised(variant, 88200, 44100, 60);
-                const jvari::Run a = run(named("modal_quadratised"), one, settings, {.energy = true}),
-                                 b = run(named("modal_quadratised"), with_a_barrier_out_of_reach(one), settings, {.energy = true});
+                const jvari::Run a = run(named("modal_quadratised"), one, settings,
+                                         {.energy = true}),
+                                 b = run(named("modal_quadratised"),
+                                         with_a_barrier_out_of_reach(one), settings,
+                                         {.energy = true});
                 EXPECT_EQ(fact(b, "contact_points"), 2);
                 EXPECT_EQ(b.dofs, a.dofs + 1);
                 for (int k = 0; k < a.trace.taps(); ++k)
-                    EXPECT_LT(difference(b.trace.column(k), a.trace.column(k)), 1e-7) << variant << " " << k;
-                EXPECT_NEAR(fact(b, "smallest_contact_force"), fact(a, "smallest_contact_force"), 1e-6) << variant;
+                    EXPECT_LT(difference(b.trace.column(k), a.trace.column(k)), 1e-7)
+                        << variant << " " << k;
+                EXPECT_NEAR(fact(b, "smallest_contact_force"), fact(a, "smallest_contact_force"),
+                            1e-6)
+                    << variant;
             }
 }
 
 TEST(SeveralQuadratisedPoints, TheEnergyLedgerClosesInEveryStep) {
     for (const double beta : {0.0, 5.0})
-        for (const Scene& s : {over_two_bridges(0.02, beta), with_loss(lasting(read_scene("sitar_parabola"), 0.02), beta),
+        for (const Scene& s : {over_two_bridges(0.02, beta),
+                               with_loss(lasting(read_scene("sitar_parabola"), 0.02), beta),
                                with_loss(lasting(c3_release(), 0.02), beta)})
             for (const char* variant : variants) {
-                const jvari::Run r = run(named("modal_quadratised"), s, quadratised(variant, 128e3, 128e3, 80), {.energy = true});
+                const jvari::Run r = run(named("modal_quadratised"), s,
+                                         quadratised(variant, 128e3, 128e3, 80), {.energy = true});
                 ASSERT_EQ(r.status.outcome, Outcome::ok) << variant << " " << s.name;
                 EXPECT_LE(largest_residual(r), 1e-12) << variant << " " << s.name << " " << beta;
                 for (const double d : r.trace.energy_column(2)) EXPECT_GE(d, -1e-16);
@@ -199,13 +220,16 @@ TEST(SeveralQuadratisedPoints, TheEnergyLedgerClosesInEveryStep) {
 TEST(SeveralQuadratisedPoints, TheReleasedNeverPullAndTheRawDo) {
     for (const Scene& s : {over_two_bridges(0.02), lasting(read_scene("sitar_parabola"), 0.02)})
         for (const char* variant : variants) {
-            const jvari::Run r = run(named("modal_quadratised"), s, quadratised(variant, 128e3, 128e3, 80));
-            if (std::string(variant) == "released") EXPECT_EQ(fact(r, "smallest_contact_force"), 0) << s.name;
+            const jvari::Run r =
+                run(named("modal_quadratised"), s, quadratised(variant, 128e3, 128e3, 80));
+            if (std::string(variant) == "released")
+                EXPECT_EQ(fact(r, "smallest_contact_force"), 0) << s.name;
             else EXPECT_LT(fact(r, "smallest_contact_force"), -1e-3) << variant << " " << s.name;
         }
 }
 
-// Against the same modes and points exact in time; the raw form does not converge, which is what it is for.
+// Against the same modes and points exact in time; the raw form does not converge, which is what it
+// is for.
 TEST(SeveralQuadratisedPoints, ConvergeToTheExactSolutionOfTheSamePoints) {
     for (const double beta : {0.0, 0.5}) {
         const Scene s = over_two_bridges(0.01, beta);
@@ -214,7 +238,8 @@ TEST(SeveralQuadratisedPoints, ConvergeToTheExactSolutionOfTheSamePoints) {
         for (const char* variant : variants) {
             std::vector<double> error;
             for (const int rate : {4, 64}) {
-                const jvari::Run r = run(named("modal_quadratised"), s, quadratised(variant, 44100.0 * rate, 44100, 80));
+                const jvari::Run r = run(named("modal_quadratised"), s,
+                                         quadratised(variant, 44100.0 * rate, 44100, 80));
                 error.push_back(difference(r.trace.column(1), truth.trace.column(1)));
             }
             if (std::string(variant) == "raw") EXPECT_GT(error[1], 1e-2) << beta;
@@ -228,20 +253,24 @@ TEST(SeveralQuadratisedPoints, KeepTheirEnergyInThreeLevelsAndWithMatchedComplia
     constexpr double rate = 8 * 44100;
     const OptionValues three = {{"levels", "3"}}, matched = {{"compliance", "matched"}};
     const auto keeps = [&](const Scene& scene, const OptionValues& options) {
-        const jvari::Run r = run(named("modal_quadratised"), scene, {rate, rate, 80, options}, {.energy = true});
+        const jvari::Run r =
+            run(named("modal_quadratised"), scene, {rate, rate, 80, options}, {.energy = true});
         EXPECT_EQ(r.status.outcome, Outcome::ok);
         const auto stored = r.trace.energy_column(0), dissipated = r.trace.energy_column(2);
-        for (long n = 1; n < r.trace.rows; ++n) ASSERT_NEAR(stored[n], stored[n - 1] - dissipated[n], 1e-13 * stored[0]) << n;
+        for (long n = 1; n < r.trace.rows; ++n)
+            ASSERT_NEAR(stored[n], stored[n - 1] - dissipated[n], 1e-13 * stored[0]) << n;
         EXPECT_GT(fact(r, "largest_contact_force"), 0);
     };
     keeps(s, three);
     keeps(losing, three);
     keeps(s, matched);
-    EXPECT_THROW(make_scheme(named("modal_quadratised"), losing, {rate, rate, 80, matched}), Refusal);
+    EXPECT_THROW(make_scheme(named("modal_quadratised"), losing, {rate, rate, 80, matched}),
+                 Refusal);
 }
 
 // The same points in both schemes.
-Scene parabola_on_nodes(int intervals, int points) {  // from the middle before the first node to the middle behind the last
+// from the middle before the first node to the middle behind the last
+Scene parabola_on_nodes(int intervals, int points) {
     Scene scene = read_scene("sitar_parabola");
     auto& barrier = std::get<ProfileBarrier>(scene.strings[0].barriers[0]);
     const double h = scene.strings[0].length / intervals;
@@ -258,16 +287,22 @@ TEST(SeveralPoints, TheDistributedTwoPointSchemeGoesToTheSpatialNewtonAt4200Kilo
         OptionValues options;
         int tap;
     };
-    for (const Case& c :
-         {Case{read_scene("two_point_bridge"), 94, {}, 1}, Case{read_scene("two_point_bridge"), 94, {}, 2},
-          Case{parabola_on_nodes(422, 8), 421, {{"points", "8"}}, 2}, Case{parabola_on_nodes(422, 8), 421, {{"points", "8"}}, 3}}) {
+    for (const Case& c : {Case{read_scene("two_point_bridge"), 94, {}, 1},
+                          Case{read_scene("two_point_bridge"), 94, {}, 2},
+                          Case{parabola_on_nodes(422, 8), 421, {{"points", "8"}}, 2},
+                          Case{parabola_on_nodes(422, 8), 421, {{"points", "8"}}, 3}}) {
         const Scene scene = lasting(c.scene, 2e-3);
-        const auto newton = [&](int times) { return run(named("modal_spatial_newton"), scene, {times * rate, rate, c.modes, {}}); };
+        const auto newton = [&](int times) {
+            return run(named("modal_spatial_newton"), scene, {times * rate, rate, c.modes, {}});
+        };
         const jvari::Run fine = newton(96);
-        const double uncertain = difference(newton(48).trace.column(c.tap), fine.trace.column(c.tap));  // of the spatial Newton itself
+        // of the spatial Newton itself
+        const double uncertain =
+            difference(newton(48).trace.column(c.tap), fine.trace.column(c.tap));
         double last = 1;
         for (const int times : {8, 32, 96}) {
-            const jvari::Run r = run(named("modal_two_point"), scene, {times * rate, rate, c.modes, c.options});
+            const jvari::Run r =
+                run(named("modal_two_point"), scene, {times * rate, rate, c.modes, c.options});
             const double apart = difference(r.trace.column(c.tap), fine.trace.column(c.tap));
             EXPECT_LT(apart, 0.6 * last) << scene.name << " tap " << c.tap << " at " << times;
             last = apart;
@@ -280,13 +315,14 @@ TEST(SeveralPoints, TheDistributedTwoPointSchemeKeepsItsEnergyInEveryStep) {
     for (const Scene& whole : {read_scene("two_point_bridge"), parabola_on_nodes(422, 8)})
         for (const int times : {8, 32}) {
             const double rate = times * 44100.0;  // a row a step
-            const Trace t = run(named("modal_two_point"), lasting(whole, 2e-3), {rate, rate, whole.name == "sitar_parabola" ? 421 : 94, {}},
-                                {.energy = true})
-                                .trace;
+            const Trace t =
+                run(named("modal_two_point"), lasting(whole, 2e-3),
+                    {rate, rate, whole.name == "sitar_parabola" ? 421 : 94, {}}, {.energy = true})
+                    .trace;
             double worst = 0;
             for (long n = 1; n < t.rows; ++n)
-                worst = std::max(
-                    worst, std::abs(t.energy_column(0)[n] - t.energy_column(0)[n - 1] - t.energy_column(1)[n] + t.energy_column(2)[n]));
+                worst = std::max(worst, std::abs(t.energy_column(0)[n] - t.energy_column(0)[n - 1] -
+                                                 t.energy_column(1)[n] + t.energy_column(2)[n]));
             EXPECT_LT(worst, 1e-13 * t.energy_column(0)[0]) << whole.name << " x" << times;
         }
 }

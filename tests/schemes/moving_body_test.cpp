@@ -1,4 +1,5 @@
-// Strings on a body that moves: energy of the whole instrument, sympathy, the limit of a body too heavy to move, the reference.
+// Strings on a body that moves: energy of the whole instrument, sympathy, the limit of a body too
+// heavy to move, the reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +32,8 @@ BodyMode resonance(double hertz, double mass, double Q) {
     return {mass, mass * omega * omega, Q > 0 ? mass * omega / Q : 0};
 }
 
-// A string that is released over its bridge, one in unison at rest and one a fourth below it: all on the same two modes of a body.
+// A string that is released over its bridge, one in unison at rest and one a fourth below it: all
+// on the same two modes of a body.
 Scene instrument() {
     Scene scene = c3_release();
     scene.name = "three_on_a_body";
@@ -40,7 +42,9 @@ Scene instrument() {
     String low = still;
     low.tension *= 0.5625;
     scene.strings = {scene.strings.front(), still, low};
-    scene.taps = {{"still", Quantity::displacement, 1, 0.3}, {"nut", Quantity::nut_force, {}, 0}, {"support", Quantity::velocity, 0, 0}};
+    scene.taps = {{"still", Quantity::displacement, 1, 0.3},
+                  {"nut", Quantity::nut_force, {}, 0},
+                  {"support", Quantity::velocity, 0, 0}};
     scene.body = Body{"", "", {resonance(145, 0.05, 20), resonance(410, 0.02, 35)}};
     return scene;
 }
@@ -50,7 +54,8 @@ Scene lossless_instrument() {
     return scene;
 }
 
-jvari::Run probed(const Descriptor& d, Scene scene, double seconds, double sample_rate = rate, int modes = 40) {
+jvari::Run probed(const Descriptor& d, Scene scene, double seconds, double sample_rate = rate,
+                  int modes = 40) {
     scene.duration = seconds;
     return run(d, scene, {sample_rate, rate, modes, {}}, {.energy = true});
 }
@@ -62,13 +67,15 @@ double largest(std::span<const double> x) {
 }
 double distance(std::span<const double> a, std::span<const double> b) {  // relative, L2
     double difference = 0, size = 0;
-    for (std::size_t n = 0; n < a.size(); ++n) difference += (a[n] - b[n]) * (a[n] - b[n]), size += b[n] * b[n];
+    for (std::size_t n = 0; n < a.size(); ++n)
+        difference += (a[n] - b[n]) * (a[n] - b[n]), size += b[n] * b[n];
     return std::sqrt(difference / size);
 }
 
 // What the ledger misses in all, relative to the energy of the start.
 double ledger_gap(const Trace& t) {
-    const double *stored = t.energy.data(), *supplied = stored + t.stride, *lost = supplied + t.stride;
+    const double *stored = t.energy.data(), *supplied = stored + t.stride,
+                 *lost = supplied + t.stride;
     double balance = 0, worst = 0, most = stored[0];
     for (long n = 1; n < t.rows; ++n) {
         balance += supplied[n] - lost[n];
@@ -83,7 +90,8 @@ TEST(MovingBody, TheLedgerOfTheWholeInstrumentClosesOverASecond) {
         for (const Scene& scene : {instrument(), lossless_instrument()}) {
             const jvari::Run r = probed(*d, scene, 1);
             ASSERT_EQ(r.status.outcome, Outcome::ok) << d->name;
-            EXPECT_LT(ledger_gap(r.trace), 1e-11) << d->name << " " << (scene.body->modes[0].damping == 0 ? "lossless" : "lossy");
+            EXPECT_LT(ledger_gap(r.trace), 1e-11)
+                << d->name << " " << (scene.body->modes[0].damping == 0 ? "lossless" : "lossy");
         }
 }
 
@@ -104,7 +112,8 @@ TEST(MovingBody, ContactsOnItLoseEnergy) {
         for (String& s : scene.strings) s.thread.reset();
         scene.taps.clear();
         const auto lost = [&](double contact_loss) {
-            for (String& s : scene.strings) std::get<LumpedBarrier>(s.barriers.front()).contact_loss = contact_loss;
+            for (String& s : scene.strings)
+                std::get<LumpedBarrier>(s.barriers.front()).contact_loss = contact_loss;
             const jvari::Run r = probed(*d, scene, 0.05);
             EXPECT_LT(ledger_gap(r.trace), 1e-11) << d->name;
             return 1 - r.trace.energy[r.trace.rows - 1] / r.trace.energy[0];
@@ -130,7 +139,8 @@ TEST(MovingBody, OneTooHeavyToMoveChangesNothing) {
     for (const Descriptor* d : that_move_a_body()) {
         Scene scene = instrument();
         scene.taps.pop_back();
-        if (std::string(d->name) == "modal_spatial_newton")  // else it takes another thread force at t = 0: that of level 1, not the mean
+        // else it takes another thread force at t = 0: that of level 1, not the mean
+        if (std::string(d->name) == "modal_spatial_newton")
             for (String& s : scene.strings) s.thread.reset();
         const Trace fixed = [&] {
             Scene s = scene;
@@ -140,12 +150,13 @@ TEST(MovingBody, OneTooHeavyToMoveChangesNothing) {
         scene.body->modes = {{1e20, 1e26, 0}};
         const Trace heavy = probed(*d, scene, 0.05).trace;
         EXPECT_LT(distance(heavy.column(1), fixed.column(1)), 1e-8) << d->name;
-        for (long n = 0; n < fixed.rows; ++n) EXPECT_NEAR(heavy.energy[n], fixed.energy[n], 1e-9 * fixed.energy[0]) << d->name;
+        for (long n = 0; n < fixed.rows; ++n)
+            EXPECT_NEAR(heavy.energy[n], fixed.energy[n], 1e-9 * fixed.energy[0]) << d->name;
     }
 }
 
-// Without barriers the equations are linear: two strings alike, one released, exchange their energy as the sum and the difference of the
-// two go apart. The difference does not move the body.
+// Without barriers the equations are linear: two strings alike, one released, exchange their energy
+// as the sum and the difference of the two go apart. The difference does not move the body.
 TEST(MovingBody, TheDifferenceOfTwoStringsAlikeDoesNotMoveIt) {
     for (const Descriptor* d : that_move_a_body()) {
         Scene scene = instrument();
@@ -159,12 +170,15 @@ TEST(MovingBody, TheDifferenceOfTwoStringsAlikeDoesNotMoveIt) {
         alone_and_still.strings.pop_back();
         alone_and_still.body.reset();
         alone_and_still.taps.pop_back();
-        EXPECT_LT(distance(t.column(0), probed(*d, alone_and_still, 0.1).trace.column(0)), 1e-10) << d->name;
+        EXPECT_LT(distance(t.column(0), probed(*d, alone_and_still, 0.1).trace.column(0)), 1e-10)
+            << d->name;
     }
 }
 
-// Of an ideal string on a spring with a mass: sin(k(L - x)), (K - M omega^2) tan(kL) = -T k, omega = k sqrt(T/mu).
-double partial_on_a_body(const String& s, const BodyMode& m, int partial) {  // kL within pi/2 of pi x partial
+// Of an ideal string on a spring with a mass: sin(k(L - x)), (K - M omega^2) tan(kL) = -T k, omega
+// = k sqrt(T/mu).
+// kL within pi/2 of pi x partial
+double partial_on_a_body(const String& s, const BodyMode& m, int partial) {
     const auto off = [&](double kL) {
         const double k = kL / s.length, square = k * k * s.tension / s.linear_density;
         return (m.stiffness - m.mass * square) * std::sin(kL) + s.tension * k * std::cos(kL);
@@ -176,10 +190,12 @@ double partial_on_a_body(const String& s, const BodyMode& m, int partial) {  // 
     }
     return 0.5 * low / s.length * std::sqrt(s.tension / s.linear_density) / std::numbers::pi;
 }
-double peak_near(std::span<const double> x, double sample_rate, double hertz) {  // of the spectrum under a Hann window
+// of the spectrum under a Hann window
+double peak_near(std::span<const double> x, double sample_rate, double hertz) {
     const auto level = [&](double f) {
         const double step = 2 * std::numbers::pi / static_cast<double>(x.size() - 1);
-        const std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * f / sample_rate), turn_window = std::polar(1.0, step);
+        const std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * f / sample_rate),
+                                   turn_window = std::polar(1.0, step);
         std::complex<double> sum, at = 1, window = 1;
         for (const double v : x) {
             sum += (1 - window.real()) * v * at;
@@ -201,7 +217,8 @@ TEST(MovingBody, PartialsOfAStringOnASpringWithAMassAreThoseOfTheClosedForm) {
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
     s.initial = TriangleInitial{0.31, 1e-3, 0};
-    const BodyMode light = resonance(200, 1e-3, 0);  // twice the string's mass; a spring to its first partial, a mass to those above 2
+    // twice the string's mass; a spring to its first partial, a mass to those above 2
+    const BodyMode light = resonance(200, 1e-3, 0);
     scene.body = Body{"", "", {light}};
     scene.duration = 0.5;
     std::vector<const Descriptor*> all = that_move_a_body();
@@ -212,30 +229,36 @@ TEST(MovingBody, PartialsOfAStringOnASpringWithAMassAreThoseOfTheClosedForm) {
             const double f = partial_on_a_body(s, light, partial),
                          fixed = 0.5 * partial * std::sqrt(s.tension / s.linear_density) / s.length;
             EXPECT_GT(std::abs(f - fixed), 0.1) << "the body is felt";
-            EXPECT_NEAR(peak_near(t.column(0), rate, f), f, 5e-3) << d->name << " partial " << partial << " of " << fixed;
+            EXPECT_NEAR(peak_near(t.column(0), rate, f), f, 5e-3)
+                << d->name << " partial " << partial << " of " << fixed;
         }
     }
 }
 
-double error_at(const Descriptor& d, const Scene& scene, int times, int modes, const Trace& truth, int tap) {
-    return distance(run(d, scene, {times * rate, rate, modes, {}}).trace.column(tap), truth.column(tap));
+double error_at(const Descriptor& d, const Scene& scene, int times, int modes, const Trace& truth,
+                int tap) {
+    return distance(run(d, scene, {times * rate, rate, modes, {}}).trace.column(tap),
+                    truth.column(tap));
 }
 
 TEST(MovingBody, WithThreadsAloneSchemesConvergeToTheReferenceAndModesByTheSecondOrder) {
     Scene scene = instrument();
-    for (String& s : scene.strings) s.barriers.clear(), s.damping = NoDamping{};  // with losses the order of modal_spatial_newton is one
+    // with losses the order of modal_spatial_newton is one
+    for (String& s : scene.strings) s.barriers.clear(), s.damping = NoDamping{};
     for (BodyMode& m : scene.body->modes) m.damping = 0;
     scene.duration = 5e-3;
     std::map<int, jvari::Run> truths;
     for (const Descriptor* d : that_move_a_body()) {
         const bool grid = std::string(d->name).starts_with("finite_difference");
         const int modes = grid ? 250 : 40;  // a grid is the whole string's
-        if (!truths.contains(modes)) truths[modes] = run(sundials, scene, {0, rate, modes, {}}, {.energy = true});
+        if (!truths.contains(modes))
+            truths[modes] = run(sundials, scene, {0, rate, modes, {}}, {.energy = true});
         const jvari::Run& truth = truths[modes];
         ASSERT_EQ(truth.status.outcome, Outcome::ok);
         EXPECT_LT(ledger_gap(truth.trace), 1e-11);
         for (int tap = 0; tap < 3; ++tap) {
-            const double coarse = error_at(*d, scene, 2, modes, truth.trace, tap), fine = error_at(*d, scene, 8, modes, truth.trace, tap);
+            const double coarse = error_at(*d, scene, 2, modes, truth.trace, tap),
+                         fine = error_at(*d, scene, 8, modes, truth.trace, tap);
             if (grid && tap == 1) continue;  // the nut's force has modes beyond these
             EXPECT_LT(fine, grid ? 3e-3 : 5e-4) << d->name << " tap " << tap;
             EXPECT_LT(fine, (grid ? 0.7 : 0.07) * coarse) << d->name << " tap " << tap;
@@ -247,12 +270,14 @@ TEST(MovingBody, OverBridgesTheTwoPointSchemeConvergesAsThatOfOneString) {
     Scene scene = instrument(), one = c3_release();
     scene.duration = one.duration = 5e-3;
     one.taps = {scene.taps[1]};
-    const jvari::Run truth = run(sundials, scene, {0, rate, 40, {}}, {.energy = true}), alone = run(exact_contact, one, {0, rate, 40, {}});
+    const jvari::Run truth = run(sundials, scene, {0, rate, 40, {}}, {.energy = true}),
+                     alone = run(exact_contact, one, {0, rate, 40, {}});
     ASSERT_EQ(truth.status.outcome, Outcome::ok);
     EXPECT_LT(ledger_gap(truth.trace), 1e-11);
     const Descriptor& d = *that_move_a_body().front();
     for (const int times : {1, 4, 16}) {
-        const double on_body = error_at(d, scene, times, 40, truth.trace, 1), of_one = error_at(d, one, times, 40, alone.trace, 0);
+        const double on_body = error_at(d, scene, times, 40, truth.trace, 1),
+                     of_one = error_at(d, one, times, 40, alone.trace, 0);
         EXPECT_LT(on_body, 1.2 * of_one) << times;
         EXPECT_GT(on_body, 0.8 * of_one) << times;
     }
@@ -262,7 +287,10 @@ TEST(MovingBody, OverBridgesTheTwoPointSchemeConvergesAsThatOfOneString) {
 TEST(MovingBody, TheDroneConvergesToItsReferenceAtTheOrderOfTheSingleString) {
     Scene drone = read_scene("tanpura_drone");
     drone.duration = 0.01;
-    drone.body = Body{"", "", {resonance(110, 0.3, 15), resonance(190, 0.15, 20), resonance(320, 0.1, 25), resonance(540, 0.08, 30)}};
+    drone.body = Body{"",
+                      "",
+                      {resonance(110, 0.3, 15), resonance(190, 0.15, 20), resonance(320, 0.1, 25),
+                       resonance(540, 0.08, 30)}};
     drone.taps = {{"nut", Quantity::nut_force, {}, 0}};
     for (String& s : drone.strings) {
         s.pluck.reset();
@@ -272,12 +300,15 @@ TEST(MovingBody, TheDroneConvergesToItsReferenceAtTheOrderOfTheSingleString) {
     one.strings = {drone.strings[1]};
     one.body.reset();
     constexpr int modes = 10;
-    const Trace on_body = run(sundials, drone, {0, rate, modes, {}}).trace, still = run(exact_contact, one, {0, rate, modes, {}}).trace;
+    const Trace on_body = run(sundials, drone, {0, rate, modes, {}}).trace,
+                still = run(exact_contact, one, {0, rate, modes, {}}).trace;
     for (const char* name : {"modal_two_point", "modal_spatial_newton"}) {
         const auto all = that_move_a_body();
-        const Descriptor& d = **std::ranges::find_if(all, [&](const Descriptor* x) { return std::string(x->name) == name; });
+        const Descriptor& d = **std::ranges::find_if(
+            all, [&](const Descriptor* x) { return std::string(x->name) == name; });
         const auto order = [&](const Scene& scene, const Trace& truth) {
-            const double coarse = error_at(d, scene, 16, modes, truth, 0), fine = error_at(d, scene, 64, modes, truth, 0);
+            const double coarse = error_at(d, scene, 16, modes, truth, 0),
+                         fine = error_at(d, scene, 64, modes, truth, 0);
             EXPECT_LT(fine, 1e-3) << name;
             return 0.5 * std::log2(coarse / fine);
         };

@@ -1,5 +1,6 @@
-// What surrounds an obstacle rule: whatever the rule, the thread and the losses, the work on the string is what the potentials lose less
-// what is dissipated, over steps of random points (the invariant of contact/obstacle_rule.hpp).
+// What surrounds an obstacle rule: whatever the rule, the thread and the losses, the work on the
+// string is what the potentials lose less what is dissipated, over steps of random points (the
+// invariant of contact/obstacle_rule.hpp).
 #include "schemes/contact/obstacle.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,9 @@ constexpr double span = 1e-5;
 Points points_of(std::mt19937& random, bool thread, double beta) {
     std::uniform_real_distribution<double> unit(-1, 1);
     Points p;
-    for (int a = 0; a < many; ++a) p.contacts.add({std::pow(10, 7 + unit(random)), 1 + 0.5 * (a % 2)}, 1e-4 * unit(random), beta);
+    for (int a = 0; a < many; ++a)
+        p.contacts.add({std::pow(10, 7 + unit(random)), 1 + 0.5 * (a % 2)}, 1e-4 * unit(random),
+                       beta);
     if (thread) p.thread = Thread{0, 0, 1e5, 1.2, 1e-5};
     couple(p, random, 1e-4);
     return p;
@@ -55,11 +58,13 @@ void balances(int levels, bool threaded, double beta) {
         }
         double lost = span * obstacle.loss();
         if (levels == 2 && obstacle.dofs() > 0) {  // psi's share of the losses likewise
-            const double of_thread = threaded ? p.thread->damping * std::pow(newer.back() - older.back(), 2) / span : 0;
+            const double of_thread =
+                threaded ? p.thread->damping * std::pow(newer.back() - older.back(), 2) / span : 0;
             lost = of_thread + 0.5 * (lost - of_thread);
         }
         const double after = obstacle.potential(newer.data());
-        EXPECT_NEAR(work, before - after - lost, 1e-12 * (before + after + std::abs(work) + lost)) << draw;
+        EXPECT_NEAR(work, before - after - lost, 1e-12 * (before + after + std::abs(work) + lost))
+            << draw;
         for (int a = 0; a < many; ++a) touched += force[a] != 0;
     }
     EXPECT_GT(touched, 100) << "nothing was tested";
@@ -67,7 +72,8 @@ void balances(int levels, bool threaded, double beta) {
 
 template <class Rule>
 class Conserving : public testing::Test {};
-using Rules = testing::Types<GradientRule, QuadratisedRule<Quadratisation::released>, QuadratisedRule<Quadratisation::raw>>;
+using Rules = testing::Types<GradientRule, QuadratisedRule<Quadratisation::released>,
+                             QuadratisedRule<Quadratisation::raw>>;
 TYPED_TEST_SUITE(Conserving, Rules, );
 
 TYPED_TEST(Conserving, TheWorkOnTheStringIsWhatThePotentialsLoseLessTheLosses) {
@@ -82,24 +88,28 @@ TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h -
     const int n = p.count();
     std::vector<double> half = p.theta;
     for (double& theta : half) theta *= 0.5;
-    Obstacle<GradientRule> start = Obstacle<GradientRule>(p.contacts, p.threads(), p.theta, span, 2).halved(ThreadStart::taut, half);
+    Obstacle<GradientRule> start = Obstacle<GradientRule>(p.contacts, p.threads(), p.theta, span, 2)
+                                       .halved(ThreadStart::taut, half);
     const std::vector<double> older(n, 2e-4), free(n, -3e-4);
     std::vector<double> force(n);
     start.begin(older.data());
     ASSERT_TRUE(start.start({older.data(), older.data(), free.data()}, force.data()));
     double newer = older.back() + free.back();
     for (int m = 0; m < n; ++m) newer += 0.5 * p.theta[(n - 1) * n + m] * force[m];
-    EXPECT_NEAR(force.back(), p.thread->stiffness * (p.thread->height - newer), 1e-9 * std::abs(force.back()));
+    EXPECT_NEAR(force.back(), p.thread->stiffness * (p.thread->height - newer),
+                1e-9 * std::abs(force.back()));
     EXPECT_GT(force.front() + force[1] + force[2], 0) << "no contact";
 }
 
 TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is never touched
-    const double theta = 1e-6, apart[] = {theta, 0, 0, theta}, older[] = {-1e-5, 1}, free[] = {1.5e-5, 0};
+    const double theta = 1e-6, apart[] = {theta, 0, 0, theta}, older[] = {-1e-5, 1},
+                 free[] = {1.5e-5, 0};
     Contacts one, two;
     one.add({1e8, 1.5}, 0, 0);
     two.add(one);
     two.add({1e8, 1}, 0, 0);
-    const auto force = [&]<class Rule>(Rule*, const Contacts& contacts, std::span<const double> compliances) {
+    const auto force = [&]<class Rule>(Rule*, const Contacts& contacts,
+                                       std::span<const double> compliances) {
         Obstacle<Rule> obstacle(contacts, {}, compliances, span, 1);
         obstacle.begin(older);
         double F[2] = {};
@@ -107,7 +117,8 @@ TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is ne
         return F[0];
     };
     const auto agree = [&](auto* rule) {
-        const double alone = force(rule, one, std::span(&theta, 1)), among = force(rule, two, apart);
+        const double alone = force(rule, one, std::span(&theta, 1)),
+                     among = force(rule, two, apart);
         EXPECT_NE(alone, 0);
         EXPECT_NEAR(among, alone, 1e-9 * std::abs(alone));
     };

@@ -1,4 +1,5 @@
-// Barriers that do not give way: the invariants of contact/rigid_rule.hpp over many steps, and that the discrete gradient tends to it.
+// Barriers that do not give way: the invariants of contact/rigid_rule.hpp over many steps, and that
+// the discrete gradient tends to it.
 #include "schemes/contact/rigid_rule.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ Points points_of(std::mt19937& random, int contacts, double k, bool thread) {
     return p;
 }
 
-// Points that are pushed about at random, towards their barriers more often than away. Calls each(step, y before, r, forces).
+// Points that are pushed about at random, towards their barriers more often than away. Calls
+// each(step, y before, r, forces).
 template <class Rule, class Each>
 void walk(Obstacle<Rule>& obstacle, const Points& p, Each each) {
     std::mt19937 random(7);
@@ -53,7 +55,9 @@ TEST(RigidRule, ItGivesBackAllThatItTakesNeverPullsAndLetsNothingThrough) {
             const Points p = points_of(random, contacts, rigid, threaded);
             Obstacle<RigidRule> obstacle(p.contacts, p.threads(), p.theta, span, 1);
             int strikes = 0, throws_back = 0;
-            double before = threaded ? 0.5 * p.thread->stiffness * p.thread->height * p.thread->height : 0;  // no wall is touched yet
+            // no wall is touched yet
+            double before =
+                threaded ? 0.5 * p.thread->stiffness * p.thread->height * p.thread->height : 0;
             walk(obstacle, p, [&](int step, const auto& y, const auto& r, const auto& force) {
                 double work = 0, after_y[many + 1], size = 0;
                 for (int k = 0; k < p.count(); ++k) {
@@ -67,7 +71,8 @@ TEST(RigidRule, ItGivesBackAllThatItTakesNeverPullsAndLetsNothingThrough) {
                 before = after;
                 for (int a = 0; a < contacts; ++a) {
                     EXPECT_GE(force[a], 0) << step;
-                    EXPECT_GE(after_y[a] - p.contacts.heights[a], -1e-12 * 1e-5) << step << " penetrates";
+                    EXPECT_GE(after_y[a] - p.contacts.heights[a], -1e-12 * 1e-5)
+                        << step << " penetrates";
                     if (force[a] > 0) ++(r[a] > 1e-14 ? throws_back : strikes);
                 }
             });
@@ -76,14 +81,16 @@ TEST(RigidRule, ItGivesBackAllThatItTakesNeverPullsAndLetsNothingThrough) {
         }
 }
 
-// A spring of stiffness k is penetrated by sqrt(2V/k): a hundred times the stiffness makes a tenth of the difference.
+// A spring of stiffness k is penetrated by sqrt(2V/k): a hundred times the stiffness makes a tenth
+// of the difference.
 TEST(RigidRule, IsWhatTheDiscreteGradientTendsToAsTheBarrierStiffens) {
     for (const int contacts : {1, many}) {
         std::vector<double> rigid_motion;
         const auto motion = [&](auto* rule, double k) {
             std::mt19937 random(3);
             const Points p = points_of(random, contacts, k, true);
-            Obstacle<std::remove_pointer_t<decltype(rule)>> obstacle(p.contacts, p.threads(), p.theta, span, 1);
+            Obstacle<std::remove_pointer_t<decltype(rule)>> obstacle(p.contacts, p.threads(),
+                                                                     p.theta, span, 1);
             std::vector<double> all;
             walk(obstacle, p, [&](int step, const auto& y, const auto&, const auto&) {
                 if (step < 60) all.insert(all.end(), y.begin(), y.end());
@@ -94,7 +101,8 @@ TEST(RigidRule, IsWhatTheDiscreteGradientTendsToAsTheBarrierStiffens) {
         const auto away = [&](double k) {
             const auto penalty = motion(static_cast<GradientRule*>(nullptr), k);
             double largest = 0;
-            for (std::size_t i = 0; i < limit.size(); ++i) largest = std::max(largest, std::abs(penalty[i] - limit[i]));
+            for (std::size_t i = 0; i < limit.size(); ++i)
+                largest = std::max(largest, std::abs(penalty[i] - limit[i]));
             return largest;
         };
         const double soft = away(1e11), stiff = away(1e13);

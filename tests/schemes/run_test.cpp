@@ -23,7 +23,8 @@ public:
     void reset() noexcept override { n_ = 0; }
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows; ++row, ++n_) {
-            for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = std::ldexp(1.0, static_cast<int>(2 * n_));
+            for (int k = 0; k < out.taps; ++k)
+                out.tap[k * out.stride + row] = std::ldexp(1.0, static_cast<int>(2 * n_));
             if (out.energy) {
                 out.energy[row] = std::ldexp(1.0, static_cast<int>(n_));
                 out.energy[out.stride + row] = out.energy[2 * out.stride + row] = 0;
@@ -40,7 +41,8 @@ private:
 Scene second() {
     Scene s = c3_free();
     s.duration = 1;
-    for (Tap& t : s.taps) t.quantity = Quantity::bridge_force;  // of which the scene's energy says nothing
+    // of which the scene's energy says nothing
+    for (Tap& t : s.taps) t.quantity = Quantity::bridge_force;
     return s;
 }
 
@@ -72,7 +74,8 @@ TEST(RunLoop, ATraceHasOneRowMoreThanItsDurationHasIntervals) {
 TEST(RunLoop, ATimedRunThatOverflowsEndsWithTheRowsThatAreValid) {
     Doubling scheme;
     for (const int block : {1, 7, 64, 5000}) {
-        const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.block_rows = block, .timed = true});
+        const auto r =
+            run(scheme, second(), {2000, 1000, 0, {}}, {.block_rows = block, .timed = true});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
         EXPECT_EQ(r.trace.rows, 512);  // 2^1024 is infinite
         EXPECT_EQ(r.status.step, 2 * 512);
@@ -84,7 +87,8 @@ TEST(RunLoop, ARunThatLeavesItsEnergyBudgetHasDivergedWhetherItsEnergyIsKeptOrNo
     Doubling scheme;
     for (const bool energy : {false, true})
         for (const int block : {1, 7, 64, 5000}) {
-            const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.energy = energy, .block_rows = block});
+            const auto r =
+                run(scheme, second(), {2000, 1000, 0, {}}, {.energy = energy, .block_rows = block});
             EXPECT_EQ(r.status.outcome, Outcome::diverged);
             EXPECT_EQ(r.status.step, 8);
             EXPECT_EQ(r.trace.rows, 4);  // stored 1, 2, 4, 8 and then 16 > 10 x 1
@@ -94,7 +98,9 @@ TEST(RunLoop, ARunThatLeavesItsEnergyBudgetHasDivergedWhetherItsEnergyIsKeptOrNo
 
 // A scheme that says and does what a test tells it to; a row is a step.
 struct Odd final : Scheme {
-    std::function<Status(const Block&, long first)> act = [](const Block&, long) { return Status{}; };
+    std::function<Status(const Block&, long first)> act = [](const Block&, long) {
+        return Status{};
+    };
     std::function<std::vector<Fact>()> told = [] { return std::vector<Fact>{}; };
     long row = 0;
     void reset() noexcept override { row = 0; }
@@ -107,7 +113,8 @@ struct Odd final : Scheme {
     std::vector<Fact> facts() const override { return told(); }
 };
 
-// A scheme that tells no energy: the largest displacement that 10 times the energy of a string plucked to 1 mm allows is sqrt(10) mm.
+// A scheme that tells no energy: the largest displacement that 10 times the energy of a string
+// plucked to 1 mm allows is sqrt(10) mm.
 TEST(RunLoop, ATapBeyondWhatTenfoldEnergyOfTheSceneAllowsHasDivergedWhateverTheSchemeTells) {
     class Growing final : public Scheme {
     public:
@@ -115,8 +122,11 @@ TEST(RunLoop, ATapBeyondWhatTenfoldEnergyOfTheSceneAllowsHasDivergedWhateverTheS
         void reset() noexcept override { n_ = 0; }
         Status advance(const Block& out) noexcept override {
             for (int row = 0; row < out.rows; ++row, ++n_) {
-                for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = n_ == 700 ? last_ : 0;
-                if (out.energy) out.energy[row] = out.energy[out.stride + row] = out.energy[2 * out.stride + row] = 0;
+                for (int k = 0; k < out.taps; ++k)
+                    out.tap[k * out.stride + row] = n_ == 700 ? last_ : 0;
+                if (out.energy)
+                    out.energy[row] = out.energy[out.stride + row] =
+                        out.energy[2 * out.stride + row] = 0;
             }
             return {};
         }
@@ -134,7 +144,8 @@ TEST(RunLoop, ATapBeyondWhatTenfoldEnergyOfTheSceneAllowsHasDivergedWhateverTheS
     const double antinode = 1e-3 * std::sqrt(10.0);  // of the one mode that it is asked to carry
     for (const bool timed : {false, true}) {
         Growing within(0.98 * antinode), beyond(-1.001 * antinode);
-        EXPECT_EQ(run(within, s, {1000, 1000, 1, {}}, {.timed = timed}).status.outcome, Outcome::ok);
+        EXPECT_EQ(run(within, s, {1000, 1000, 1, {}}, {.timed = timed}).status.outcome,
+                  Outcome::ok);
         const auto r = run(beyond, s, {1000, 1000, 1, {}}, {.timed = timed});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
         EXPECT_EQ(r.trace.rows, 700);
@@ -148,7 +159,8 @@ TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
             scheme.act = [](const Block& out, long first) {
                 return first + out.rows > 100 ? Status{Outcome::not_converged, 200} : Status{};
             };
-            const auto r = run(scheme, second(), {2000, 1000, 0, {}}, {.energy = energy, .block_rows = block});
+            const auto r =
+                run(scheme, second(), {2000, 1000, 0, {}}, {.energy = energy, .block_rows = block});
             EXPECT_EQ(r.status.outcome, Outcome::not_converged);
             EXPECT_EQ(r.trace.rows, 101);
         }
@@ -158,7 +170,8 @@ TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
 Odd storing(std::function<double(long)> stored, std::function<double(long)> supplied) {
     Odd scheme;
     scheme.act = [=](const Block& out, long first) {
-        for (int n = 0; n < out.rows && out.energy; ++n) write_energy(out, n, stored(first + n), supplied(first + n), 0);
+        for (int n = 0; n < out.rows && out.energy; ++n)
+            write_energy(out, n, stored(first + n), supplied(first + n), 0);
         return Status{};
     };
     return scheme;
@@ -174,39 +187,52 @@ Met met(Odd scheme, const Scene& scene, const RunOptions& options) {
 }
 void expect_met(const Odd& scheme, const Scene& scene, const Met& expected) {
     for (const bool energy : {false, true})
-        for (const int block : {1, 7, 64, 5000}) EXPECT_EQ(met(scheme, scene, {.energy = energy, .block_rows = block}), expected) << block;
+        for (const int block : {1, 7, 64, 5000})
+            EXPECT_EQ(met(scheme, scene, {.energy = energy, .block_rows = block}), expected)
+                << block;
 }
 
 TEST(RunLoop, WhatAPluckSuppliesBelongsToTheBudget) {
     Scene scene = second();
     scene.strings.front().pluck = {.amplitude = 1, .duration = 0.01, .start = 0.4, .position = 0.1};
     const auto supplied = [](long row) { return row > 400 && row <= 410 ? 1.0 : 0.0; };
-    const auto grown_to = [](double energy) { return [energy](long row) { return row > 410 ? energy : 0; }; };
+    const auto grown_to = [](double energy) {
+        return [energy](long row) { return row > 410 ? energy : 0; };
+    };
     expect_met(storing(grown_to(99), supplied), scene, {Outcome::ok, 0, 1001});
     expect_met(storing(grown_to(101), supplied), scene, {Outcome::diverged, 411, 411});
-    expect_met(storing([](long row) { return row >= 404 ? 41 : 0; }, supplied), scene, {Outcome::diverged, 404, 404});  // 40 J by then
+    // 40 J by then
+    expect_met(storing([](long row) { return row >= 404 ? 41 : 0; }, supplied), scene,
+               {Outcome::diverged, 404, 404});
 }
 
-// Of a long pluck some rows tell what it supplies: what they let seem too much is looked at row by row.
+// Of a long pluck some rows tell what it supplies: what they let seem too much is looked at row by
+// row.
 TEST(RunLoop, WhatALongPluckSuppliesIsSummedWhereItMatters) {
     Scene scene = second();
-    scene.strings.front().pluck = {.amplitude = 1, .duration = 10, .start = 0.4, .position = 0.1};  // beyond the end
-    const auto supplied = [](long row) { return row == 403 ? 1.0 : 0.0; };                          // between two of them
-    const auto from = [](long first, double energy) { return [=](long row) { return row >= first ? energy : 0; }; };
+    // beyond the end
+    scene.strings.front().pluck = {.amplitude = 1, .duration = 10, .start = 0.4, .position = 0.1};
+    // between two of them
+    const auto supplied = [](long row) { return row == 403 ? 1.0 : 0.0; };
+    const auto from = [](long first, double energy) {
+        return [=](long row) { return row >= first ? energy : 0; };
+    };
     expect_met(storing(from(403, 9.9), supplied), scene, {Outcome::ok, 0, 1001});
     expect_met(storing(from(403, 10.1), supplied), scene, {Outcome::diverged, 403, 403});
     expect_met(storing(from(402, 1), supplied), scene, {Outcome::diverged, 402, 402});
     for (const long row : {404L, 512L, 700L, 701L, 999L, 1000L})
-        expect_met(storing([row](long n) { return n >= row   ? 10.1
-                                                  : n >= 403 ? 1.0
-                                                             : 0.0; }, supplied), scene,
-                   {Outcome::diverged, row, row});
+        expect_met(
+            storing([row](long n) { return n >= row   ? 10.1
+                                           : n >= 403 ? 1.0
+                                                      : 0.0; }, supplied),
+            scene, {Outcome::diverged, row, row});
 }
 
 TEST(RunLoop, ABudgetThatIsLeftNearTheEndIsSeen) {
     for (const long row : {1L, 255L, 256L, 257L, 999L, 1000L}) {
         const auto stored = [row](long n) { return n >= row ? 11.0 : 1.0; };
-        expect_met(storing(stored, [](long) { return 0; }), second(), {Outcome::diverged, row, row});
+        expect_met(storing(stored, [](long) { return 0; }), second(),
+                   {Outcome::diverged, row, row});
     }
 }
 
@@ -222,7 +248,8 @@ TEST(RunLoop, ASchemeThatFailsOnceItsBudgetIsLeftHasDivergedWhereItWasLeft) {
 TEST(RunLoop, ARowThatIsLongerThanTheRunIsNoRow) {
     Odd scheme;
     Scene scene = second();
-    for (const double row : {1.1, 2.0, 1000.0}) EXPECT_THROW(run(scheme, scene, {1000, 1 / row, 0, {}}), BadScene) << row;
+    for (const double row : {1.1, 2.0, 1000.0})
+        EXPECT_THROW(run(scheme, scene, {1000, 1 / row, 0, {}}), BadScene) << row;
     EXPECT_EQ(run(scheme, scene, {1000, 1, 0, {}}).trace.rows, 2);
     scene.duration = 1 / 44100.0;
     EXPECT_EQ(run(scheme, scene, {44100, 44100, 0, {}}).trace.rows, 2);
@@ -231,7 +258,9 @@ TEST(RunLoop, ARowThatIsLongerThanTheRunIsNoRow) {
 TEST(RunLoop, AReferenceInContinuousTimeThatFailsKeepsItsRowsToo) {
     for (const bool energy : {false, true}) {
         Odd scheme;
-        scheme.act = [](const Block& out, long first) { return first + out.rows > 83 ? Status{Outcome::not_converged, 83} : Status{}; };
+        scheme.act = [](const Block& out, long first) {
+            return first + out.rows > 83 ? Status{Outcome::not_converged, 83} : Status{};
+        };
         const auto r = run(scheme, second(), {0, 1000, 0, {}}, {.energy = energy});
         EXPECT_EQ(r.status.step, 83);
         EXPECT_EQ(r.trace.rows, 84);
@@ -246,11 +275,13 @@ TEST(RunLoop, FactsOfARunThatDivergesDoNotDependOnTheBlock) {
         scheme.act = [&most](const Block& out, long first) {
             if (first == 0) most = 0;
             most = std::exp2(static_cast<double>(first + out.rows - 1));
-            for (int n = 0; n < out.rows && out.energy; ++n) write_energy(out, n, std::exp2(static_cast<double>(first + n)), 0, 0);
+            for (int n = 0; n < out.rows && out.energy; ++n)
+                write_energy(out, n, std::exp2(static_cast<double>(first + n)), 0, 0);
             return Status{};
         };
         scheme.told = [&most] { return std::vector<Fact>{{{"most", "J", ""}, most}}; };
-        const auto r = run(scheme, second(), {1000, 1000, 0, {}}, {.energy = energy, .block_rows = block_rows});
+        const auto r = run(scheme, second(), {1000, 1000, 0, {}},
+                           {.energy = energy, .block_rows = block_rows});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
         return std::pair{r.trace.rows, r.facts.at(0).value};
     };
@@ -260,7 +291,8 @@ TEST(RunLoop, FactsOfARunThatDivergesDoNotDependOnTheBlock) {
 
 TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
     for (const Status said :
-         {Status{static_cast<Outcome>(77), 5}, Status{Outcome::diverged, -1000000}, Status{Outcome::diverged, 1L << 40}}) {
+         {Status{static_cast<Outcome>(77), 5}, Status{Outcome::diverged, -1000000},
+          Status{Outcome::diverged, 1L << 40}}) {
         Odd scheme;
         scheme.act = [said](const Block&, long) { return said; };
         EXPECT_THROW(run(scheme, second(), {1000, 1000, 0, {}}), BadScheme);
@@ -274,13 +306,21 @@ TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
 
 TEST(Made, IsASchemeOrASentence) {
     Descriptor d{"odd", "a test", needed_by(second()), Balance::none, Clock::stepped, nullptr};
-    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return nullptr; };
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+        return nullptr;
+    };
     EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), BadScheme);
-    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw 42; };
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+        throw 42;
+    };
     EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), BadScheme);
-    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { throw Refusal("not today"); };
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+        throw Refusal("not today");
+    };
     EXPECT_THROW(make_scheme(d, second(), {1000, 1000, 0, {}}), Refusal);
-    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> { return std::make_unique<Odd>(); };
+    d.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+        return std::make_unique<Odd>();
+    };
     EXPECT_NE(make_scheme(d, second(), {1000, 1000, 0, {}}), nullptr);
 }
 
@@ -294,9 +334,11 @@ TEST(RunLoop, MoreStepsOrRowsThanCanBeCountedAreRefused) {
     EXPECT_THROW(run(scheme, scene, {1000, 1000, 0, {}}), Refusal);
 }
 
-// A row of 2^30 steps at 44.1 kHz, seven hours of sound, and a caller who has had enough at the second word.
+// A row of 2^30 steps at 44.1 kHz, seven hours of sound, and a caller who has had enough at the
+// second word.
 struct Enough {};
-void expect_enough(const Descriptor& d, Scene scene, const std::vector<std::pair<std::string, std::string>>& options = {}) {
+void expect_enough(const Descriptor& d, Scene scene,
+                   const std::vector<std::pair<std::string, std::string>>& options = {}) {
     scene.duration = 1e9;
     int words = 0;
     EXPECT_THROW(run(d, scene, {44100, 44100.0 / (1 << 30), 0, options},
@@ -308,7 +350,8 @@ void expect_enough(const Descriptor& d, Scene scene, const std::vector<std::pair
         << d.name;
 }
 
-Scene softened(Scene scene) {  // so that explicit schemes stand it: one that diverges ends its row itself
+// so that explicit schemes stand it: one that diverges ends its row itself
+Scene softened(Scene scene) {
     for (Barrier& barrier : scene.strings.front().barriers) {
         if (auto* lumped = std::get_if<LumpedBarrier>(&barrier)) lumped->stiffness.k = 1e3;
         else std::get<ProfileBarrier>(barrier).stiffness.K = 1e3;
@@ -348,7 +391,8 @@ TEST(Schemes, OnAStringWithoutAModeBelow20kHzRunOrRefuse) {  // the first at 720
                     EXPECT_EQ(std::string(d.name).find("modal"), std::string::npos) << d.name;
                     EXPECT_FALSE(waves && length == "fractional");
                 } catch (const Refusal& refusal) {
-                    EXPECT_NE(std::string(refusal.what()).find("no mode below 20000 Hz"), std::string::npos)
+                    EXPECT_NE(std::string(refusal.what()).find("no mode below 20000 Hz"),
+                              std::string::npos)
                         << d.name << ": " << refusal.what();
                 }
             }
@@ -365,7 +409,8 @@ TEST(RunLoop, ASlowRunSaysSoOnceWithItsFacts) {
     Scene scene = second();
     scene.duration = 7e-3;
     std::vector<long> told;
-    run(scheme, scene, {1000, 1000, 0, {}}, {.slow = [&](long done, long, const std::vector<Fact>& facts) {
+    run(scheme, scene, {1000, 1000, 0, {}},
+        {.slow = [&](long done, long, const std::vector<Fact>& facts) {
             told.push_back(done);
             EXPECT_EQ(facts.front().value, 1600);
         }});

@@ -1,4 +1,5 @@
-// What the seam declares of every scheme and reference is what they do: options, facts, approximated features.
+// What the seam declares of every scheme and reference is what they do: options, facts,
+// approximated features.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,13 +33,15 @@ const std::vector<Scene>& library() {  // and what it lacks
             all.push_back(read_scene(name));
             all.back().duration = 20 / tap_rate;
         }
-        for (std::size_t i = all.size(); i-- > 0;)  // each string that is not stiff once with stiffness, which the library's sitars lack
+        // each string that is not stiff once with stiffness, which the library's sitars lack
+        for (std::size_t i = all.size(); i-- > 0;)
             if (Scene s = all[i]; s.strings.front().bending_stiffness == 0) {
                 s.name += " with bending stiffness";
                 s.strings.front().bending_stiffness = 1e-6;
                 all.push_back(std::move(s));
             }
-        all.push_back(read_scene("two_point_bridge", {"string.0.barrier.0.exponent=1", "string.0.barrier.0.stiffness=rigid"}));
+        all.push_back(read_scene("two_point_bridge", {"string.0.barrier.0.exponent=1",
+                                                      "string.0.barrier.0.stiffness=rigid"}));
         all.back().duration = 20 / tap_rate;
         return all;
     }();
@@ -49,7 +52,8 @@ Settings settings_for(OptionValues options) {
     return {4 * tap_rate, tap_rate, 40, std::move(options)};
 }
 
-// The options that tests run by default: few points for a profile, since what is declared does not depend on how many.
+// The options that tests run by default: few points for a profile, since what is declared does not
+// depend on how many.
 OptionValues quick(const Descriptor& d) {
     return declares(d, "nodes") ? OptionValues{{"nodes", "6"}} : OptionValues{};
 }
@@ -70,21 +74,23 @@ std::vector<OptionValues> combinations(const Descriptor& d) {
 }
 
 // What a run comes to, to the last bit, or why there is none.
-std::pair<std::vector<double>, std::string> result_of(const Descriptor& d, const Scene& scene, const OptionValues& options) {
+std::pair<std::vector<double>, std::string> result_of(const Descriptor& d, const Scene& scene,
+                                                      const OptionValues& options) {
     try {
         return {run(d, scene, settings_for(options)).trace.tap, ""};
-    } catch (const Refusal& refusal) {
-        return {{}, refusal.what()};
-    }
+    } catch (const Refusal& refusal) { return {{}, refusal.what()}; }
 }
 
 TEST(Options, TheDeclaredDefaultIsWhatTheSchemeDoesUntold) {
     for (const Descriptor* d : all_descriptors())
         for (const Option& o : d->options) {
-            if (!*o.fallback || std::string(o.name) == "nodes") continue;  // 32 points on every profile are too slow here
-            const auto scene = std::find_if(library().begin(), library().end(), [d](const Scene& s) { return represents(*d, s); });
+            // 32 points on every profile are too slow here
+            if (!*o.fallback || std::string(o.name) == "nodes") continue;
+            const auto scene = std::find_if(library().begin(), library().end(),
+                                            [d](const Scene& s) { return represents(*d, s); });
             ASSERT_NE(scene, library().end()) << d->name;
-            EXPECT_EQ(result_of(*d, *scene, {{o.name, o.fallback}}), result_of(*d, *scene, {})) << d->name << " " << o.name;
+            EXPECT_EQ(result_of(*d, *scene, {{o.name, o.fallback}}), result_of(*d, *scene, {}))
+                << d->name << " " << o.name;
         }
 }
 
@@ -98,9 +104,12 @@ TEST(Options, EveryDeclaredOneIsAcceptedWithEachOfItsWords) {
                 for (const Scene& scene : library()) {
                     if (!represents(*d, scene) || std::string(o.name) == "nodes") continue;
                     const std::string reason = result_of(*d, scene, {{o.name, value}}).second;
-                    EXPECT_EQ(reason.find("unknown option"), std::string::npos) << d->name << ": " << reason;
-                    EXPECT_EQ(reason.find("expected one of"), std::string::npos) << d->name << ": " << reason;
-                    EXPECT_EQ(reason.find("expected a number"), std::string::npos) << d->name << ": " << reason;
+                    EXPECT_EQ(reason.find("unknown option"), std::string::npos)
+                        << d->name << ": " << reason;
+                    EXPECT_EQ(reason.find("expected one of"), std::string::npos)
+                        << d->name << ": " << reason;
+                    EXPECT_EQ(reason.find("expected a number"), std::string::npos)
+                        << d->name << ": " << reason;
                     break;
                 }
         }
@@ -110,11 +119,14 @@ TEST(Options, OneThatIsUndeclaredOrGivenTwiceIsRefusedBeforeTheSchemeIsAsked) {
     static bool asked;
     asked = false;
     Descriptor careless = schemes()[0];
-    careless.make = [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
+    careless.make = [](const Descriptor&, const Scene&,
+                       const Settings&) -> std::unique_ptr<Scheme> {
         asked = true;
         return nullptr;
     };
-    const auto scene = std::find_if(library().begin(), library().end(), [&careless](const Scene& s) { return represents(careless, s); });
+    const auto scene =
+        std::find_if(library().begin(), library().end(),
+                     [&careless](const Scene& s) { return represents(careless, s); });
     ASSERT_NE(scene, library().end());
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"no_such_option", "1"}})), BadOption);
     EXPECT_FALSE(asked);
@@ -122,20 +134,25 @@ TEST(Options, OneThatIsUndeclaredOrGivenTwiceIsRefusedBeforeTheSchemeIsAsked) {
     careless.options = {&word, 1};
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "c"}})), Refusal);
     for (const char* second : {"a", "b"})
-        EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "a"}, {"word", second}})), BadOption);
+        EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "a"}, {"word", second}})),
+                     BadOption);
     EXPECT_FALSE(asked);
-    EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "b"}})), BadScheme);  // asked, it makes nothing
+    // asked, it makes nothing
+    EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "b"}})), BadScheme);
     EXPECT_TRUE(asked);
 }
 
 TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsReported) {
     std::map<std::string, std::string> unit;
-    for (const FactName& f : facts::table) EXPECT_TRUE(unit.emplace(f.name, f.unit).second) << f.name << " twice";
-    std::set<std::pair<std::string, std::string>> met, declared;  // scheme, fact of an approximation
+    for (const FactName& f : facts::table)
+        EXPECT_TRUE(unit.emplace(f.name, f.unit).second) << f.name << " twice";
+    // scheme, fact of an approximation
+    std::set<std::pair<std::string, std::string>> met, declared;
     for (const Descriptor* d : all_descriptors()) {
         for (const Approximation& a : d->approximates) {
             declared.emplace(d->name, a.fact.name);
-            EXPECT_TRUE(d->represents.has(a.feature)) << d->name << " approximates what it does not take: " << name_of(a.feature);
+            EXPECT_TRUE(d->represents.has(a.feature))
+                << d->name << " approximates what it does not take: " << name_of(a.feature);
         }
         for (const Scene& scene : library()) {
             if (!represents(*d, scene)) continue;
@@ -143,15 +160,15 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
                 std::unique_ptr<Scheme> scheme;
                 try {
                     scheme = make_scheme(*d, scene, settings_for(options));
-                } catch (const Refusal&) {
-                    continue;
-                }
+                } catch (const Refusal&) { continue; }
                 std::set<std::string> reported;
                 for (const Fact& f : scheme->facts()) {
                     std::string name = f.name;
-                    if (name.starts_with("string.")) name = name.substr(name.find('.', 7) + 1);  // of one of several strings
+                    // of one of several strings
+                    if (name.starts_with("string.")) name = name.substr(name.find('.', 7) + 1);
                     reported.insert(name);
-                    ASSERT_TRUE(unit.contains(name)) << d->name << " on " << scene.name << ": " << name;
+                    ASSERT_TRUE(unit.contains(name))
+                        << d->name << " on " << scene.name << ": " << name;
                     EXPECT_EQ(f.unit, unit[name]) << name;
                 }
                 Features owed;
@@ -159,8 +176,10 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
                     if (needed_by(scene).has(a.feature)) owed = owed | a.feature;
                 Features told;
                 for (const Approximation& a : d->approximates)
-                    if (reported.contains(a.fact.name)) told = told | a.feature, met.emplace(d->name, a.fact.name);
-                EXPECT_TRUE((owed - told).empty()) << d->name << " on " << scene.name << " says nothing of " << names_of(owed - told);
+                    if (reported.contains(a.fact.name))
+                        told = told | a.feature, met.emplace(d->name, a.fact.name);
+                EXPECT_TRUE((owed - told).empty()) << d->name << " on " << scene.name
+                                                   << " says nothing of " << names_of(owed - told);
             }
         }
     }
@@ -168,7 +187,8 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
 }
 
 TEST(Limits, AreGivenWithAName) {
-    for (const Descriptor* d : all_descriptors()) EXPECT_EQ(d->limit.name == nullptr, d->limit.margin == nullptr) << d->name;
+    for (const Descriptor* d : all_descriptors())
+        EXPECT_EQ(d->limit.name == nullptr, d->limit.margin == nullptr) << d->name;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Several strings as one scheme: whatever the scheme, what is heard of four strings is the sum of four runs of one, to the last bit.
+// Several strings as one scheme: whatever the scheme, what is heard of four strings is the sum of
+// four runs of one, to the last bit.
 #include "schemes/several_strings.hpp"
 
 #include <gtest/gtest.h>
@@ -34,21 +35,24 @@ std::vector<const Descriptor*> all_descriptors() {
     return all;
 }
 
-// The first scene of these that the scheme takes: a thread, a bridge and a pluck where it can have them.
+// The first scene of these that the scheme takes: a thread, a bridge and a pluck where it can have
+// them.
 Scene scene_for(const Descriptor& d) {
     Scene bridge = c3_pluck();
     bridge.strings.front().pluck->duration = 1e-3;
-    std::get<LumpedBarrier>(bridge.strings.front().barriers.front()).stiffness.k = 1e5;  // so that explicit schemes stand it
+    // so that explicit schemes stand it
+    std::get<LumpedBarrier>(bridge.strings.front().barriers.front()).stiffness.k = 1e5;
     std::vector<Scene> candidates{bridge};
-    for (const char* name : {"sitar_c5_flat", "free_string"}) candidates.push_back(read_scene(name));
-    candidates.push_back(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}));
+    for (const char* name : {"sitar_c5_flat", "free_string"})
+        candidates.push_back(read_scene(name));
+    candidates.push_back(
+        read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}));
     for (const Scene& s : candidates) {
         if (!represents(d, s)) continue;
         try {
             make_scheme(d, s, settings);
             return s;
-        } catch (const Refusal&) {
-        }
+        } catch (const Refusal&) {}
     }
     throw std::runtime_error(std::string(d.name) + " takes no scene of this test");
 }
@@ -65,13 +69,15 @@ struct Instrument {
     Scene whole;
     std::vector<Scene> single;
 };
-Instrument instrument_of(const Scene& base) {  // whole: the forces of all, then displacement and nut force of each string
+// whole: the forces of all, then displacement and nut force of each string
+Instrument instrument_of(const Scene& base) {
     Instrument i;
     i.whole = base;
     i.whole.duration = rows / tap_rate;
     i.whole.strings.clear();
     std::vector<Tap> sums{{"nut", Quantity::nut_force, {}, 0}};
-    if (!base.strings.front().barriers.empty()) sums.push_back({"bridge", Quantity::bridge_force, {}, 0});
+    if (!base.strings.front().barriers.empty())
+        sums.push_back({"bridge", Quantity::bridge_force, {}, 0});
     if (base.strings.front().thread) sums.push_back({"thread", Quantity::thread_force, {}, 0});
     i.whole.taps = sums;
     for (int k = 0; k < strings; ++k) {
@@ -86,7 +92,8 @@ Instrument instrument_of(const Scene& base) {  // whole: the forces of all, then
         i.whole.strings.push_back(s);
     }
     for (int k = strings - 1; k >= 0; --k)  // in another order than the strings
-        i.whole.taps.push_back({"y" + std::to_string(k), Quantity::displacement, k, 0.3 * i.whole.strings[k].length});
+        i.whole.taps.push_back(
+            {"y" + std::to_string(k), Quantity::displacement, k, 0.3 * i.whole.strings[k].length});
     return i;
 }
 
@@ -96,7 +103,8 @@ bool same(std::span<const double> a, std::span<const double> b) {
 
 TEST(SeveralStrings, AreTheSumOfRunsOfOneInEverySchemeToTheLastBit) {
     for (const Descriptor* d : all_descriptors()) {
-        const auto expect = [d](std::span<const double> a, std::span<const double> b, const std::string& of) {
+        const auto expect = [d](std::span<const double> a, std::span<const double> b,
+                                const std::string& of) {
             EXPECT_TRUE(same(a, b)) << d->name << " " << of;
         };
         const Instrument i = instrument_of(scene_for(*d));
@@ -108,28 +116,37 @@ TEST(SeveralStrings, AreTheSumOfRunsOfOneInEverySchemeToTheLastBit) {
         const auto sum = [&](auto column) {
             std::vector<double> all(rows + 1, 0.0);
             for (int k = 0; k < strings; ++k)
-                for (int n = 0; n <= rows; ++n) all[n] = k == 0 ? column(single[k].trace)[n] : all[n] + column(single[k].trace)[n];
+                for (int n = 0; n <= rows; ++n)
+                    all[n] =
+                        k == 0 ? column(single[k].trace)[n] : all[n] + column(single[k].trace)[n];
             return all;
         };
         double largest = 0;
         for (int t = 0; t < sums; ++t)
-            expect(whole.trace.column(t), sum([t](const Trace& x) { return x.column(t); }), "tap " + std::to_string(t));
+            expect(whole.trace.column(t), sum([t](const Trace& x) { return x.column(t); }),
+                   "tap " + std::to_string(t));
         for (int k = 0; k < strings; ++k) {
-            expect(whole.trace.column(sums + strings - 1 - k), single[k].trace.column(sums), "string " + std::to_string(k));
-            for (const double y : single[k].trace.column(sums)) largest = std::max(largest, std::abs(y));
+            expect(whole.trace.column(sums + strings - 1 - k), single[k].trace.column(sums),
+                   "string " + std::to_string(k));
+            for (const double y : single[k].trace.column(sums))
+                largest = std::max(largest, std::abs(y));
             if (k > 0) {
-                EXPECT_FALSE(same(single[k].trace.column(sums), single[0].trace.column(sums))) << d->name;
+                EXPECT_FALSE(same(single[k].trace.column(sums), single[0].trace.column(sums)))
+                    << d->name;
             }
         }
         EXPECT_GT(largest, 1e-7) << d->name << " at rest: nothing was tested";
-        for (int c = 0; c < 3; ++c) expect(whole.trace.energy_column(c), sum([c](const Trace& x) { return x.energy_column(c); }), "energy");
+        for (int c = 0; c < 3; ++c)
+            expect(whole.trace.energy_column(c),
+                   sum([c](const Trace& x) { return x.energy_column(c); }), "energy");
         std::size_t facts = 0;
         for (int k = 0; k < strings; ++k)
             for (const Fact& f : single[k].facts) {
                 ASSERT_LT(facts, whole.facts.size()) << d->name;
                 const Fact& told = whole.facts[facts++];
                 EXPECT_EQ(told.name, "string." + std::to_string(k) + "." + f.name) << d->name;
-                if (f.value == f.value) expect(std::span(&told.value, 1), std::span(&f.value, 1), told.name);
+                if (f.value == f.value)
+                    expect(std::span(&told.value, 1), std::span(&f.value, 1), told.name);
                 else EXPECT_TRUE(told.value != told.value) << d->name << " " << told.name;
             }
         EXPECT_EQ(facts, whole.facts.size()) << d->name;
@@ -144,7 +161,9 @@ TEST(SeveralStrings, GiveTheSameBitsWhateverTheBlockSizeAndAllocateNothing) {
         const Instrument i = instrument_of(scene_for(*d));
         const jvari::Run usual = run(*d, i.whole, settings);
         for (const int block : {1, 70})
-            EXPECT_TRUE(same(run(*d, i.whole, settings, {.block_rows = block}).trace.tap, usual.trace.tap)) << d->name << " " << block;
+            EXPECT_TRUE(
+                same(run(*d, i.whole, settings, {.block_rows = block}).trace.tap, usual.trace.tap))
+                << d->name << " " << block;
         const auto scheme = make_scheme(*d, i.whole, settings);
         const int taps = static_cast<int>(i.whole.taps.size());
         std::vector<double> tap(100 * taps);
@@ -170,13 +189,14 @@ void with_each_target(Do act) {
 
 TEST(VectorInstructions, AreThoseThatAKernelRunsWith) {
     std::vector<std::string> compiled;
-    for (std::int64_t left = HWY_TARGETS; left != 0; left &= left - 1) compiled.emplace_back(hwy::TargetName(left & ~(left - 1)));
-    const auto is_compiled = [&compiled](const std::string& name) { return std::ranges::count(compiled, name) > 0; };
+    for (std::int64_t left = HWY_TARGETS; left != 0; left &= left - 1)
+        compiled.emplace_back(hwy::TargetName(left & ~(left - 1)));
+    const auto is_compiled = [&compiled](const std::string& name) {
+        return std::ranges::count(compiled, name) > 0;
+    };
     EXPECT_TRUE(is_compiled(vector_instructions())) << vector_instructions();
     with_each_target([&](const char* target) {
-        if (is_compiled(target)) {
-            EXPECT_EQ(vector_instructions(), target);
-        }
+        if (is_compiled(target)) { EXPECT_EQ(vector_instructions(), target); }
     });
 }
 
@@ -197,7 +217,8 @@ public:
     void reset() noexcept override { step_ = 0; }
     Status advance(const Block& out) noexcept override {
         for (int n = 0; n < out.rows; ++n) {
-            for (int k = 0; k < taps_; ++k) out.tap[k * out.stride + n] = static_cast<double>(step_);
+            for (int k = 0; k < taps_; ++k)
+                out.tap[k * out.stride + n] = static_cast<double>(step_);
             for (int i = 0; i < per_row_; ++i, ++step_)
                 if (step_ == fails_) return {Outcome::diverged, step_};
         }
@@ -210,17 +231,21 @@ private:
     long fails_, step_ = 0;
     int taps_, per_row_;
 };
-const Descriptor counting = {"counting",
-                             "none: made for a test",
-                             Feature::damping,
-                             Balance::none,
-                             Clock::stepped,
-                             [](const Descriptor&, const Scene& scene, const Settings& s) -> std::unique_ptr<Scheme> {
-                                 if (scene.strings.front().length > 1e3) throw Refusal("the string is too long for this room");
-                                 if (scene.strings.front().length < 1e-3) throw BadScene("string.0.length", "too little", "more");
-                                 const long fails = std::lround(scene.strings.front().tension);
-                                 return std::make_unique<Counting>(fails, static_cast<int>(scene.taps.size()), steps_per_row(s));
-                             }};
+const Descriptor counting = {
+    "counting",
+    "none: made for a test",
+    Feature::damping,
+    Balance::none,
+    Clock::stepped,
+    [](const Descriptor&, const Scene& scene, const Settings& s) -> std::unique_ptr<Scheme> {
+        if (scene.strings.front().length > 1e3)
+            throw Refusal("the string is too long for this room");
+        if (scene.strings.front().length < 1e-3)
+            throw BadScene("string.0.length", "too little", "more");
+        const long fails = std::lround(scene.strings.front().tension);
+        return std::make_unique<Counting>(fails, static_cast<int>(scene.taps.size()),
+                                          steps_per_row(s));
+    }};
 
 Scene counted(const std::vector<double>& fails) {
     Scene scene;
@@ -230,15 +255,16 @@ Scene counted(const std::vector<double>& fails) {
         scene.strings.emplace_back();
         scene.strings.back().length = 1;
         scene.strings.back().tension = f;
-        scene.taps.push_back({"n" + std::to_string(scene.taps.size()), Quantity::nut_force, static_cast<int>(scene.taps.size()), 0});
+        scene.taps.push_back({"n" + std::to_string(scene.taps.size()), Quantity::nut_force,
+                              static_cast<int>(scene.taps.size()), 0});
     }
     scene.taps.push_back({"sum", Quantity::nut_force, {}, 0});
     return scene;
 }
 
 TEST(SeveralStrings, TheFirstFailureEndsTheRunOfAll) {
-    for (const std::vector<double>& fails :
-         std::vector<std::vector<double>>{{1e6, 301, 299}, {299, 301, 1e6}, {301, 1e6, 299}, {302, 299, 300}})
+    for (const std::vector<double>& fails : std::vector<std::vector<double>>{
+             {1e6, 301, 299}, {299, 301, 1e6}, {301, 1e6, 299}, {302, 299, 300}})
         for (const int block : {1, 5, 64, 1000}) {
             const jvari::Run r = run(counting, counted(fails), settings, {.block_rows = block});
             EXPECT_EQ(r.status.outcome, Outcome::diverged);
@@ -246,7 +272,8 @@ TEST(SeveralStrings, TheFirstFailureEndsTheRunOfAll) {
             ASSERT_EQ(r.trace.rows, 75);  // to row 74, steps 296 to 299
             for (int n = 0; n < 75; ++n) ASSERT_EQ(r.trace.column(3)[n], 3 * 4 * n);
             for (int k = 0; k < 3; ++k)
-                EXPECT_LE(r.facts[k].value, 300) << block << " rows a block, string " << k;  // and not to the block's end
+                // and not to the block's end
+                EXPECT_LE(r.facts[k].value, 300) << block << " rows a block, string " << k;
         }
 }
 
@@ -264,9 +291,7 @@ TEST(SeveralStrings, WhatRefusesNamesItsString) {
     try {
         make_scheme(counting, scene, settings);
         FAIL() << "made";
-    } catch (const BadScene& e) {
-        EXPECT_EQ(e.key, "string.2.length");
-    }
+    } catch (const BadScene& e) { EXPECT_EQ(e.key, "string.2.length"); }
 }
 
 TEST(SeveralStrings, ASumIsOverTheStringsThatHaveTheForce) {
@@ -282,8 +307,9 @@ TEST(SeveralStrings, ASumIsOverTheStringsThatHaveTheForce) {
 }
 
 TEST(SeveralStrings, TheLimitIsThatOfTheStringNearestToIt) {
-    const Descriptor& d = *std::find_if(schemes().begin(), schemes().end(),
-                                        [](const Descriptor& x) { return std::string(x.name) == "finite_difference_explicit"; });
+    const Descriptor& d = *std::find_if(
+        schemes().begin(), schemes().end(),
+        [](const Descriptor& x) { return std::string(x.name) == "finite_difference_explicit"; });
     Scene scene = c3_pluck();
     const Settings on_a_grid{tap_rate, tap_rate, 0, {{"grid", "40"}}};
     const double slow = margin_of(d, scene, on_a_grid);

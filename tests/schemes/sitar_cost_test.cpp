@@ -1,5 +1,6 @@
-// "A scene without polarisation carries one plane, and its time is half": the one claim of a test that rests on a clock. It is the
-// processor time of this thread, the least of many short runs taken in turns, and asks for less than what was measured (a ratio of 2.3).
+// "A scene without polarisation carries one plane, and its time is half": the one claim of a test
+// that rests on a clock. It is the processor time of this thread, the least of many short runs
+// taken in turns, and asks for less than what was measured (a ratio of 2.3).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,13 +17,15 @@ double processor_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-class Rails {  // C5 by the waveguide with nothing in its way, 256 steps a row, so that writing rows does not count
+// C5 by the waveguide with nothing in its way, 256 steps a row, so that writing rows does not count
+class Rails {
 public:
     explicit Rails(bool two_planes) {
         Scene scene = sitar_scene();
         if (two_planes) scene.strings[0].polarisation = Polarisation{0.05, 0};
         scene.taps = {tap(Quantity::nut_force)};
-        scheme_ = make_scheme(scheme_named("sitar_waveguide"), scene, {256 * 44100.0, 44100, 0, {}});
+        scheme_ =
+            make_scheme(scheme_named("sitar_waveguide"), scene, {256 * 44100.0, 44100, 0, {}});
     }
     int dofs() const { return scheme_->dofs(); }
     double least = 1e9;  // of the runs so far [s]

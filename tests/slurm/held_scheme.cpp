@@ -1,7 +1,9 @@
-// A plugin for the test on a cluster: modal_two_point under another name, that a node can be told to stop in the middle of a run.
+// A plugin for the test on a cluster: modal_two_point under another name, that a node can be told
+// to stop in the middle of a run.
 //
-// Where the folder $JVARI_HOLD has a file of the node's name, the first run there that is half done renames it to NODE.PID and stops itself
-// (SIGSTOP): whoever waits for that file has a task that is at work and will not end before it is ended. Elsewhere nothing is changed.
+// Where the folder $JVARI_HOLD has a file of the node's name, the first run there that is half done
+// renames it to NODE.PID and stops itself (SIGSTOP): whoever waits for that file has a task that is
+// at work and will not end before it is ended. Elsewhere nothing is changed.
 #include <signal.h>
 #include <unistd.h>
 
@@ -25,12 +27,14 @@ void stop_where_asked() {
     const char *folder = std::getenv("JVARI_HOLD"), *node = std::getenv("SLURMD_NODENAME");
     if (!folder || !node) return;
     const std::string file = std::string(folder) + "/" + node;
-    if (std::rename(file.c_str(), (file + "." + std::to_string(getpid())).c_str()) == 0) raise(SIGSTOP);
+    if (std::rename(file.c_str(), (file + "." + std::to_string(getpid())).c_str()) == 0)
+        raise(SIGSTOP);
 }
 
 class Held final : public Scheme {
 public:
-    Held(const Scene& scene, const Settings& s) : scheme_(make_scheme(whole(), scene, s)), half_(scene.duration * s.tap_rate / 2) {}
+    Held(const Scene& scene, const Settings& s)
+        : scheme_(make_scheme(whole(), scene, s)), half_(scene.duration * s.tap_rate / 2) {}
     void reset() noexcept override {
         scheme_->reset();
         row_ = 0;
@@ -53,7 +57,8 @@ private:
 Descriptor held() {
     Descriptor d = whole();
     d.name = "held_two_point";
-    d.make = [](const Descriptor&, const Scene& scene, const Settings& s) -> std::unique_ptr<Scheme> {
+    d.make = [](const Descriptor&, const Scene& scene,
+                const Settings& s) -> std::unique_ptr<Scheme> {
         return std::make_unique<Held>(scene, s);
     };
     return d;

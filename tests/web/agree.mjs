@@ -1,5 +1,6 @@
-// agree.mjs PROGRAM BUILD SOURCES: every scheme and reference of the page's module on seven scenes against the program: the same taps and energies to
-// 1e-9 of their largest value, the same outcome, and the same sentence where one refuses.
+// agree.mjs PROGRAM BUILD SOURCES: every scheme and reference of the page's module on seven scenes
+// against the program: the same taps and energies to 1e-9 of their largest value, the same outcome,
+// and the same sentence where one refuses.
 import {spawnSync} from "node:child_process";
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -7,102 +8,235 @@ import {join, resolve} from "node:path";
 import {core} from "./module.mjs";
 
 const [program, build, sources] = process.argv.slice(2);
-const jvari = await core(build, sources), scratch = mkdtempSync(join(tmpdir(), "jvari-web-"));
-const scenes = {free_string: 0.02, tanpura_c3_release: 0.02, tanpura_c3: 0.02, two_point_bridge: 0.02, prepared_piano: 0.02, nylon_guitar: 0.005,
-                sitar_parabola: 0.002};  // [s]; the last one forgets its start, and later two roundings are two motions
+const jvari = await core(build, sources),
+  scratch = mkdtempSync(join(tmpdir(), "jvari-web-"));
+const scenes = {
+  free_string: 0.02,
+  tanpura_c3_release: 0.02,
+  tanpura_c3: 0.02,
+  two_point_bridge: 0.02,
+  prepared_piano: 0.02,
+  nylon_guitar: 0.005,
+  // [s]; the last one forgets its start, and later two roundings are two motions
+  sitar_parabola: 0.002,
+};
 const text = name => readFileSync(join(sources, "scenes", `${name}.toml`), "utf8");
 
 // The file is called "scene" in both, so that messages name it alike.
-function natively({scene, overrides = [], scheme, rate = 44100, modes = 0, options = [], duration = 0.02}) {
-    writeFileSync(join(scratch, "scene"), scene);
-    const words = ["run", "scene", "--scheme", scheme, "--rate", rate, "--duration", duration, "--energy", "--json", "--out", "trace.csv", "--tap-rate", 44100, ...(modes ? ["--modes", modes] : []),
-        ...overrides.flatMap(o => ["--set", o]), ...options.flatMap(o => ["--option", o])];
-    const run = spawnSync(resolve(program), words.map(String), {cwd: scratch, encoding: "utf8", maxBuffer: 1 << 28});
-    const said = JSON.parse(run.stdout);
-    if (said.message !== undefined) return {refused: said.message};
-    const [head, ...rows] = readFileSync(join(scratch, "trace.csv"), "utf8").trim().split("\n").filter(line => !line.startsWith("#"));
-    const table = rows.map(row => row.split(",").map(Number));
-    return {outcome: said.status, columns: head.split(",").slice(1).map((name, k) => [name, table.map(row => row[k + 1])])};
+function natively({
+  scene,
+  overrides = [],
+  scheme,
+  rate = 44100,
+  modes = 0,
+  options = [],
+  duration = 0.02,
+}) {
+  writeFileSync(join(scratch, "scene"), scene);
+  const words = [
+    "run",
+    "scene",
+    "--scheme",
+    scheme,
+    "--rate",
+    rate,
+    "--duration",
+    duration,
+    "--energy",
+    "--json",
+    "--out",
+    "trace.csv",
+    "--tap-rate",
+    44100,
+    ...(modes ? ["--modes", modes] : []),
+    ...overrides.flatMap(o => ["--set", o]),
+    ...options.flatMap(o => ["--option", o]),
+  ];
+  const run = spawnSync(resolve(program), words.map(String), {
+    cwd: scratch,
+    encoding: "utf8",
+    maxBuffer: 1 << 28,
+  });
+  const said = JSON.parse(run.stdout);
+  if (said.message !== undefined) return {refused: said.message};
+  const [head, ...rows] = readFileSync(join(scratch, "trace.csv"), "utf8")
+    .trim()
+    .split("\n")
+    .filter(line => !line.startsWith("#"));
+  const table = rows.map(row => row.split(",").map(Number));
+  return {
+    outcome: said.status,
+    columns: head
+      .split(",")
+      .slice(1)
+      .map((name, k) => [name, table.map(row => row[k + 1])]),
+  };
 }
 
 function in_the_page(asked) {
-    let run;
-    try {
-        run = jvari.run({duration: 0.02, ...asked, energy: true});
-    } catch (error) {
-        return {refused: error.message};
-    }
-    const columns = [...run.taps.map((name, k) => [name, [...run.tap(k)]]), ...run.ledger().map((column, k) => [["stored", "supplied", "dissipated"][k], [...column]])];
-    run.free();
-    return {outcome: run.outcome, columns};
+  let run;
+  try {
+    run = jvari.run({duration: 0.02, ...asked, energy: true});
+  } catch (error) {
+    return {refused: error.message};
+  }
+  const columns = [
+    ...run.taps.map((name, k) => [name, [...run.tap(k)]]),
+    ...run.ledger().map((column, k) => [["stored", "supplied", "dissipated"][k], [...column]]),
+  ];
+  run.free();
+  return {outcome: run.outcome, columns};
 }
 
-function apart(a, b) {  // the largest difference of a column, over its largest value
-    if (a.refused !== undefined || b.refused !== undefined) return a.refused === b.refused ? 0 : Infinity;
-    if (a.outcome !== b.outcome || a.columns.length !== b.columns.length) return Infinity;
-    const rows = a.outcome === "diverged" ? 100 : Infinity;  // it grows from roundings: where it ends is a matter of them
-    let worst = 0;
-    a.columns.forEach(([, whole], k) => {
-        const x = whole.slice(0, rows), y = b.columns[k][1].slice(0, rows), most = y.reduce((m, v) => Math.max(m, Math.abs(v)), 1e-300);
-        if (x.length !== y.length) worst = Infinity;
-        else x.forEach((v, n) => { const d = Math.abs(v - y[n]) / most; if (!(d <= worst)) worst = Number.isNaN(d) ? Infinity : d; });
-    });
-    return worst;
+function apart(a, b) {
+  // the largest difference of a column, over its largest value
+  if (a.refused !== undefined || b.refused !== undefined)
+    return a.refused === b.refused ? 0 : Infinity;
+  if (a.outcome !== b.outcome || a.columns.length !== b.columns.length) return Infinity;
+  // it grows from roundings: where it ends is a matter of them
+  const rows = a.outcome === "diverged" ? 100 : Infinity;
+  let worst = 0;
+  a.columns.forEach(([, whole], k) => {
+    const x = whole.slice(0, rows),
+      y = b.columns[k][1].slice(0, rows),
+      most = y.reduce((m, v) => Math.max(m, Math.abs(v)), 1e-300);
+    if (x.length !== y.length) worst = Infinity;
+    else
+      x.forEach((v, n) => {
+        const d = Math.abs(v - y[n]) / most;
+        if (!(d <= worst)) worst = Number.isNaN(d) ? Infinity : d;
+      });
+  });
+  return worst;
 }
 
-let failures = 0, ran = 0, refused = 0, largest = 0;
+let failures = 0,
+  ran = 0,
+  refused = 0,
+  largest = 0;
 function compare(what, asked) {
-    const program_ = natively(asked), page = in_the_page(asked), d = apart(page, program_);
-    if (program_.refused !== undefined) ++refused;
-    else ++ran, largest = Math.max(largest, d);
-    if (d <= 1e-9) return;
-    ++failures;
-    const short = r => r.refused ?? `${r.outcome}, ${r.columns.map(([name, x]) => `${name} ${x.length}`)}`;
-    console.log(`FAILED: ${what}: ${d}\n  program: ${short(program_)}\n  page:    ${short(page)}`);
+  const program_ = natively(asked),
+    page = in_the_page(asked),
+    d = apart(page, program_);
+  if (program_.refused !== undefined) ++refused;
+  else (++ran, (largest = Math.max(largest, d)));
+  if (d <= 1e-9) return;
+  ++failures;
+  const short = r =>
+    r.refused ?? `${r.outcome}, ${r.columns.map(([name, x]) => `${name} ${x.length}`)}`;
+  console.log(`FAILED: ${what}: ${d}\n  program: ${short(program_)}\n  page:    ${short(page)}`);
 }
 
 const {schemes, references} = jvari.list();
-// Where roundings grow, two programs go apart: a penalty that gains energy, also matched on a profile, and a string that
-// rests on a rigid barrier, where a rounding decides whether they touch.
+// Where roundings grow, two programs go apart: a penalty that gains energy, also matched on a
+// profile, and a string that rests on a rigid barrier, where a rounding decides whether they touch.
 const calm = {modal_generalised_alpha: {rate: 352800, options: ["compliance=matched"]}};
 const astray = ["tanpura_c3 by modal_moreau_jean", "sitar_parabola by modal_generalised_alpha"];
 for (const [name, duration] of Object.entries(scenes))
-    for (const {name: scheme} of [...schemes, ...references])
-        if (!astray.includes(`${name} by ${scheme}`)) compare(`${name} by ${scheme}`, {scene: text(name), scheme, duration, ...calm[scheme]});
+  for (const {name: scheme} of [...schemes, ...references])
+    if (!astray.includes(`${name} by ${scheme}`))
+      compare(`${name} by ${scheme}`, {scene: text(name), scheme, duration, ...calm[scheme]});
 
-const c3 = text("tanpura_c3_release"), with_c3 = change => ({scene: c3, scheme: "modal_two_point", ...change});
+const c3 = text("tanpura_c3_release"),
+  with_c3 = change => ({scene: c3, scheme: "modal_two_point", ...change});
 const wrong = {
-    "a negative tension": with_c3({overrides: ["string.0.tension=-3"]}), "an unknown key": with_c3({overrides: ["string.0.tensoin=3"]}),
-    "a number of words": with_c3({overrides: ["string.0.length=long"]}), "an unknown option": with_c3({options: ["order=4"]}),
-    "an option's wrong word": with_c3({options: ["compliance=none"]}), "an option twice": with_c3({options: ["compliance=own", "compliance=own"]}),
-    "modes above half the rate": with_c3({modes: 3000}), "too many modes": with_c3({modes: 9999999}),
-    "an option's wrong number": {scene: c3, scheme: "exact_contact", options: ["tolerance=tiny"]}, "a text that is no scene": with_c3({scene: "Hello [ world"}),
-    "an empty scene": with_c3({scene: ""}), "bytes that are no text": with_c3({scene: "\u0001\u0002"}),
-    "a file that is not there": with_c3({overrides: ['string.0.damping.law="table"', 'string.0.damping.file="none.csv"']})
+  "a negative tension": with_c3({overrides: ["string.0.tension=-3"]}),
+  "an unknown key": with_c3({overrides: ["string.0.tensoin=3"]}),
+  "a number of words": with_c3({overrides: ["string.0.length=long"]}),
+  "an unknown option": with_c3({options: ["order=4"]}),
+  "an option's wrong word": with_c3({options: ["compliance=none"]}),
+  "an option twice": with_c3({options: ["compliance=own", "compliance=own"]}),
+  "modes above half the rate": with_c3({modes: 3000}),
+  "too many modes": with_c3({modes: 9999999}),
+  "an option's wrong number": {scene: c3, scheme: "exact_contact", options: ["tolerance=tiny"]},
+  "a text that is no scene": with_c3({scene: "Hello [ world"}),
+  "an empty scene": with_c3({scene: ""}),
+  "bytes that are no text": with_c3({scene: "\u0001\u0002"}),
+  "a file that is not there": with_c3({
+    overrides: ['string.0.damping.law="table"', 'string.0.damping.file="none.csv"'],
+  }),
 };
 for (const [what, asked] of Object.entries(wrong)) compare(what, asked);
 
 // What the program never sees in this form: its own sentence, and a module that goes on.
 const refusal = asked => in_the_page(with_c3(asked)).refused ?? "";
-const own = {"a megabyte": [{scene: c3 + "#".repeat(1 << 20)}, /found 1050273 bytes, expected at most 1048576/], "an hour": [{duration: 3600}, /use the program, `jvari run/],
-    "sundials": [{scheme: "sundials"}, /use the program/], "a rate that is no multiple": [{rate: 50000}, /no whole multiple/]};
+const own = {
+  "a megabyte": [
+    {scene: c3 + "#".repeat(1 << 20)},
+    /found 1050273 bytes, expected at most 1048576/,
+  ],
+  "an hour": [{duration: 3600}, /use the program, `jvari run/],
+  sundials: [{scheme: "sundials"}, /use the program/],
+  "a rate that is no multiple": [{rate: 50000}, /no whole multiple/],
+};
 for (const [what, [asked, sentence]] of Object.entries(own))
-    if (!sentence.test(refusal(asked))) console.log(`FAILED: ${what}: "${refusal(asked)}"`, ++failures);
+  if (!sentence.test(refusal(asked)))
+    console.log(`FAILED: ${what}: "${refusal(asked)}"`, ++failures);
 compare("C3 after all refusals", with_c3({}));
 
-// What the program says of a cell: sound, and how far its third octaves are from those of the reference.
-const asked = ["compare", "tanpura_c3_release", "--schemes", "modal_two_point,modal_two_point_trapezoidal,modal_explicit_penalty", "--rates", "44100,176400", "--modes", 133, "--option", "compliance=own",
-    "--option", "exact_contact:compliance=matched", "--reference-modes", 266, "--duration", 0.05, "--repeats", 1, "--json"];
-const {cells} = JSON.parse(spawnSync(resolve(program), asked.map(String), {cwd: scratch, encoding: "utf8", maxBuffer: 1 << 28}).stdout), verdicts = new Set();
-const exact = jvari.run(with_c3({scheme: "exact_contact", modes: 266, options: ["compliance=matched"], duration: 0.05}));
+// What the program says of a cell: sound, and how far its third octaves are from those of the
+// reference.
+const asked = [
+  "compare",
+  "tanpura_c3_release",
+  "--schemes",
+  "modal_two_point,modal_two_point_trapezoidal,modal_explicit_penalty",
+  "--rates",
+  "44100,176400",
+  "--modes",
+  133,
+  "--option",
+  "compliance=own",
+  "--option",
+  "exact_contact:compliance=matched",
+  "--reference-modes",
+  266,
+  "--duration",
+  0.05,
+  "--repeats",
+  1,
+  "--json",
+];
+const {cells} = JSON.parse(
+    spawnSync(resolve(program), asked.map(String), {
+      cwd: scratch,
+      encoding: "utf8",
+      maxBuffer: 1 << 28,
+    }).stdout,
+  ),
+  verdicts = new Set();
+const exact = jvari.run(
+  with_c3({scheme: "exact_contact", modes: 266, options: ["compliance=matched"], duration: 0.05}),
+);
 for (const c of cells) {
-    const run = jvari.run(with_c3({scheme: c.scheme, rate: c.rate, modes: 133, options: c.options ? c.options.split(" ") : [], duration: 0.05, energy: true}));
-    verdicts.add(run.verdict);
-    const octaves = jvari.third_octaves(run, exact, 0, 100), sound = c.status === "ok" && c.flags === "", there = c.third_octave_db_nut;
-    if ((run.verdict === "sound") === sound && (Math.abs(octaves / there - 1) < 1e-6 || (octaves === Infinity && c.status !== "ok"))) continue;
-    console.log(`FAILED: ${c.scheme} at ${c.rate} Hz: ${run.verdict}, third octaves ${octaves} dB apart; the program: ${c.status} ${c.flags}, ${there} dB`, ++failures);
+  const run = jvari.run(
+    with_c3({
+      scheme: c.scheme,
+      rate: c.rate,
+      modes: 133,
+      options: c.options ? c.options.split(" ") : [],
+      duration: 0.05,
+      energy: true,
+    }),
+  );
+  verdicts.add(run.verdict);
+  const octaves = jvari.third_octaves(run, exact, 0, 100),
+    sound = c.status === "ok" && c.flags === "",
+    there = c.third_octave_db_nut;
+  if (
+    (run.verdict === "sound") === sound &&
+    (Math.abs(octaves / there - 1) < 1e-6 || (octaves === Infinity && c.status !== "ok"))
+  )
+    continue;
+  console.log(
+    `FAILED: ${c.scheme} at ${c.rate} Hz: ${run.verdict}, third octaves ${octaves} dB apart; the program: ${c.status} ${c.flags}, ${there} dB`,
+    ++failures,
+  );
 }
-if (!verdicts.has("sound") || verdicts.size < 2) console.log(`FAILED: the verdicts are ${[...verdicts]}`, ++failures);
+if (!verdicts.has("sound") || verdicts.size < 2)
+  console.log(`FAILED: the verdicts are ${[...verdicts]}`, ++failures);
 rmSync(scratch, {recursive: true});
-console.log(`${ran} runs agree to ${largest.toExponential(1)}, ${refused} refusals, ${failures} failures`);
+console.log(
+  `${ran} runs agree to ${largest.toExponential(1)}, ${refused} refusals, ${failures} failures`,
+);
 process.exit(failures || ran < 80 || refused < 30 ? 1 : 0);

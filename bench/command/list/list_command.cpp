@@ -33,9 +33,7 @@ Shelf library() {
     Shelf shelf;
     for (const std::string& name : library_scenes()) try {
             shelf.scenes.emplace_back(name, read_scene(name, {}));
-        } catch (const std::runtime_error& e) {
-            shelf.unreadable.emplace_back(name, e.what());
-        }
+        } catch (const std::runtime_error& e) { shelf.unreadable.emplace_back(name, e.what()); }
     return shelf;
 }
 
@@ -48,7 +46,9 @@ Listing list_scenes(const Shelf& shelf) {
         Json taps = Json::array();
         std::vector<std::string> tap_names;
         for (const Tap& tap : scene.taps) {
-            taps.push_back({{"name", tap.name}, {"quantity", name_of(tap.quantity)}, {"unit", unit_of(tap.quantity)}});
+            taps.push_back({{"name", tap.name},
+                            {"quantity", name_of(tap.quantity)},
+                            {"unit", unit_of(tap.quantity)}});
             tap_names.push_back(tap.name);
         }
         const std::vector<std::string> needs = compare::names_in(needed_by(scene));
@@ -58,8 +58,9 @@ Listing list_scenes(const Shelf& shelf) {
                        {"strings", scene.strings.size()},
                        {"needs", needs},
                        {"taps", taps}});
-        text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width, scene.source, "", width, scene.duration,
-                            fmt::join(tap_names, ", "), fmt::join(needs, ", "));
+        text += fmt::format("  {:<{}}  {}\n  {:<{}}  {} s; taps {}; needs {}\n", name, width,
+                            scene.source, "", width, scene.duration, fmt::join(tap_names, ", "),
+                            fmt::join(needs, ", "));
     }
     for (const auto& [name, why] : shelf.unreadable) {
         all.push_back({{"name", name}, {"error", why}});
@@ -75,7 +76,10 @@ Listing list_matrix(const Shelf& shelf, const Schemes& schemes) {
     for (const auto& [name, scene] : shelf.scenes)
         for (const Descriptor* d : schemes) {
             const Features missing = needed_by(scene) - d->represents;
-            all.push_back({{"scene", name}, {"scheme", d->name}, {"represents", missing.empty()}, {"missing", compare::names_in(missing)}});
+            all.push_back({{"scene", name},
+                           {"scheme", d->name},
+                           {"represents", missing.empty()},
+                           {"missing", compare::names_in(missing)}});
         }
     std::string text = "which represents which scene\n";
     for (const Descriptor* d : schemes) {
@@ -95,8 +99,12 @@ Listing list_suites() {
     for (const std::string& name : names) width = std::max(width, name.size());
     for (const std::string& name : names) try {
             const suite::Suite suite = suite::read_suite(name);
-            all.push_back({{"name", name}, {"question", suite.question}, {"source", suite.source}, {"sets", suite.sets.size()}});
-            text += fmt::format("  {:<{}}  {}\n", name, width, suite.question.empty() ? suite.source : suite.question);
+            all.push_back({{"name", name},
+                           {"question", suite.question},
+                           {"source", suite.source},
+                           {"sets", suite.sets.size()}});
+            text += fmt::format("  {:<{}}  {}\n", name, width,
+                                suite.question.empty() ? suite.source : suite.question);
         } catch (const std::runtime_error& e) {
             all.push_back({{"name", name}, {"error", e.what()}});
             text += fmt::format("  {}  cannot be read: {}\n", name, e.what());
@@ -119,7 +127,8 @@ int list_command(ListRequest r) {
     const auto asked = [&r](const char* what) { return r.what.empty() || r.what == what; };
     if (asked("schemes")) add("schemes", list_descriptors("schemes", catalogue.schemes));
     if (asked("schemes")) add("pairings", list_pairings());
-    if (asked("references")) add("references", list_descriptors("references", catalogue.references));
+    if (asked("references"))
+        add("references", list_descriptors("references", catalogue.references));
     if (asked("options")) add("options", list_options(both));
     if (asked("facts")) add("facts", list_facts());
     const Shelf shelf = asked("scenes") ? library() : Shelf{};
@@ -139,8 +148,10 @@ int list_command(ListRequest r) {
 Act list_verb(CLI::App& program) {
     Verb<ListRequest> v(program, "list", "what exists, and which scheme represents which scene");
     v.option("what", v.r.what,
-             {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps", "suites", "keys", "columns"})},
-             "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or columns (of cells.csv); absent: "
+             {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps",
+                                     "suites", "keys", "columns"})},
+             "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or "
+             "columns (of cells.csv); absent: "
              "all, and the matrix");
     return v.does(list_command, "Example: jvari list schemes");
 }

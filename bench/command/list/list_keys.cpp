@@ -18,9 +18,15 @@ struct Writer {  // a line for each key, those of inner tables behind a dot
     Json table(const std::vector<store::KeyWords>& keys, const std::string& within = "") {
         Json all = Json::array();
         for (const store::KeyWords& k : keys) {
-            const std::string beside = k.needed ? "; needed" : k.absent.empty() ? "" : "; absent: " + k.absent;
+            const std::string beside = k.needed           ? "; needed"
+                                       : k.absent.empty() ? ""
+                                                          : "; absent: " + k.absent;
             text += fmt::format("  {:<22}{}: {}{}\n", within + k.name, k.value, k.meaning, beside);
-            Json one{{"key", k.name}, {"value", k.value}, {"needed", k.needed}, {"absent", k.absent}, {"meaning", k.meaning}};
+            Json one{{"key", k.name},
+                     {"value", k.value},
+                     {"needed", k.needed},
+                     {"absent", k.absent},
+                     {"meaning", k.meaning}};
             if (!k.below.empty()) one["keys"] = table(k.below, within + k.name + ".");
             all.push_back(std::move(one));
         }

@@ -1,4 +1,5 @@
-// What `jvari list` says of the seam: schemes and what they represent, their options, the facts they report.
+// What `jvari list` says of the seam: schemes and what they represent, their options, the facts
+// they report.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,8 @@ struct Listing {
 struct Measured {
     std::string name, unit, meaning;
 };
-Listing list_measured(const char* title, int name_width, int unit_width, const std::vector<Measured>&);
+Listing list_measured(const char* title, int name_width, int unit_width,
+                      const std::vector<Measured>&);
 
 Listing list_descriptors(const char* title, const std::vector<const Descriptor*>&);
 Listing list_pairings();

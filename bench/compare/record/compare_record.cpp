@@ -26,7 +26,8 @@ Json certificate_json(const Comparison& c) {
     for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
         figures[trust::Trust::columns[w]] = t.of_scene(c.headline.nut, w);
         for (std::size_t tap = 0; tap < c.scene().taps.size(); ++tap)
-            figures[trust::Trust::columns[w] + ("_" + c.scene().taps[tap].name)] = t.of_scene(tap, w);
+            figures[trust::Trust::columns[w] + ("_" + c.scene().taps[tap].name)] =
+                t.of_scene(tap, w);
     }
     Json j{{"against", t.against}};
     if (!t.missing.empty()) j["missing"] = t.missing;  // the figures are what doubling tells
@@ -44,23 +45,30 @@ store::Table cells_of(const Comparison& c) {
 
 Json manifest_of(const Comparison& c, const CompareRequest& r) {
     const store::Table cells = cells_of(c);
-    Json facts = Json::object(), floor = Json::object(), taps = Json::array(), schemes = Json::array();
+    Json facts = Json::object(), floor = Json::object(), taps = Json::array(),
+         schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
     facts[facts::smallest_contact_force.name] = c.reference_summary.smallest_contact_force;
     facts[facts::largest_contact_force.name] = c.reference_summary.largest_contact_force;
     facts[facts::deepest_penetration.name] = c.reference_summary.deepest_penetration;
     for (std::size_t k = 0; k < study::measures().size(); ++k)
-        floor[study::measures()[k].column] = c.against.floor[c.headline.tap(study::measures()[k])][k];
+        floor[study::measures()[k].column] =
+            c.against.floor[c.headline.tap(study::measures()[k])][k];
     for (std::size_t tap = 0; tap < c.scene().taps.size(); ++tap) {
-        taps.push_back({{"name", c.scene().taps[tap].name}, {"quantity", name_of(c.scene().taps[tap].quantity)}});
+        taps.push_back({{"name", c.scene().taps[tap].name},
+                        {"quantity", name_of(c.scene().taps[tap].quantity)}});
         for (std::size_t k = 0; k < study::measures().size(); ++k)
-            floor[study::measures()[k].column + "_" + c.scene().taps[tap].name] = c.against.floor[tap][k];
+            floor[study::measures()[k].column + "_" + c.scene().taps[tap].name] =
+                c.against.floor[tap][k];
     }
     for (const study::Job& job : c.plan.jobs) {
         Json options = Json::object();
         for (const auto& [name, value] : job.cell.settings.options) options[name] = value;
-        Json form{{"name", job.cell.scheme->name}, {"source", job.cell.scheme->source}, {"options", options}};
-        if (std::find(schemes.begin(), schemes.end(), form) == schemes.end()) schemes.push_back(std::move(form));
+        Json form{{"name", job.cell.scheme->name},
+                  {"source", job.cell.scheme->source},
+                  {"options", options}};
+        if (std::find(schemes.begin(), schemes.end(), form) == schemes.end())
+            schemes.push_back(std::move(form));
     }
     Json reference{{"name", c.reference.name()},
                    {"source", c.reference.scheme->source},
@@ -75,7 +83,8 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
                    {"certificate", certificate_json(c)},
                    {"facts", facts}};
     Json tap_rates = Json::array();
-    for (const study::Point& p : c.plan.points) tap_rates.push_back(p.references.front().settings.tap_rate);
+    for (const study::Point& p : c.plan.points)
+        tap_rates.push_back(p.references.front().settings.tap_rate);
     Json tunings = Json::array();
     for (const String& string : c.scene().strings) tunings.push_back(tuning_text(string));
     const Json scene{{"name", c.scene().name},
@@ -107,11 +116,14 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
 namespace {
 constexpr std::size_t most_samples = 12'000'000;  // 24 MB of files
 
-bool at_an_end(const Comparison& c, const study::Cell& cell) {  // of the rates of its scheme and options
+// of the rates of its scheme and options
+bool at_an_end(const Comparison& c, const study::Cell& cell) {
     bool lowest = true, highest = true;
     for (const study::Record& r : c.outcome.records) {
         const study::Cell& other = r.cell;
-        if (other.scheme != cell.scheme || other.settings.options != cell.settings.options || other.sound.samples.empty()) continue;
+        if (other.scheme != cell.scheme || other.settings.options != cell.settings.options ||
+            other.sound.samples.empty())
+            continue;
         lowest = lowest && cell.settings.sample_rate <= other.settings.sample_rate;
         highest = highest && cell.settings.sample_rate >= other.settings.sample_rate;
     }
@@ -119,11 +131,14 @@ bool at_an_end(const Comparison& c, const study::Cell& cell) {  // of the rates 
 }
 
 std::string file_of(const study::Cell& cell) {  // "modal_two_point-compliance=matched-88200-133"
-    std::string name = store::variant_name(cell.scheme->name, store::options_text(cell.settings.options));
+    std::string name =
+        store::variant_name(cell.scheme->name, store::options_text(cell.settings.options));
     std::ranges::replace(name, ' ', '-');
     if (!unfit_as_file(name).empty())
-        name = fmt::format("{}-{}", cell.scheme->name, store::hash_of(name));  // a plugin's option may be a path
-    if (cell.settings.sample_rate > 0) name += fmt::format("-{}", store::text_of(cell.settings.sample_rate));
+        // a plugin's option may be a path
+        name = fmt::format("{}-{}", cell.scheme->name, store::hash_of(name));
+    if (cell.settings.sample_rate > 0)
+        name += fmt::format("-{}", store::text_of(cell.settings.sample_rate));
     return fmt::format("{}-{}", name, cell.modes());
 }
 }  // namespace
@@ -134,19 +149,30 @@ void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
     for (const study::Record& r : c.outcome.records) samples += r.cell.sound.samples.size();
     std::vector<store::NamedSound> sounds;
     const bool compared = !c.reference_sound.samples.empty();
-    if (compared) sounds.push_back({{"reference", "", "", ""}, "reference", tap.name, name_of(tap.quantity), &c.reference_sound, ""});
+    if (compared)
+        sounds.push_back({{"reference", "", "", ""},
+                          "reference",
+                          tap.name,
+                          name_of(tap.quantity),
+                          &c.reference_sound,
+                          ""});
     for (const study::Record& r : c.outcome.records) {
         const study::Cell& cell = r.cell;
         if (cell.sound.samples.empty() || (samples > most_samples && !at_an_end(c, cell))) continue;
-        const std::string rate = cell.scheme->clock == Clock::continuous ? "" : store::text_of(cell.settings.sample_rate);
-        sounds.push_back({{cell.scheme->name, store::options_text(cell.settings.options), rate, std::to_string(cell.modes())},
-                          file_of(cell),
-                          tap.name,
-                          name_of(tap.quantity),
-                          &cell.sound,
-                          compared && cell.sound.rate == c.reference_sound.rate ? "reference" : ""});
+        const std::string rate = cell.scheme->clock == Clock::continuous
+                                     ? ""
+                                     : store::text_of(cell.settings.sample_rate);
+        sounds.push_back(
+            {{cell.scheme->name, store::options_text(cell.settings.options), rate,
+              std::to_string(cell.modes())},
+             file_of(cell),
+             tap.name,
+             name_of(tap.quantity),
+             &cell.sound,
+             compared && cell.sound.rate == c.reference_sound.rate ? "reference" : ""});
     }
-    if (!sounds.empty()) store::write_sounds(folder, {"scheme", "options", "rate", "modes"}, sounds);
+    if (!sounds.empty())
+        store::write_sounds(folder, {"scheme", "options", "rate", "modes"}, sounds);
 }
 
 }  // namespace jvari::bench::compare

@@ -1,18 +1,38 @@
-// A chart of the page: its menus choose what its specification is made of, its colours follow the page's, its scene is the page's. Its legend shows
-// line and marker of what is drawn, and brings out what is clicked.
-const dark = matchMedia("(prefers-color-scheme: dark)"), narrow = matchMedia("(max-width: 720px)");
+// A chart of the page: its menus choose what its specification is made of, its colours follow the
+// page's, its scene is the page's. Its legend shows line and marker of what is drawn, and brings
+// out what is clicked.
+const dark = matchMedia("(prefers-color-scheme: dark)"),
+  narrow = matchMedia("(max-width: 720px)");
 
 function page_config() {
-  const ink = dark.matches ? "#e6eaee" : "#1d2329", grid = dark.matches ? "#3a424a" : "#dfe3e7";
-  const colours = {labelColor: ink, titleColor: ink}, symbols = {symbolSize: 90, symbolOpacity: 1, symbolStrokeWidth: 0};
-  return {background: "transparent", axis: {...colours, gridColor: grid, domainColor: ink, tickColor: ink}, title: {color: ink, subtitleColor: ink}, header: colours, text: {color: ink}, rule: {color: ink},
-          legend: {...colours, ...symbols, ...(narrow.matches ? {orient: "bottom", columns: 1, labelFontSize: 10, labelLimit: 235} : {orient: "right", offset: 14, labelFontSize: 11, labelLimit: 600})}};
+  const ink = dark.matches ? "#e6eaee" : "#1d2329",
+    grid = dark.matches ? "#3a424a" : "#dfe3e7";
+  const colours = {labelColor: ink, titleColor: ink},
+    symbols = {symbolSize: 90, symbolOpacity: 1, symbolStrokeWidth: 0};
+  return {
+    background: "transparent",
+    axis: {...colours, gridColor: grid, domainColor: ink, tickColor: ink},
+    title: {color: ink, subtitleColor: ink},
+    header: colours,
+    text: {color: ink},
+    rule: {color: ink},
+    legend: {
+      ...colours,
+      ...symbols,
+      ...(narrow.matches
+        ? {orient: "bottom", columns: 1, labelFontSize: 10, labelLimit: 235}
+        : {orient: "right", offset: 14, labelFontSize: 11, labelLimit: 600}),
+    },
+  };
 }
-// A scheme keeps its hue on a dark page, and the front and a difference their tone, in the shade that can be seen there.
+// A scheme keeps its hue on a dark page, and the front and a difference their tone, in the shade
+// that can be seen there.
 const shade = colour => (dark.matches && dark_of[colour]) || colour;
 function coloured(part) {
   if (!dark.matches) return part;
-  return JSON.parse(JSON.stringify(part), (key, value) => typeof value === "string" && Object.hasOwn(dark_of, value) ? dark_of[value] : value);
+  return JSON.parse(JSON.stringify(part), (key, value) =>
+    typeof value === "string" && Object.hasOwn(dark_of, value) ? dark_of[value] : value,
+  );
 }
 
 const svg_element = (name, attributes) => {
@@ -22,61 +42,137 @@ const svg_element = (name, attributes) => {
 };
 // A line with its dash and its marker, as the chart has them.
 function sample_of(look) {
-  const sample = svg_element("svg", {width: 40, height: 14, "aria-hidden": "true"}), symbol = vega.path(), colour = shade(look.colour);
+  const sample = svg_element("svg", {width: 40, height: 14, "aria-hidden": "true"}),
+    symbol = vega.path(),
+    colour = shade(look.colour);
   vega.pathSymbols(look.shape).draw(symbol, 60);
-  sample.append(svg_element("line", {x1: 0, x2: 40, y1: 7, y2: 7, stroke: colour, "stroke-width": look.control ? 1 : 2, "stroke-dasharray": look.dash[1] ? look.dash.join(" ") : "none"}),
-                svg_element("path", {d: String(symbol), transform: "translate(20, 7)", fill: colour}));
+  sample.append(
+    svg_element("line", {
+      x1: 0,
+      x2: 40,
+      y1: 7,
+      y2: 7,
+      stroke: colour,
+      "stroke-width": look.control ? 1 : 2,
+      "stroke-dasharray": look.dash[1] ? look.dash.join(" ") : "none",
+    }),
+    svg_element("path", {d: String(symbol), transform: "translate(20, 7)", fill: colour}),
+  );
   return sample;
 }
 
 function chart_of(chart, section, first) {
-  const frame = element("div", {className: chart.scrolls || chart.wide_on_phones ? "chart wide" : "chart", id: "chart-" + drawings.length});
-  const menus = element("div", {className: "menus"}), said = element("p", {className: "soft"}), legend = element("div", {className: "legend"}), zoom = element("div", {className: "zoom"});
+  const frame = element("div", {
+    className: chart.scrolls || chart.wide_on_phones ? "chart wide" : "chart",
+    id: "chart-" + drawings.length,
+  });
+  const menus = element("div", {className: "menus"}),
+    said = element("p", {className: "soft"}),
+    legend = element("div", {className: "legend"}),
+    zoom = element("div", {className: "zoom"});
   menus.dataset.chart = frame.id;
   legend.setAttribute("role", "group");
   legend.setAttribute("aria-label", "lines of the chart: a click brings one out");
-  const key = menu => `${section}.${menu.key}`, every = element("input", {type: "checkbox", className: "every"});
-  let vega_view = null, scene = scene_shown(), selects = new Map(), picked = [];
-  const choice = () => ({scene, narrow: narrow.matches, every: every.checked, ...Object.fromEntries([...selects].map(([menu, select]) => [menu.key, menu.choices[select.selectedIndex][0]]))});
+  const key = menu => `${section}.${menu.key}`,
+    every = element("input", {type: "checkbox", className: "every"});
+  let vega_view = null,
+    scene = scene_shown(),
+    selects = new Map(),
+    picked = [];
+  const choice = () => ({
+    scene,
+    narrow: narrow.matches,
+    every: every.checked,
+    ...Object.fromEntries(
+      [...selects].map(([menu, select]) => [menu.key, menu.choices[select.selectedIndex][0]]),
+    ),
+  });
 
   // The menus of the scene; what is chosen stays where the scene has it.
   function fill_menus() {
-    selects = new Map(chart.menus(scene).filter(menu => menu.choices.length).map(menu => {
-      const select = element("select", {}, ...menu.choices.map(([, text]) => new Option(text))), wanted = view.get(key(menu));
-      select.selectedIndex = Math.max(0, menu.choices.findIndex(([value]) => String(value) === String(wanted)));
-      select.onchange = () => {
-        choose(key(menu), select.selectedIndex === 0 ? null : String(menu.choices[select.selectedIndex][0]));
-        return draw();
-      };
-      return [menu, select];
-    }));
-    menus.replaceChildren(...[...selects].filter(([menu]) => menu.choices.length > 1).map(([menu, select]) => element("label", {}, menu.label + " ", select)));
+    selects = new Map(
+      chart
+        .menus(scene)
+        .filter(menu => menu.choices.length)
+        .map(menu => {
+          const select = element("select", {}, ...menu.choices.map(([, text]) => new Option(text))),
+            wanted = view.get(key(menu));
+          select.selectedIndex = Math.max(
+            0,
+            menu.choices.findIndex(([value]) => String(value) === String(wanted)),
+          );
+          select.onchange = () => {
+            choose(
+              key(menu),
+              select.selectedIndex === 0 ? null : String(menu.choices[select.selectedIndex][0]),
+            );
+            return draw();
+          };
+          return [menu, select];
+        }),
+    );
+    menus.replaceChildren(
+      ...[...selects]
+        .filter(([menu]) => menu.choices.length > 1)
+        .map(([menu, select]) => element("label", {}, menu.label + " ", select)),
+    );
     if (first && chart.main) menus.append(element("label", {}, every, " every scheme"));
   }
   function fill_legend(names) {
     const looks = looks_of(names);
-    legend.replaceChildren(...(names.length > 1 ? names : []).map(name => {
-      const button = element("button", {type: "button"}, sample_of(looks.get(name)), element("span", {}, spoken(name)));
-      button.dataset.series = name;
-      button.setAttribute("aria-pressed", String(picked.includes(name)));
-      button.onclick = () => {
-        picked = picked.includes(name) ? picked.filter(other => other !== name) : [...picked, name];
-        for (const b of legend.children) b.setAttribute("aria-pressed", String(picked.includes(b.dataset.series)));
-        return vega_view.signal("picked", picked).runAsync();
-      };
-      return button;
-    }));
+    legend.replaceChildren(
+      ...(names.length > 1 ? names : []).map(name => {
+        const button = element(
+          "button",
+          {type: "button"},
+          sample_of(looks.get(name)),
+          element("span", {}, spoken(name)),
+        );
+        button.dataset.series = name;
+        button.setAttribute("aria-pressed", String(picked.includes(name)));
+        button.onclick = () => {
+          picked = picked.includes(name)
+            ? picked.filter(other => other !== name)
+            : [...picked, name];
+          for (const b of legend.children)
+            b.setAttribute("aria-pressed", String(picked.includes(b.dataset.series)));
+          return vega_view.signal("picked", picked).runAsync();
+        };
+        return button;
+      }),
+    );
   }
-  function fill_zoom(zooms) {  // of a chart that can be zoomed: buttons, for who has no wheel; zooms: channel, its signal
+  // of a chart that can be zoomed: buttons, for who has no wheel; zooms: channel, its signal
+  function fill_zoom(zooms) {
     const by = factor => async () => {
       for (const [channel, signal] of Object.entries(zooms)) {
-        const scale = vega_view.scale(channel), [near, far] = scale.range(), middle = (near + far) / 2, half = factor * (far - near) / 2;
-        vega_view.signal(signal, factor === null ? null : [scale.invert(middle - half), scale.invert(middle + half)].sort((a, b) => a - b));
+        const scale = vega_view.scale(channel),
+          [near, far] = scale.range(),
+          middle = (near + far) / 2,
+          half = (factor * (far - near)) / 2;
+        vega_view.signal(
+          signal,
+          factor === null
+            ? null
+            : [scale.invert(middle - half), scale.invert(middle + half)].sort((a, b) => a - b),
+        );
       }
       await vega_view.runAsync();
     };
-    const buttons = [["+", "zoom in", 0.7], ["\u2212", "zoom out", 1 / 0.7], ["whole", "the whole chart", null]];
-    zoom.replaceChildren(...(zooms ? buttons : []).map(([text, name, factor]) => element("button", {type: "button", title: name, ariaLabel: name, onclick: by(factor)}, text)));
+    const buttons = [
+      ["+", "zoom in", 0.7],
+      ["\u2212", "zoom out", 1 / 0.7],
+      ["whole", "the whole chart", null],
+    ];
+    zoom.replaceChildren(
+      ...(zooms ? buttons : []).map(([text, name, factor]) =>
+        element(
+          "button",
+          {type: "button", title: name, ariaLabel: name, onclick: by(factor)},
+          text,
+        ),
+      ),
+    );
   }
   async function draw() {
     frame.setAttribute("data-drawn", "false");
@@ -85,17 +181,35 @@ function chart_of(chart, section, first) {
     picked = picked.filter(name => names.includes(name));
     every.parentElement?.toggleAttribute("hidden", few === true);
     ({view: vega_view} = await vegaEmbed(frame, coloured(spec), {
-      config: page_config(), renderer: chart.scrolls ? "canvas" : "svg", logLevel: vega.Error, tooltip: {theme: dark.matches ? "dark" : "light"},
-      actions: {export: true, source: false, compiled: false, editor: false}
+      config: page_config(),
+      renderer: chart.scrolls ? "canvas" : "svg",
+      logLevel: vega.Error,
+      tooltip: {theme: dark.matches ? "dark" : "light"},
+      actions: {export: true, source: false, compiled: false, editor: false},
     }));
     fill_legend(names);
     fill_zoom(zooms);
     vega_view.signal("picked", picked);
-    const label = () => vega_view.data("labels", narrow.matches || names.length > 8 ? [] : line_labels(names, labels, vega_view.scale("x"), vega_view.scale("y"), vega_view.width(), vega_view.height()));
+    const label = () =>
+      vega_view.data(
+        "labels",
+        narrow.matches || names.length > 8
+          ? []
+          : line_labels(
+              names,
+              labels,
+              vega_view.scale("x"),
+              vega_view.scale("y"),
+              vega_view.width(),
+              vega_view.height(),
+            ),
+      );
     if (labels) label();
     await vega_view.runAsync();
-    for (const signal of labels && zooms ? Object.values(zooms) : []) vega_view.addSignalListener(signal, () => requestAnimationFrame(() => label().runAsync()));
-    // what has no name is no picture to a reader's ear; the chart as a whole has one, and the tables its numbers
+    for (const signal of labels && zooms ? Object.values(zooms) : [])
+      vega_view.addSignalListener(signal, () => requestAnimationFrame(() => label().runAsync()));
+    // what has no name is no picture to a reader's ear; the chart as a whole has one, and the
+    // tables its numbers
     for (const part of frame.querySelectorAll("svg [role]:not([aria-label])")) {
       part.removeAttribute("role");
       part.removeAttribute("aria-roledescription");
@@ -114,17 +228,27 @@ function chart_of(chart, section, first) {
   if (chart.scenes && !chart.scenes.includes(scene)) scene = chart.scenes[0];
   fill_menus();
   let next = 0;
-  const draw_again = () => {  // once where both change
+  const draw_again = () => {
+    // once where both change
     frame.setAttribute("data-drawn", "false");
     cancelAnimationFrame(next);
     next = requestAnimationFrame(draw);
   };
-  for (const media of [dark, narrow]) media.addEventListener("change", () => { if (vega_view) draw_again(); });
+  for (const media of [dark, narrow])
+    media.addEventListener("change", () => {
+      if (vega_view) draw_again();
+    });
   if (chart.scrolls || chart.wide_on_phones) frame.tabIndex = 0;
   frame.dataset.drawn = "later";
   frame.setAttribute("role", "group");
   frame.setAttribute("aria-label", "chart: " + chart.name);
   every.onchange = draw;
   const whole = [frame, element("div", {className: "below"}, legend, zoom), said];
-  return {parts: first && chart.main ? [...whole, folded("Another error or cost, every scheme", [menus])] : [menus, ...whole], draw};
+  return {
+    parts:
+      first && chart.main
+        ? [...whole, folded("Another error or cost, every scheme", [menus])]
+        : [menus, ...whole],
+    draw,
+  };
 }

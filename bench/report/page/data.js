@@ -1,9 +1,14 @@
-// What the report is drawn from: the folder's CSV tables as text, read once, and what is looked up in them. `page` holds them; report.cpp puts it
-// together. The page and draw.js, which makes the SVG files, run the same code.
-function read_csv(text) {  // {columns, rows}: fields as text. An apostrophe in front keeps a spreadsheet from taking a text for a formula
-  const rows = [], plain = /[^,\n]*/y;
-  for (let at = 0, row = []; at < text.length;) {
-    let field, end = at + 1;
+// What the report is drawn from: the folder's CSV tables as text, read once, and what is looked up
+// in them. `page` holds them; report.cpp puts it together. The page and draw.js, which makes the
+// SVG files, run the same code.
+// {columns, rows}: fields as text. An apostrophe in front keeps a spreadsheet from taking a text
+// for a formula
+function read_csv(text) {
+  const rows = [],
+    plain = /[^,\n]*/y;
+  for (let at = 0, row = []; at < text.length; ) {
+    let field,
+      end = at + 1;
     if (text[at] === '"') {
       while (text[end] !== '"' || text[end + 1] === '"') end += text[end] === '"' ? 2 : 1;
       field = text.slice(at + 1, end++).replaceAll('""', '"');
@@ -22,32 +27,47 @@ function read_csv(text) {  // {columns, rows}: fields as text. An apostrophe in 
   return {columns: rows[0] ?? [], rows: rows.slice(1)};
 }
 
-const number = text => text === "" || text === undefined ? NaN : text === "inf" ? Infinity : text === "-inf" ? -Infinity : Number(text);
+const number = text =>
+  text === "" || text === undefined
+    ? NaN
+    : text === "inf"
+      ? Infinity
+      : text === "-inf"
+        ? -Infinity
+        : Number(text);
 const distinct = values => [...new Set(values)];
-const finite = x => Number.isFinite(x) ? x : null;
-const digits = (x, n) => String(Number(x.toPrecision(n)));  // "280", "0.0021"
+const finite = x => (Number.isFinite(x) ? x : null);
+const digits = (x, n) => String(Number(x.toPrecision(n))); // "280", "0.0021"
 const percent = x => `${digits(100 * x, 2)}\u00a0%`;
 const decibels = x => `${digits(x, 2)}\u00a0dB`;
-const kilohertz = hz => Number.isNaN(hz) ? "" : `${digits(hz / 1000, 5)} kHz`;
-const sentence = text => text === "" ? [] : [text];
+const kilohertz = hz => (Number.isNaN(hz) ? "" : `${digits(hz / 1000, 5)} kHz`);
+const sentence = text => (text === "" ? [] : [text]);
 
-const tables = {};  // name: {columns, rows, records}; a record has its row's number as `n`
+const tables = {}; // name: {columns, rows, records}; a record has its row's number as `n`
 function table(name) {
-  return tables[name] ??= with_records(read_csv(page.tables[name] ?? ""));
+  return (tables[name] ??= with_records(read_csv(page.tables[name] ?? "")));
 }
 function with_records(t) {
-  t.records = t.rows.map((row, n) => Object.assign(Object.fromEntries(t.columns.map((column, k) => [column, row[k]])), {n}));
+  t.records = t.rows.map((row, n) =>
+    Object.assign(Object.fromEntries(t.columns.map((column, k) => [column, row[k]])), {n}),
+  );
   return t;
 }
 const records = name => table(name).records;
 // A table without columns of the report's own, which stand for others that are there.
 function without(t, names) {
-  const kept = t.columns.map((column, k) => [column, k]).filter(([column]) => !names.includes(column));
-  return {columns: kept.map(([column]) => column), rows: t.rows.map(row => kept.map(([, k]) => row[k]))};
+  const kept = t.columns
+    .map((column, k) => [column, k])
+    .filter(([column]) => !names.includes(column));
+  return {
+    columns: kept.map(([column]) => column),
+    rows: t.rows.map(row => kept.map(([, k]) => row[k])),
+  };
 }
 
-// Cells with what the program says of each: `trusted`, `may_win`, `run` (its name in a sentence), `line` (the series that it stands in beside the
-// front; none where another number of modes is better), and the errors that are bounds.
+// Cells with what the program says of each: `trusted`, `may_win`, `run` (its name in a sentence),
+// `line` (the series that it stands in beside the front; none where another number of modes is
+// better), and the errors that are bounds.
 let joined = null;
 function cells() {
   if (joined) return joined;
@@ -64,48 +84,103 @@ const error_of = (cell, column) => number(cell.bounds[column]?.shown ?? cell[col
 const of_scene = (rows, scene) => rows.filter(row => row.problem === scene);
 const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row[column])));
 
-const most_cells_with_taps = 600;  // beyond, the headline errors alone can be chosen
-const after_pluck = rows => number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "";  // where the windows of these rows' errors begin
-// The errors of a scene that a reader can choose, its headline first: {column, title, measure, tap}.
+const most_cells_with_taps = 600; // beyond, the headline errors alone can be chosen
+// where the windows of these rows' errors begin
+const after_pluck = rows => (number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "");
+// The errors of a scene that a reader can choose, its headline first: {column, title, measure,
+// tap}.
 function errors_in(rows) {
-  const stem = "error_l2_whole_", columns = table("cells").columns;
-  const taps = ["", ...(cells().length > most_cells_with_taps ? [] : columns.filter(c => c.startsWith(stem)).map(c => c.slice(stem.length)))];
-  const all = taps.flatMap(tap => page.measures.map(([measure, title]) =>
-    ({column: measure + (tap && "_" + tap), title: title + after_pluck(rows) + (tap && `, tap ${tap}`), measure, tap}))).filter(e => has_finite(rows, e.column));
+  const stem = "error_l2_whole_",
+    columns = table("cells").columns;
+  const taps = [
+    "",
+    ...(cells().length > most_cells_with_taps
+      ? []
+      : columns.filter(c => c.startsWith(stem)).map(c => c.slice(stem.length))),
+  ];
+  const all = taps
+    .flatMap(tap =>
+      page.measures.map(([measure, title]) => ({
+        column: measure + (tap && "_" + tap),
+        title: title + after_pluck(rows) + (tap && `, tap ${tap}`),
+        measure,
+        tap,
+      })),
+    )
+    .filter(e => has_finite(rows, e.column));
   const headline = records("scenes").find(s => s.problem === rows[0]?.problem)?.headline;
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
 }
 // The menus of an error: its measure and its tap.
 function error_menus(rows) {
-  const errors = errors_in(rows), measures = new Map(errors.map(e => [e.measure, e.title.replace(/, tap .*/, "")]));
-  return [{label: "error", key: "measure_field", choices: [...measures]},
-          {label: "tap", key: "tap_field", choices: distinct(errors.map(e => e.tap)).map(tap => [tap, tap || "headline"])}];
+  const errors = errors_in(rows),
+    measures = new Map(errors.map(e => [e.measure, e.title.replace(/, tap .*/, "")]));
+  return [
+    {label: "error", key: "measure_field", choices: [...measures]},
+    {
+      label: "tap",
+      key: "tap_field",
+      choices: distinct(errors.map(e => e.tap)).map(tap => [tap, tap || "headline"]),
+    },
+  ];
 }
-function chosen_error(rows, choice) {  // the scene's first where it lacks the one that is chosen
+function chosen_error(rows, choice) {
+  // the scene's first where it lacks the one that is chosen
   const errors = errors_in(rows);
-  return errors.find(e => e.measure === choice.measure_field && e.tap === choice.tap_field) ?? errors[0];
+  return (
+    errors.find(e => e.measure === choice.measure_field && e.tap === choice.tap_field) ?? errors[0]
+  );
 }
 
 const longest_part = 100;
-const plain_part = text => text.replace(/[^A-Za-z0-9_.+-]+/g, "-").replace(/^-/, "").replace(/-$/, "").slice(0, longest_part);
+const plain_part = text =>
+  text
+    .replace(/[^A-Za-z0-9_.+-]+/g, "-")
+    .replace(/^-/, "")
+    .replace(/-$/, "")
+    .slice(0, longest_part);
 // `text` fit to stand in a file's name, which is that of no other of `all`.
 function file_part(text, all) {
-  const part = plain_part(text), others = all.filter(other => plain_part(other) === part);
+  const part = plain_part(text),
+    others = all.filter(other => plain_part(other) === part);
   if (others.length < 2) return part;
-  let hash = 0xcbf29ce484222325n;  // FNV-1a
-  for (const byte of new TextEncoder().encode(text)) hash = ((hash ^ BigInt(byte)) * 0x100000001b3n) & 0xffffffffffffffffn;
+  let hash = 0xcbf29ce484222325n; // FNV-1a
+  for (const byte of new TextEncoder().encode(text))
+    hash = ((hash ^ BigInt(byte)) * 0x100000001b3n) & 0xffffffffffffffffn;
   return part.slice(0, longest_part - 17) + "-" + hash.toString(16).padStart(16, "0");
 }
-const twin_file = (chart, problem, problems) => `${chart}${problems.length > 1 ? "-" + file_part(problem, problems) : ""}.svg`;
+const twin_file = (chart, problem, problems) =>
+  `${chart}${problems.length > 1 ? "-" + file_part(problem, problems) : ""}.svg`;
 
-const units = {rate: "Hz", stiffness: "N/m^exponent", stiffness_density: "N/m^(exponent+1)", tension: "N", amplitude: "m", coefficient: "1/m", linear_density: "kg/m",
-               bending_stiffness: "N m^2", length: "m", position: "m", height: "m", width: "m", damping: "kg/s", duration: "s", contact_loss: "s/m", sigma0: "1/s"};
-function with_unit(key) {  // "barrier 0 stiffness [N/m^exponent]" of "string.0.barrier.0.stiffness"
+const units = {
+  rate: "Hz",
+  stiffness: "N/m^exponent",
+  stiffness_density: "N/m^(exponent+1)",
+  tension: "N",
+  amplitude: "m",
+  coefficient: "1/m",
+  linear_density: "kg/m",
+  bending_stiffness: "N m^2",
+  length: "m",
+  position: "m",
+  height: "m",
+  width: "m",
+  damping: "kg/s",
+  duration: "s",
+  contact_loss: "s/m",
+  sigma0: "1/s",
+};
+function with_unit(key) {
+  // "barrier 0 stiffness [N/m^exponent]" of "string.0.barrier.0.stiffness"
   const unit = units[key.split(".").at(-1)];
   return key.replace(/^string\.0\./, "").replaceAll(".", " ") + (unit ? ` [${unit}]` : "");
 }
 const unit_of = quantity => ({displacement: "m", velocity: "m/s"})[quantity] ?? "N";
-function integers(base64) {  // little-endian, of two bytes each
+function integers(base64) {
+  // little-endian, of two bytes each
   const text = atob(base64);
-  return Array.from({length: text.length / 2}, (_, k) => (text.charCodeAt(2 * k) | text.charCodeAt(2 * k + 1) << 8) << 16 >> 16);
+  return Array.from(
+    {length: text.length / 2},
+    (_, k) => ((text.charCodeAt(2 * k) | (text.charCodeAt(2 * k + 1) << 8)) << 16) >> 16,
+  );
 }

@@ -1,16 +1,33 @@
-// Under node, after the other files: node draw.js makes of page.json beside it every picture of the charts, and plot.py, which draws the first chart with
-// matplotlib. drawn.json lists what was written, and what could not be drawn with the reason.
-// A picture as wide as it was asked for, to the point: what stands beside the plot makes it a little wider or narrower than planned.
+// Under node, after the other files: node draw.js makes of page.json beside it every picture of the
+// charts, and plot.py, which draws the first chart with matplotlib. drawn.json lists what was
+// written, and what could not be drawn with the reason.
+// A picture as wide as it was asked for, to the point: what stands beside the plot makes it a
+// little wider or narrower than planned.
 function sized(svg) {
-  const [whole, before, width, height] = svg.match(/^<svg([^>]*?) width="([\d.]+)" height="([\d.]+)"/) ?? [], mm = page.width * 25.4 / 96;
-  return page.width && whole ? svg.replace(whole, `<svg${before} width="${mm.toFixed(2)}mm" height="${(mm * height / width).toFixed(2)}mm"`) : svg;
+  const [whole, before, width, height] =
+      svg.match(/^<svg([^>]*?) width="([\d.]+)" height="([\d.]+)"/) ?? [],
+    mm = (page.width * 25.4) / 96;
+  return page.width && whole
+    ? svg.replace(
+        whole,
+        `<svg${before} width="${mm.toFixed(2)}mm" height="${((mm * height) / width).toFixed(2)}mm"`,
+      )
+    : svg;
 }
 async function draw_all() {
-  const fs = require("fs"), vega = require("vega"), lite = require("vega-lite"), drawn = [], failed = [];
+  const fs = require("fs"),
+    vega = require("vega"),
+    lite = require("vega-lite"),
+    drawn = [],
+    failed = [];
   const draw = async (file, make) => {
     try {
-      const spec = make(), log = vega.logger(vega.Error);
-      const view = new vega.View(vega.parse(lite.compile(spec, {logger: log}).spec), {renderer: "none", logLevel: vega.Error});
+      const spec = make(),
+        log = vega.logger(vega.Error);
+      const view = new vega.View(vega.parse(lite.compile(spec, {logger: log}).spec), {
+        renderer: "none",
+        logLevel: vega.Error,
+      });
       fs.writeFileSync(file, sized(await view.toSVG()));
       drawn.push(file);
     } catch (error) {
@@ -19,7 +36,8 @@ async function draw_all() {
   };
   for (const section of sections_of())
     for (const chart of section.charts)
-      for (const twin of chart.twins) await draw(twin.file, () => chart.spec(twin.choice, true).spec);
+      for (const twin of chart.twins)
+        await draw(twin.file, () => chart.spec(twin.choice, true).spec);
   const plot = page.run ? "" : plot_program();
   if (plot) {
     fs.writeFileSync("plot.py", plot);

@@ -1,28 +1,59 @@
-// One look for a scheme in every chart, picture and suite: the hue says its family, the marker which of the family it is, the dash what options it
-// was given. Controls are thin and grey. Names that are no scheme of the program (plugins) take what is left, in the order of the alphabet.
+// One look for a scheme in every chart, picture and suite: the hue says its family, the marker
+// which of the family it is, the dash what options it was given. Controls are thin and grey. Names
+// that are no scheme of the program (plugins) take what is left, in the order of the alphabet.
 //
-// Colours: found by a search for the largest least distance in CIELAB between families, as seen with normal sight and without one kind of cones
-// (Machado, Oliveira & Fernandes 2009), at a contrast of 3 or more to the page. tests/browser/page.mjs measures both.
-const families = [  // name, how its schemes' names begin, colour on a light page and on a dark one; in the order of legends
-  ["two-point", "modal_two_point", "#0d44e1", "#3799e1"], ["quadratised", "modal_quadratised", "#480588", "#9a38f7"],
-  ["spatial", "modal_spatial", "#0a722e", "#25ff90"], ["grid", "finite_difference", "#c07c00", "#e0a326"], ["sitar", "sitar_", "#610a2d", "#da0a42"],
-  ["control", null, "#767676", "#8d959c"], ["other", null, "#81347f", "#994195"]];
-const control_family = families.length - 2, other_family = families.length - 1;
-const shapes = ["circle", "diamond", "square", "triangle-up", "triangle-down", "cross", "triangle-right", "triangle-left", "wedge", "arrow",
-  "M0,-.5L.12,-.16L.48,-.16L.19,.06L.3,.4L0,.2L-.3,.4L-.19,.06L-.48,-.16L-.12,-.16Z"];  // a star
-// A difference is in ink, the front a track with edges. The edges have a contrast of 3 or more to the page, what lies between them leaves the lines
-// on it seen.
-const ink = ["#1d2329", "#e6eaee"], front_edge = ["#868c92", "#6f7780"], front_track = ["#f0f2f4", "#20272d"];
-const dark_of = Object.fromEntries([...families.map(([, , light, dark]) => [light, dark]), ink, front_edge, front_track]);
+// Colours: found by a search for the largest least distance in CIELAB between families, as seen
+// with normal sight and without one kind of cones (Machado, Oliveira & Fernandes 2009), at a
+// contrast of 3 or more to the page. tests/browser/page.mjs measures both.
+// name, how its schemes' names begin, colour on a light page and on a dark one; in the order of
+// legends
+const families = [
+  ["two-point", "modal_two_point", "#0d44e1", "#3799e1"],
+  ["quadratised", "modal_quadratised", "#480588", "#9a38f7"],
+  ["spatial", "modal_spatial", "#0a722e", "#25ff90"],
+  ["grid", "finite_difference", "#c07c00", "#e0a326"],
+  ["sitar", "sitar_", "#610a2d", "#da0a42"],
+  ["control", null, "#767676", "#8d959c"],
+  ["other", null, "#81347f", "#994195"],
+];
+const control_family = families.length - 2,
+  other_family = families.length - 1;
+const shapes = [
+  "circle",
+  "diamond",
+  "square",
+  "triangle-up",
+  "triangle-down",
+  "cross",
+  "triangle-right",
+  "triangle-left",
+  "wedge",
+  "arrow",
+  "M0,-.5L.12,-.16L.48,-.16L.19,.06L.3,.4L0,.2L-.3,.4L-.19,.06L-.48,-.16L-.12,-.16Z",
+]; // a star
+// A difference is in ink, the front a track with edges. The edges have a contrast of 3 or more to
+// the page, what lies between them leaves the lines on it seen.
+const ink = ["#1d2329", "#e6eaee"],
+  front_edge = ["#868c92", "#6f7780"],
+  front_track = ["#f0f2f4", "#20272d"];
+const dark_of = Object.fromEntries([
+  ...families.map(([, , light, dark]) => [light, dark]),
+  ink,
+  front_edge,
+  front_track,
+]);
 
-let known_schemes = null;  // name: its family and its place there
+let known_schemes = null; // name: its family and its place there
 function known() {
   if (known_schemes) return known_schemes;
   const count = families.map(() => 0);
-  known_schemes = new Map(page.schemes.map(([name, control]) => {
-    const found = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix)), family = control ? control_family : found < 0 ? other_family : found;
-    return [name, {family, place: count[family]++, control}];
-  }));
+  known_schemes = new Map(
+    page.schemes.map(([name, control]) => {
+      const found = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix)),
+        family = control ? control_family : found < 0 ? other_family : found;
+      return [name, {family, place: count[family]++, control}];
+    }),
+  );
   return known_schemes;
 }
 const scheme_in = name => name.split(/[ ,:]/)[0];
@@ -30,46 +61,100 @@ const scheme_in = name => name.split(/[ ,:]/)[0];
 // Matched is dashed and as published dotted, whatever else was asked: that adds a dot.
 function dash_of(variant) {
   if (variant === "") return [1, 0];
-  for (const [form, ...dash] of [[" compliance=matched", 6, 3], [" compliance=own", 2, 3]])
+  for (const [form, ...dash] of [
+    [" compliance=matched", 6, 3],
+    [" compliance=own", 2, 3],
+  ])
     if (variant.includes(form)) return variant === form ? dash : [...dash, 1, dash[1]];
   let hash = 0;
   for (const letter of variant) hash = (31 * hash + letter.charCodeAt(0)) >>> 0;
-  return [[10, 3], [4, 2], [1, 2]][hash % 3];
+  return [
+    [10, 3],
+    [4, 2],
+    [1, 2],
+  ][hash % 3];
 }
 
-// Of each name, "modal_two_point compliance=matched" or "modal_two_point, 40 modes": {family, control, colour, shape, dash}.
+// Of each name, "modal_two_point compliance=matched" or "modal_two_point, 40 modes": {family,
+// control, colour, shape, dash}.
 function looks_of(names) {
   const unknown = distinct(names.filter(name => !known().has(scheme_in(name)))).sort();
-  return new Map(names.map(name => {
-    const k = known().get(scheme_in(name));
-    if (k) return [name, {...k, colour: families[k.family][2], shape: shapes[k.place % shapes.length], dash: dash_of(name.slice(scheme_in(name).length))}];
-    const place = unknown.indexOf(name), begins = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix));  // a pairing is of its string's family
-    const of = begins < 0 && [...known().keys()].some(string => name.startsWith(string + "_")) ? other_family : begins;
-    const hue = of >= 0 ? of : place === 0 ? other_family : (place - 1) % control_family;  // else the families' hues with other markers
-    return [name, {family: of >= 0 ? of : other_family, control: false, colour: families[hue][2], shape: shapes[(place + 3) % shapes.length], dash: of >= 0 ? dash_of(name.slice(scheme_in(name).length)) : [1, 0]}];
-  }));
+  return new Map(
+    names.map(name => {
+      const k = known().get(scheme_in(name));
+      if (k)
+        return [
+          name,
+          {
+            ...k,
+            colour: families[k.family][2],
+            shape: shapes[k.place % shapes.length],
+            dash: dash_of(name.slice(scheme_in(name).length)),
+          },
+        ];
+      // a pairing is of its string's family
+      const place = unknown.indexOf(name),
+        begins = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix));
+      const of =
+        begins < 0 && [...known().keys()].some(string => name.startsWith(string + "_"))
+          ? other_family
+          : begins;
+      // else the families' hues with other markers
+      const hue = of >= 0 ? of : place === 0 ? other_family : (place - 1) % control_family;
+      return [
+        name,
+        {
+          family: of >= 0 ? of : other_family,
+          control: false,
+          colour: families[hue][2],
+          shape: shapes[(place + 3) % shapes.length],
+          dash: of >= 0 ? dash_of(name.slice(scheme_in(name).length)) : [1, 0],
+        },
+      ];
+    }),
+  );
 }
-function in_order(names) {  // as a legend has them: family by family, controls last
+function in_order(names) {
+  // as a legend has them: family by family, controls last
   const key = name => {
-    const {family, place} = known().get(scheme_in(name)) ?? {...looks_of([name]).get(name), place: 0};
+    const {family, place} = known().get(scheme_in(name)) ?? {
+      ...looks_of([name]).get(name),
+      place: 0,
+    };
     return 100 * (family === control_family ? other_family + 1 : family) + place;
   };
   return distinct(names).sort((a, b) => key(a) - key(b));
 }
 
 // How a scheme is called in a sentence; tables have its options as they are given.
-const spoken = name => name.replace(" compliance=matched", ", matched").replace(" compliance=own", ", as published");
+const spoken = name =>
+  name.replace(" compliance=matched", ", matched").replace(" compliance=own", ", as published");
 
-// Vega-Lite encodings of the series: {color, shape, strokeDash}. The legend is drawn apart, with line and marker together.
+// Vega-Lite encodings of the series: {color, shape, strokeDash}. The legend is drawn apart, with
+// line and marker together.
 function encodings_of(names, field = "series") {
-  const looks = looks_of(names), of = what => ({field, type: "nominal", scale: {domain: names, range: names.map(name => looks.get(name)[what])}, legend: null});
+  const looks = looks_of(names),
+    of = what => ({
+      field,
+      type: "nominal",
+      scale: {domain: names, range: names.map(name => looks.get(name)[what])},
+      legend: null,
+    });
   return {color: of("colour"), shape: of("shape"), strokeDash: of("dash")};
 }
 
-const vega_lite = "https://vega.github.io/schema/vega-lite/v5.json", font = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif";
-const print_width = () => page.width ? page.width - 76 : 760;  // [px] of a picture's plot; beside it stands an axis
-const chart_config = {font, view: {stroke: null}, axis: {gridOpacity: 0.45, domainOpacity: 0.6, labelFontSize: 11}, title: {fontSize: 16, subtitleFontSize: 12}};
-// Text is wrapped: without a screen Vega takes a letter for 0.8 of the font's size and makes the picture as wide as its longest line.
+const vega_lite = "https://vega.github.io/schema/vega-lite/v5.json",
+  font = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif";
+// [px] of a picture's plot; beside it stands an axis
+const print_width = () => (page.width ? page.width - 76 : 760);
+const chart_config = {
+  font,
+  view: {stroke: null},
+  axis: {gridOpacity: 0.45, domainOpacity: 0.6, labelFontSize: 11},
+  title: {fontSize: 16, subtitleFontSize: 12},
+};
+// Text is wrapped: without a screen Vega takes a letter for 0.8 of the font's size and makes the
+// picture as wide as its longest line.
 function wrapped(text, length) {
   const lines = [""];
   for (const word of text.split(" "))
@@ -78,47 +163,145 @@ function wrapped(text, length) {
   return lines;
 }
 function title_of(text, subtitle) {
-  const size = print_width() < 500 ? 12 : 16, small = print_width() < 500 ? 9 : 12, across = print_width() + 40;
-  return {text: wrapped(text, Math.floor(across / (0.8 * size))), subtitle: subtitle ? wrapped(subtitle, Math.floor(across / (0.8 * small))) : "", fontSize: size, subtitleFontSize: small, anchor: "start", offset: 26, subtitlePadding: 5};
+  const size = print_width() < 500 ? 12 : 16,
+    small = print_width() < 500 ? 9 : 12,
+    across = print_width() + 40;
+  return {
+    text: wrapped(text, Math.floor(across / (0.8 * size))),
+    subtitle: subtitle ? wrapped(subtitle, Math.floor(across / (0.8 * small))) : "",
+    fontSize: size,
+    subtitleFontSize: small,
+    anchor: "start",
+    offset: 26,
+    subtitlePadding: 5,
+  };
 }
 
-// A chart as the page has it, as wide as its place and in its colours, or as a picture: on white with a title and a legend.
+// A chart as the page has it, as wide as its place and in its colours, or as a picture: on white
+// with a title and a legend.
 function framed(spec, {title, subtitle = "", names = []}, print) {
   const own = {width: print ? print_width() : "container", ...spec};
-  const params = [{name: "picked", value: []}, ...(spec.params ?? [])];  // names brought out in the legend; none: all
+  // names brought out in the legend; none: all
+  const params = [{name: "picked", value: []}, ...(spec.params ?? [])];
   delete own.params;
-  if (own.width === undefined) delete own.width;  // its parts have widths of their own
+  if (own.width === undefined) delete own.width; // its parts have widths of their own
   if (!print) return {$schema: vega_lite, padding: 12, params, ...own, config: chart_config};
-  const legend = names.length < 2 ? {} : own.layer ? {layer: [...own.layer, ...legend_layers(names, "height + 62")]} : {vconcat: [own, {width: print_width(), height: 1, layer: legend_layers(names, "4")}], spacing: 44};
-  return {$schema: vega_lite, padding: 12, title: title_of(title, subtitle), background: "white", params, ...(legend.vconcat ? {} : own), ...legend, config: chart_config};
+  const legend =
+    names.length < 2
+      ? {}
+      : own.layer
+        ? {layer: [...own.layer, ...legend_layers(names, "height + 62")]}
+        : {
+            vconcat: [own, {width: print_width(), height: 1, layer: legend_layers(names, "4")}],
+            spacing: 44,
+          };
+  return {
+    $schema: vega_lite,
+    padding: 12,
+    title: title_of(title, subtitle),
+    background: "white",
+    params,
+    ...(legend.vconcat ? {} : own),
+    ...legend,
+    config: chart_config,
+  };
 }
-function legend_layers(names, top) {  // each name with its line and its marker
-  const across = print_width() > 500 ? 2 : 1, at = text => ({expr: text}), y = at(`${top} + datum.down`), {color, shape, strokeDash} = encodings_of(names);
-  const data = {values: names.map((series, k) => ({series, text: spoken(series), down: 17 * Math.floor(k / across), left: print_width() / across * (k % across)}))};
-  const part = (mark, encoding, rows = data) => ({data: rows, mark: {tooltip: null, y, ...mark}, encoding: {x: null, y: null, ...encoding}});
+function legend_layers(names, top) {
+  // each name with its line and its marker
+  const across = print_width() > 500 ? 2 : 1,
+    at = text => ({expr: text}),
+    y = at(`${top} + datum.down`),
+    {color, shape, strokeDash} = encodings_of(names);
+  const data = {
+    values: names.map((series, k) => ({
+      series,
+      text: spoken(series),
+      down: 17 * Math.floor(k / across),
+      left: (print_width() / across) * (k % across),
+    })),
+  };
+  const part = (mark, encoding, rows = data) => ({
+    data: rows,
+    mark: {tooltip: null, y, ...mark},
+    encoding: {x: null, y: null, ...encoding},
+  });
   const ends = {values: data.values.flatMap(row => [row, {...row, left: row.left + 34}])};
-  return [part({type: "line", strokeWidth: 1.8, x: at("datum.left")}, {color, strokeDash}, ends), part({type: "point", filled: true, opacity: 1, size: 60, x: at("datum.left + 17")}, {color, shape}),
-          part({type: "text", align: "left", fontSize: print_width() < 500 ? 9 : 11, x: at("datum.left + 42")}, {text: {field: "text"}})];
+  return [
+    part({type: "line", strokeWidth: 1.8, x: at("datum.left")}, {color, strokeDash}, ends),
+    part(
+      {type: "point", filled: true, opacity: 1, size: 60, x: at("datum.left + 17")},
+      {color, shape},
+    ),
+    part(
+      {
+        type: "text",
+        align: "left",
+        fontSize: print_width() < 500 ? 9 : 11,
+        x: at("datum.left + 42"),
+      },
+      {text: {field: "text"}},
+    ),
+  ];
 }
 
 // ---- Parts that many charts have
-const once = mark => ({data: {values: [{}]}, mark: {tooltip: null, clip: false, ...mark}, encoding: {x: null, y: null}});  // a mark without rows
-const above = text => once({type: "text", x: 0, y: -10, align: "left", fontSize: 12, fontWeight: "bold", text});  // an axis' name, upright
-const quantity = (field, axis = {}, scale = {}) => ({field, type: "quantitative", scale, axis: {title: null, labelOverlap: true, ...axis}});
+// a mark without rows
+const once = mark => ({
+  data: {values: [{}]},
+  mark: {tooltip: null, clip: false, ...mark},
+  encoding: {x: null, y: null},
+});
+// an axis' name, upright
+const above = text =>
+  once({type: "text", x: 0, y: -10, align: "left", fontSize: 12, fontWeight: "bold", text});
+const quantity = (field, axis = {}, scale = {}) => ({
+  field,
+  type: "quantitative",
+  scale,
+  axis: {title: null, labelOverlap: true, ...axis},
+});
 const log = padding => ({type: "log", nice: false, padding});
 const is_percent = error => error.startsWith("error_l2_");
-const error_text = (x, error) => is_percent(error) ? percent(x) : decibels(x);
-// Decades are labelled; on an axis of less than three decades 2 and 5 as well. `text`: how a labelled value is written.
+const error_text = (x, error) => (is_percent(error) ? percent(x) : decibels(x));
+// Decades are labelled; on an axis of less than three decades 2 and 5 as well. `text`: how a
+// labelled value is written.
 function decades(channel, text) {
   const digit = "round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))";
-  return {title: null, labelOverlap: true, labelExpr: `${digit} == 1 || (domain('${channel}')[1]/domain('${channel}')[0] < 1000 && indexof([2, 5], ${digit}) >= 0) ? (${text}) : ''`};
+  return {
+    title: null,
+    labelOverlap: true,
+    labelExpr:
+      `${digit} == 1 || (domain('${channel}')[1]/domain('${channel}')[0] < 1000 && ` +
+      `indexof([2, 5], ${digit}) >= 0) ? (${text}) : ''`,
+  };
 }
-const plain_number = "datum.value < 1e-3 || datum.value >= 1e6 ? format(datum.value, '~e') : format(datum.value, ',~r')";
-const error_axis = (error, channel = "y") => decades(channel, is_percent(error) ? "format(100*datum.value, ',~r') + ' %'" : plain_number);
-const brought_out = {condition: {test: "!length(picked) || indexof(picked, datum.series) >= 0", value: 1}, value: 0.1};
+const plain_number =
+  "datum.value < 1e-3 || datum.value >= 1e6 ? format(datum.value, '~e') : " +
+  "format(datum.value, ',~r')";
+const error_axis = (error, channel = "y") =>
+  decades(channel, is_percent(error) ? "format(100*datum.value, ',~r') + ' %'" : plain_number);
+const brought_out = {
+  condition: {test: "!length(picked) || indexof(picked, datum.series) >= 0", value: 1},
+  value: 0.1,
+};
 // What hovering shows: what has a value, each under its name.
-const told = pairs => Object.fromEntries(pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined));
+const told = pairs =>
+  Object.fromEntries(
+    pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined),
+  );
 const hover = {tooltip: {field: "told", type: "nominal"}};
-// By wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set the signals zoom_FIELD.
-const zoomed = (...channels) => ({params: [{name: "zoom", select: {type: "interval", encodings: channels, zoom: "wheel![event.ctrlKey]"}, bind: "scales"}]});
-const points = (encoding, more = {}) => ({mark: {type: "point", filled: true, opacity: 1, size: 60, ...more}, encoding: {...encoding, ...hover}});
+// By wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set the
+// signals zoom_FIELD.
+const zoomed = (...channels) => ({
+  params: [
+    {
+      name: "zoom",
+      select: {type: "interval", encodings: channels, zoom: "wheel![event.ctrlKey]"},
+      bind: "scales",
+    },
+  ],
+});
+const points = (encoding, more = {}) => ({
+  mark: {type: "point", filled: true, opacity: 1, size: 60, ...more},
+  encoding: {...encoding, ...hover},
+});

@@ -1,14 +1,23 @@
-// The page from its data: sections in the order in which they came, what it was measured with at the foot.
+// The page from its data: sections in the order in which they came, what it was measured with at
+// the foot.
 const drawings = [];
-const report = {};  // what is made of the tables: {verdicts, sections, scenes}
+const report = {}; // what is made of the tables: {verdicts, sections, scenes}
 
 function pictures_of(pictures) {
-  return (pictures ?? []).map(p => element("figure", {}, element("img", {src: p.data, alt: p.name, loading: "lazy"}), element("figcaption", {}, p.name)));
+  return (pictures ?? []).map(p =>
+    element(
+      "figure",
+      {},
+      element("img", {src: p.data, alt: p.name, loading: "lazy"}),
+      element("figcaption", {}, p.name),
+    ),
+  );
 }
 
 // What stands in a section below its heading.
 function parts_of(s) {
-  const parts = [], notes = s.notes.map(text => element("p", {className: "soft"}, text));
+  const parts = [],
+    notes = s.notes.map(text => element("p", {className: "soft"}, text));
   const first = s === report.sections[0];
   if (!first || !s.charts.length) parts.push(...notes);
   for (const chart of s.charts) {
@@ -17,7 +26,10 @@ function parts_of(s) {
     drawings.push({id: s.id, draw});
   }
   if (first && s.charts.length && notes.length) parts.push(folded("How to read this chart", notes));
-  parts.push(...pictures_of(s.pictures), ...s.left_out.map(text => element("p", {className: "soft"}, text)));
+  parts.push(
+    ...pictures_of(s.pictures),
+    ...s.left_out.map(text => element("p", {className: "soft"}, text)),
+  );
   if (s.table) parts.push(...table_of(s.table, s.heading));
   return parts;
 }
@@ -26,10 +38,18 @@ function folded(title, parts) {
   return element("details", {className: "note"}, element("summary", {}, title), ...parts);
 }
 
-// A section that a click opens. Its charts are drawn when it is first seen: a page of twenty charts opens as fast as one of one.
+// A section that a click opens. Its charts are drawn when it is first seen: a page of twenty charts
+// opens as fast as one of one.
 function section_of(s) {
-  const section = element("details", {id: s.id, className: "part"}, element("summary", {}, element("h2", {}, s.heading)), ...parts_of(s));
-  section.addEventListener("toggle", () => { if (section.open) draw_in(s.id); });
+  const section = element(
+    "details",
+    {id: s.id, className: "part"},
+    element("summary", {}, element("h2", {}, s.heading)),
+    ...parts_of(s),
+  );
+  section.addEventListener("toggle", () => {
+    if (section.open) draw_in(s.id);
+  });
   return section;
 }
 async function draw_in(id) {
@@ -45,57 +65,130 @@ function show(id) {
 }
 
 const words = [
-  ["relative L2 error", "root of the summed squared difference from the reference, divided by that of the reference: 1 % is close, 100 % is unrelated"],
-  ["horizon", "first instant at which the running error passes 10 %. After it judge by third octaves"],
+  [
+    "relative L2 error",
+    "root of the summed squared difference from the reference, divided by that of the " +
+      "reference: 1 % is close, 100 % is unrelated",
+  ],
+  [
+    "horizon",
+    "first instant at which the running error passes 10 %. After it judge by third octaves",
+  ],
   ["third octaves", "root mean square over the bands of the difference in level"],
-  ["noise floor", "the error that a change of the start by 1e-12 makes. Smaller errors cannot be told apart"],
-  ["uncertainty", "how wrong the reference itself may be (its certificate). After \u2264 it is added to the error"],
-  ["not to be trusted", "the run itself shows a fault: the contact pulls the string (adhesion), stored energy remains in an open contact (psi_gap), or the energy balance does not close (energy)"],
+  [
+    "noise floor",
+    "the error that a change of the start by 1e-12 makes. Smaller errors cannot be told apart",
+  ],
+  [
+    "uncertainty",
+    "how wrong the reference itself may be (its certificate). After \u2264 it is added to " +
+      "the error",
+  ],
+  [
+    "not to be trusted",
+    "the run itself shows a fault: the contact pulls the string (adhesion), stored energy " +
+      "remains in an open contact (psi_gap), or the energy balance does not close (energy)",
+  ],
   ["control", "a scheme with a known fault, run to show that the comparison finds it"],
-  ["cost", "computing time of one core per second of sound, the median of several runs; quartiles beside it"],
-  ["front", "runs that no other run certainly beats in both cost and error"]
+  [
+    "cost",
+    "computing time of one core per second of sound, the median of several runs; quartiles " +
+      "beside it",
+  ],
+  ["front", "runs that no other run certainly beats in both cost and error"],
 ];
 function how_to_read() {
   const list = element("dl");
-  for (const [word, meaning] of words) list.append(element("dt", {}, word), element("dd", {}, meaning));
-  const sources = Array.isArray(page.manifest?.schemes) ? page.manifest.schemes.map(s => [s.name, s.source]) : Object.entries(page.manifest?.schemes ?? {});
-  for (const [name, source] of sources) list.append(element("dt", {}, name), element("dd", {}, source));
-  list.append(element("dt", {}, "columns"), element("dd", {}, "'jvari list columns' explains every column of the tables"));
-  const scenes = page.manifest?.scenes ?? (page.manifest?.scene?.text ? {[page.manifest.scene.name]: page.manifest.scene.text} : {});
+  for (const [word, meaning] of words)
+    list.append(element("dt", {}, word), element("dd", {}, meaning));
+  const sources = Array.isArray(page.manifest?.schemes)
+    ? page.manifest.schemes.map(s => [s.name, s.source])
+    : Object.entries(page.manifest?.schemes ?? {});
+  for (const [name, source] of sources)
+    list.append(element("dt", {}, name), element("dd", {}, source));
+  list.append(
+    element("dt", {}, "columns"),
+    element("dd", {}, "'jvari list columns' explains every column of the tables"),
+  );
+  const scenes =
+    page.manifest?.scenes ??
+    (page.manifest?.scene?.text ? {[page.manifest.scene.name]: page.manifest.scene.text} : {});
   const texts = Object.entries(scenes).map(([name, text]) => {
     const whole = element("pre", {tabIndex: 0}, text);
     whole.setAttribute("role", "region");
     whole.setAttribute("aria-label", "the scene " + name);
-    return element("details", {className: "scene"}, element("summary", {}, `the scene ${name}`), whole);
+    return element(
+      "details",
+      {className: "scene"},
+      element("summary", {}, `the scene ${name}`),
+      whole,
+    );
   });
-  return element("details", {id: "reading", className: "part"}, element("summary", {}, element("h2", {}, "How to read it")), list, ...texts);
+  return element(
+    "details",
+    {id: "reading", className: "part"},
+    element("summary", {}, element("h2", {}, "How to read it")),
+    list,
+    ...texts,
+  );
 }
 
 // Nested names are written with dots.
 function entries_of(value, name = "") {
   if (value === null || value === "") return [];
-  if (typeof value !== "object") return [[name, typeof value === "number" && !Number.isInteger(value) ? String(Number(value.toPrecision(6))) : String(value)]];
-  if (Array.isArray(value) && value.every(x => typeof x !== "object")) return value.length ? [[name, value.join(", ")]] : [];
-  const scene_text = key => (name === "scene" && key === "text") || (name === "" && key === "scenes");  // it stands above
-  return Object.entries(value).filter(([key]) => !scene_text(key)).flatMap(([key, x]) => entries_of(x, name ? `${name}.${key}` : key));
+  if (typeof value !== "object")
+    return [
+      [
+        name,
+        typeof value === "number" && !Number.isInteger(value)
+          ? String(Number(value.toPrecision(6)))
+          : String(value),
+      ],
+    ];
+  if (Array.isArray(value) && value.every(x => typeof x !== "object"))
+    return value.length ? [[name, value.join(", ")]] : [];
+  // it stands above
+  const scene_text = key =>
+    (name === "scene" && key === "text") || (name === "" && key === "scenes");
+  return Object.entries(value)
+    .filter(([key]) => !scene_text(key))
+    .flatMap(([key, x]) => entries_of(x, name ? `${name}.${key}` : key));
 }
 
 function fill_page() {
-  const main = document.querySelector("main"), nav = document.querySelector("nav");
+  const main = document.querySelector("main"),
+    nav = document.querySelector("nav");
   main.classList.toggle("run", Boolean(page.run));
   report.verdicts = verdicts();
   report.sections = sections_of();
-  report.scenes = distinct([...report.verdicts.map(v => v.scene), ...report.sections.flatMap(s => s.charts).flatMap(c => c.scenes ?? [])]);
+  report.scenes = distinct([
+    ...report.verdicts.map(v => v.scene),
+    ...report.sections.flatMap(s => s.charts).flatMap(c => c.scenes ?? []),
+  ]);
   if (report.scenes.length > 1) nav.after(scene_menu(report.scenes));
-  document.getElementById("about").textContent = [page.title, page.about].filter(Boolean).join(" \u00b7 ");
+  document.getElementById("about").textContent = [page.title, page.about]
+    .filter(Boolean)
+    .join(" \u00b7 ");
   document.querySelector("h1").textContent = finding_of_maps() || finding_of_trim() || page.title;
   if (page.missing) main.append(element("p", {className: "soft"}, page.missing));
   const [first, ...rest] = report.sections;
-  const beginning = element("div", {className: "first"}), playing = player_of(sounds());
-  if (first) beginning.append(element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)));
+  const beginning = element("div", {className: "first"}),
+    playing = player_of(sounds());
+  if (first)
+    beginning.append(
+      element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)),
+    );
   if (report.verdicts.length) beginning.append(verdict_of(report.verdicts, page.command));
-  main.append(...(page.run || records("path").length ? [...playing, beginning] : [beginning, ...playing]), ...rest.map(section_of), how_to_read());
-  for (const [id, heading] of [...rest.map(s => [s.id, s.heading]), ["reading", "How to read it"], ["provenance", "Measured with"]]) {
+  main.append(
+    ...(page.run || records("path").length ? [...playing, beginning] : [beginning, ...playing]),
+    ...rest.map(section_of),
+    how_to_read(),
+  );
+  for (const [id, heading] of [
+    ...rest.map(s => [s.id, s.heading]),
+    ["reading", "How to read it"],
+    ["provenance", "Measured with"],
+  ]) {
     const link = element("a", {href: "#" + id}, heading);
     link.onclick = event => {
       event.preventDefault();
@@ -104,7 +197,10 @@ function fill_page() {
     };
     nav.append(link);
   }
-  for (const [name, text] of entries_of(page.manifest)) document.querySelector("footer dl").append(element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, text));
+  for (const [name, text] of entries_of(page.manifest))
+    document
+      .querySelector("footer dl")
+      .append(element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, text));
   return first;
 }
 (async () => {

@@ -1,16 +1,49 @@
-// plot.py beside the tables: the first chart by matplotlib, with the looks that schemes have everywhere, from the rows of cells.csv.
+// plot.py beside the tables: the first chart by matplotlib, with the looks that schemes have
+// everywhere, from the rows of cells.csv.
 function plot_program() {
-  const marks = {circle: "o", diamond: "D", square: "s", "triangle-up": "^", "triangle-down": "v", cross: "P", "triangle-right": ">", "triangle-left": "<", wedge: "1", arrow: "2"};
-  const scenes = scenes_of_cells().filter(scene => errors_in(of_scene(cells(), scene)).length && has_finite(of_scene(cells(), scene), "cost_s_per_s")).map(scene => {
-    const {column, title} = errors_in(of_scene(cells(), scene))[0], all = points_of(of_scene(cells(), scene), column, "cost_s_per_s", "line").filter(is_sound), names = in_order(all.map(p => p.series)), looks = looks_of(names);
-    const lines = names.map(name => {
-      const own = all.filter(p => p.series === name).sort((a, b) => a.order - b.order), look = looks.get(name);
-      return [spoken(name), look.colour, marks[look.shape] ?? "*", look.dash, own.map(p => p.n)];
+  const marks = {
+    circle: "o",
+    diamond: "D",
+    square: "s",
+    "triangle-up": "^",
+    "triangle-down": "v",
+    cross: "P",
+    "triangle-right": ">",
+    "triangle-left": "<",
+    wedge: "1",
+    arrow: "2",
+  };
+  const scenes = scenes_of_cells()
+    .filter(
+      scene =>
+        errors_in(of_scene(cells(), scene)).length &&
+        has_finite(of_scene(cells(), scene), "cost_s_per_s"),
+    )
+    .map(scene => {
+      const {column, title} = errors_in(of_scene(cells(), scene))[0],
+        all = points_of(of_scene(cells(), scene), column, "cost_s_per_s", "line").filter(is_sound),
+        names = in_order(all.map(p => p.series)),
+        looks = looks_of(names);
+      const lines = names.map(name => {
+        const own = all.filter(p => p.series === name).sort((a, b) => a.order - b.order),
+          look = looks.get(name);
+        return [spoken(name), look.colour, marks[look.shape] ?? "*", look.dash, own.map(p => p.n)];
+      });
+      return [
+        scene,
+        column,
+        title,
+        bands_of(of_scene(cells(), scene), column),
+        Object.fromEntries(all.filter(p => cells()[p.n].bounds[column]).map(p => [p.n, p.y])),
+        lines,
+      ];
     });
-    return [scene, column, title, bands_of(of_scene(cells(), scene), column), Object.fromEntries(all.filter(p => cells()[p.n].bounds[column]).map(p => [p.n, p.y])), lines];
-  });
   if (!scenes.length) return "";
-  const python = value => JSON.stringify(value).replaceAll("null", "None").replaceAll("true", "True").replaceAll("false", "False");
+  const python = value =>
+    JSON.stringify(value)
+      .replaceAll("null", "None")
+      .replaceAll("true", "True")
+      .replaceAll("false", "False");
   return `#!/usr/bin/env python3
 """Draws error against cost of this folder with matplotlib: python3 plot.py [OUT.pdf [SCENE [WIDTH_MM]]]
 
@@ -25,7 +58,16 @@ from matplotlib import pyplot
 
 # scene: error column, its title, what is known (floor, certificate), {row: upper bound}, lines
 SCENES = {
-${scenes.map(([scene, column, title, bands, bounds, lines]) => `    ${python(scene)}: (${python(column)}, ${python(title)}, ${python([bands.floor, bands.certificate])}, {${Object.entries(bounds).map(([n, y]) => `${n}: ${y}`).join(", ")}}, [\n${lines.map(line => `        ${python(line)},\n`).join("")}    ]),\n`).join("")}}
+${scenes
+  .map(
+    ([scene, column, title, bands, bounds, lines]) =>
+      `    ${python(scene)}: (${python(column)}, ${python(title)}, ${python([bands.floor, bands.certificate])}, {${Object.entries(
+        bounds,
+      )
+        .map(([n, y]) => `${n}: ${y}`)
+        .join(", ")}}, [\n${lines.map(line => `        ${python(line)},\n`).join("")}    ]),\n`,
+  )
+  .join("")}}
 
 folder = pathlib.Path(__file__).resolve().parent
 table = folder / "cells.csv"

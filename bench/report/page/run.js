@@ -1,28 +1,140 @@
-// One run, one picture: its taps over time, spectrum and spectrogram of the first of them, the energy ledger where it was probed, and when the string
-// touched. The program has made the tables: a value per stretch of time, a level per band.
+// One run, one picture: its taps over time, spectrum and spectrogram of the first of them, the
+// energy ledger where it was probed, and when the string touched. The program has made the tables:
+// a value per stretch of time, a level per band.
 function run_spec(choice, print) {
-  const {scheme, taps, heard, contact, ledger_open} = page.run, hue = looks_of([scheme]).get(scheme).colour, width = print ? Math.max(240, print_width() - 60) : 700;
-  const of = (name, columns) => records(name).map(r => Object.fromEntries(columns.map(c => [c, finite(number(r[c]))])));
-  const axis = (field, title, scale = {}, format = "~g") => ({field, type: "quantitative", scale, axis: {title, format, titleLimit: 260}}), time = axis("t", "time [s]", {nice: false});
-  const panel = (title, height, values, mark, encoding) => ({title: {text: title, anchor: "start", fontSize: 12}, width, height, data: {values}, mark: {tooltip: null, color: hue, ...mark}, encoding});
-  const panels = taps.map((tap, k) => {
-    const values = of("waves_" + k, ["t", "low", "high"]), whole = values.every(v => v.low === v.high);
-    return panel(`${tap.name} (${tap.quantity})`, 110, values, {type: whole ? "line" : "area", strokeWidth: 1.2, line: false}, {x: time, y: axis("low", tap.unit), ...(whole ? {} : {y2: {field: "high"}})});
+  const {scheme, taps, heard, contact, ledger_open} = page.run,
+    hue = looks_of([scheme]).get(scheme).colour,
+    width = print ? Math.max(240, print_width() - 60) : 700;
+  const of = (name, columns) =>
+    records(name).map(r => Object.fromEntries(columns.map(c => [c, finite(number(r[c]))])));
+  const axis = (field, title, scale = {}, format = "~g") => ({
+      field,
+      type: "quantitative",
+      scale,
+      axis: {title, format, titleLimit: 260},
+    }),
+    time = axis("t", "time [s]", {nice: false});
+  const panel = (title, height, values, mark, encoding) => ({
+    title: {text: title, anchor: "start", fontSize: 12},
+    width,
+    height,
+    data: {values},
+    mark: {tooltip: null, color: hue, ...mark},
+    encoding,
   });
-  if (records("contacts").length) panels.splice(0, 0, panel(contact.title, 26, records("contacts").map(r => ({tap: r.tap, a: number(r.from), b: number(r.to)})), {type: "bar", height: 16},
-    {x: axis("a", "time [s]", {domain: [0, contact.until], nice: false}), x2: {field: "b"}, y: {field: "tap", type: "nominal", title: null}}));
-  if (records("spectrum").length) panels.push(panel(`spectrum of ${heard}`, 140, of("spectrum", ["f", "level"]), {type: "line", strokeWidth: 1}, {x: axis("f", "frequency [Hz]", {type: "log", nice: false}, ",~r"), y: axis("level", "level re strongest [dB]", {}, "d")}));
+  const panels = taps.map((tap, k) => {
+    const values = of("waves_" + k, ["t", "low", "high"]),
+      whole = values.every(v => v.low === v.high);
+    return panel(
+      `${tap.name} (${tap.quantity})`,
+      110,
+      values,
+      {type: whole ? "line" : "area", strokeWidth: 1.2, line: false},
+      {x: time, y: axis("low", tap.unit), ...(whole ? {} : {y2: {field: "high"}})},
+    );
+  });
+  if (records("contacts").length)
+    panels.splice(
+      0,
+      0,
+      panel(
+        contact.title,
+        26,
+        records("contacts").map(r => ({tap: r.tap, a: number(r.from), b: number(r.to)})),
+        {type: "bar", height: 16},
+        {
+          x: axis("a", "time [s]", {domain: [0, contact.until], nice: false}),
+          x2: {field: "b"},
+          y: {field: "tap", type: "nominal", title: null},
+        },
+      ),
+    );
+  if (records("spectrum").length)
+    panels.push(
+      panel(
+        `spectrum of ${heard}`,
+        140,
+        of("spectrum", ["f", "level"]),
+        {type: "line", strokeWidth: 1},
+        {
+          x: axis("f", "frequency [Hz]", {type: "log", nice: false}, ",~r"),
+          y: axis("level", "level re strongest [dB]", {}, "d"),
+        },
+      ),
+    );
   if (page.levels.length) {
-    const sound = {title: `spectrogram of ${heard}`, levels: levels_of(page.levels[0])}, frame = tiled([sound], 2800), made = panel_spec(sound, frame, {left: "", lowest: true, size: {width, height: 160}});
+    const sound = {title: `spectrogram of ${heard}`, levels: levels_of(page.levels[0])},
+      frame = tiled([sound], 2800),
+      made = panel_spec(sound, frame, {left: "", lowest: true, size: {width, height: 160}});
     panels.push({...made, title: {text: sound.title, anchor: "start", fontSize: 12}});
   }
-  const ledger = of("ledger", ["t", "stored", "supplied", "dissipated"]), names = {stored: "stored", supplied: "supplied so far", dissipated: "dissipated so far"};
-  const most = Math.max(...ledger.flatMap(r => [r.stored, r.supplied, r.dissipated].map(Math.abs))), [factor, unit] = most < 1e-3 ? [1e6, "\u00b5J"] : most < 1 ? [1e3, "mJ"] : [1, "J"];
-  if (ledger.length) panels.push(panel(`energy balance, closes to ${ledger_open} of the largest stored energy`, 110, ledger.flatMap(r => Object.entries(names).map(([key, what]) => ({t: r.t, what, j: factor * r[key]}))),
-    {type: "line", strokeWidth: 1.4}, {x: time, y: axis("j", unit), strokeDash: {field: "what", type: "nominal", scale: {domain: Object.values(names), range: [[1, 0], [6, 3], [2, 3]]},
-      legend: {title: null, symbolType: "stroke", symbolSize: 500, symbolStrokeWidth: 1.4, ...(print_width() < 500 ? {orient: "bottom"} : {})}}}));
-  return {legend: [], spec: framed({width: undefined, spacing: 16, vconcat: panels, resolve: {scale: {color: "independent", strokeDash: "independent"}}}, {title: page.title, subtitle: page.about}, print)};
+  const ledger = of("ledger", ["t", "stored", "supplied", "dissipated"]),
+    names = {stored: "stored", supplied: "supplied so far", dissipated: "dissipated so far"};
+  const most = Math.max(...ledger.flatMap(r => [r.stored, r.supplied, r.dissipated].map(Math.abs))),
+    [factor, unit] = most < 1e-3 ? [1e6, "\u00b5J"] : most < 1 ? [1e3, "mJ"] : [1, "J"];
+  if (ledger.length)
+    panels.push(
+      panel(
+        `energy balance, closes to ${ledger_open} of the largest stored energy`,
+        110,
+        ledger.flatMap(r =>
+          Object.entries(names).map(([key, what]) => ({t: r.t, what, j: factor * r[key]})),
+        ),
+        {type: "line", strokeWidth: 1.4},
+        {
+          x: time,
+          y: axis("j", unit),
+          strokeDash: {
+            field: "what",
+            type: "nominal",
+            scale: {
+              domain: Object.values(names),
+              range: [
+                [1, 0],
+                [6, 3],
+                [2, 3],
+              ],
+            },
+            legend: {
+              title: null,
+              symbolType: "stroke",
+              symbolSize: 500,
+              symbolStrokeWidth: 1.4,
+              ...(print_width() < 500 ? {orient: "bottom"} : {}),
+            },
+          },
+        },
+      ),
+    );
+  return {
+    legend: [],
+    spec: framed(
+      {
+        width: undefined,
+        spacing: 16,
+        vconcat: panels,
+        resolve: {scale: {color: "independent", strokeDash: "independent"}},
+      },
+      {title: page.title, subtitle: page.about},
+      print,
+    ),
+  };
 }
 function run_section() {
-  return page.run ? {id: "run", heading: "The run", notes: [], charts: [{name: "waveforms, spectrum, spectrogram, energy and contact of the run", scrolls: true, menus: () => [], spec: run_spec, twins: [{file: "run.svg", choice: {}}]}]} : null;
+  return page.run
+    ? {
+        id: "run",
+        heading: "The run",
+        notes: [],
+        charts: [
+          {
+            name: "waveforms, spectrum, spectrogram, energy and contact of the run",
+            scrolls: true,
+            menus: () => [],
+            spec: run_spec,
+            twins: [{file: "run.svg", choice: {}}],
+          },
+        ],
+      }
+    : null;
 }

@@ -39,13 +39,16 @@ std::string own_name() {
     return fmt::format("process {} on {}", getpid(), host);
 }
 
-bool stands_at(const fs::path& path, int file) {  // a holder removes its lock: who then gets it has what nobody else will find
+// a holder removes its lock: who then gets it has what nobody else will find
+bool stands_at(const fs::path& path, int file) {
     struct stat own = {}, there = {};
-    return fstat(file, &own) == 0 && stat(path.c_str(), &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev;
+    return fstat(file, &own) == 0 && stat(path.c_str(), &there) == 0 &&
+           own.st_ino == there.st_ino && own.st_dev == there.st_dev;
 }
 }  // namespace
 
-FileLock::FileLock(const fs::path& file, const std::string& doing) : path_(file.string() + ".lock") {
+FileLock::FileLock(const fs::path& file, const std::string& doing)
+    : path_(file.string() + ".lock") {
     constexpr int most_tries = 100;
     for (int k = 0; k < most_tries && !held() && !file.empty(); ++k) {
         file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -60,7 +63,8 @@ FileLock::FileLock(const fs::path& file, const std::string& doing) : path_(file.
     }
     if (!held()) return;
     const std::string who = own_name();
-    if (ftruncate(file_, 0) != 0 || pwrite(file_, who.data(), who.size(), 0) < 0) errno = 0;  // a full disk: it holds without a name
+    // a full disk: it holds without a name
+    if (ftruncate(file_, 0) != 0 || pwrite(file_, who.data(), who.size(), 0) < 0) errno = 0;
     removed_too_.emplace([this] { unlink(path_.c_str()); });
 }
 

@@ -1,5 +1,6 @@
-// One process at a time does what several want to see done. The lock is an open-file-description lock (fcntl, F_OFD_SETLK) on FILE.lock:
-// the system releases it when its holder dies, network file systems ask their server for it, and it holds between threads as well.
+// One process at a time does what several want to see done. The lock is an open-file-description
+// lock (fcntl, F_OFD_SETLK) on FILE.lock: the system releases it when its holder dies, network file
+// systems ask their server for it, and it holds between threads as well.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +17,11 @@ struct Busy {         // no std::exception: nothing has failed, it is to be trie
 
 class FileLock {
 public:
-    // Takes the lock of `file`, or throws Busy at once. `doing` is what the holder does: "runs free_string: modal_two_point". Where no lock
-    // can be had, there is none: in a folder that cannot be written, on a file system without locks, where something stands in its place
-    // that is no file, or for the file "". So a lock saves work: what it guards appears by rename, and two who make it write the same.
+    // Takes the lock of `file`, or throws Busy at once. `doing` is what the holder does: "runs
+    // free_string: modal_two_point". Where no lock can be had, there is none: in a folder that
+    // cannot be written, on a file system without locks, where something stands in its place that
+    // is no file, or for the file "". So a lock saves work: what it guards appears by rename, and
+    // two who make it write the same.
     FileLock(const std::filesystem::path& file, const std::string& doing);
     ~FileLock();
     FileLock(const FileLock&) = delete;

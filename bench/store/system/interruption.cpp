@@ -19,7 +19,8 @@ struct Heeded {
     std::list<std::function<void()>> last_words;  // newest first
 };
 Heeded& heeded() {
-    static Heeded& h = *new Heeded;  // outlives the end of main, during which there may still be an interruption
+    // outlives the end of main, during which there may still be an interruption
+    static Heeded& h = *new Heeded;
     return h;
 }
 
@@ -43,7 +44,8 @@ void heed_interruptions() {
     sigset_t signals;
     sigemptyset(&signals);
     for (const int s : {SIGINT, SIGTERM, SIGHUP})
-        if (struct sigaction set{}; sigaction(s, nullptr, &set) == 0 && set.sa_handler != SIG_IGN) sigaddset(&signals, s);
+        if (struct sigaction set{}; sigaction(s, nullptr, &set) == 0 && set.sa_handler != SIG_IGN)
+            sigaddset(&signals, s);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     std::thread([signals] {
         int signal = 0;

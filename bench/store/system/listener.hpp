@@ -1,4 +1,5 @@
-// Who is told how a long computation goes. This one hears nothing: a program that calls jvari as a library passes it, or one of its own.
+// Who is told how a long computation goes. This one hears nothing: a program that calls jvari as a
+// library passes it, or one of its own.
 #pragma once
 
 #include <memory>
@@ -13,16 +14,21 @@ public:
     virtual ~Progress() = default;
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    // The part that is done, from 0 to 1, and what is going on. As often as one likes: a listener shows what it can.
+    // The part that is done, from 0 to 1, and what is going on. As often as one likes: a listener
+    // shows what it can.
     virtual void show(double /*fraction*/, const std::string& /*what*/ = {}) {}
 };
 
 class Listener {
 public:
     virtual ~Listener() = default;
-    virtual void note(const std::string& /*text*/) const {}  // a message of one line or more, without its last line's end
-    virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const { return std::make_unique<Progress>(); }
-    virtual bool is_part() const { return false; }  // of a larger job, which has a listener of its own
+    // a message of one line or more, without its last line's end
+    virtual void note(const std::string& /*text*/) const {}
+    virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const {
+        return std::make_unique<Progress>();
+    }
+    // of a larger job, which has a listener of its own
+    virtual bool is_part() const { return false; }
 };
 
 }  // namespace jvari::bench::store

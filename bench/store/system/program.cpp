@@ -26,7 +26,8 @@ constexpr std::size_t most_text = 1 << 16;  // of what it says, and as much as a
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
-    // This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing, which are errors to it: not so the other.
+    // This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing,
+    // which are errors to it: not so the other.
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -57,9 +58,11 @@ public:
     Group& operator=(const Group&) = delete;
     bool runs() const { return leader_ > 0; }
 
-    bool has_ended() const {  // its leader, which is not waited for yet: until then nobody else gets the number of the group
+    // its leader, which is not waited for yet: until then nobody else gets the number of the group
+    bool has_ended() const {
         siginfo_t info{};
-        return waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == leader_;
+        return waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+               info.si_pid == leader_;
     }
     int end() {  // the exit code of its leader
         kill(-leader_, SIGKILL);

@@ -20,15 +20,23 @@ class Things {
     using Clock = std::chrono::steady_clock;
 
 public:
-    Things(const std::vector<double>& sizes, const Listener& listener, const std::function<void(std::size_t, Done&)>& work,
+    Things(const std::vector<double>& sizes, const Listener& listener,
+           const std::function<void(std::size_t, Done&)>& work,
            const std::function<std::string(std::size_t)>& name)
-        : sizes_(sizes), listener_(listener), work_(work), name_(name), done_(sizes.size()), seconds_(sizes.size()), waits_(sizes.size()) {
+        : sizes_(sizes),
+          listener_(listener),
+          work_(work),
+          name_(name),
+          done_(sizes.size()),
+          seconds_(sizes.size()),
+          waits_(sizes.size()) {
         for (Done& d : done_) d.unwanted_ = &unwanted_;
     }
 
     void run(int jobs, Progress& progress) {
         std::vector<std::jthread> threads;
-        for (std::size_t k = 0; k < std::min<std::size_t>(jobs, count()); ++k) threads.emplace_back([this] { worker(); });
+        for (std::size_t k = 0; k < std::min<std::size_t>(jobs, count()); ++k)
+            threads.emplace_back([this] { worker(); });
         std::unique_lock lock(mutex_);
         while (finished_ < count() && !failure_) {
             changed_.wait_for(lock, 250ms);
@@ -49,12 +57,14 @@ private:
     std::size_t count() const { return sizes_.size(); }
     double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-    // First what was busy and may be free by now: it is finished with, and what it needs can be let go of.
+    // First what was busy and may be free by now: it is finished with, and what it needs can be let
+    // go of.
     std::optional<std::size_t> next() {
         std::unique_lock lock(mutex_);
         while (!ended_) {
             const auto soonest = busy_.begin();
-            if (soonest != busy_.end() && soonest->first <= Clock::now()) return busy_.extract(soonest).mapped();
+            if (soonest != busy_.end() && soonest->first <= Clock::now())
+                return busy_.extract(soonest).mapped();
             if (next_ < count()) return next_++;
             if (soonest == busy_.end()) break;
             const Clock::time_point then = soonest->first;
@@ -75,9 +85,7 @@ private:
                     continue;
                 }
                 thrown = std::current_exception();
-            } catch (...) {
-                thrown = std::current_exception();
-            }
+            } catch (...) { thrown = std::current_exception(); }
             finish(*i, thrown);
         }
     }
@@ -114,7 +122,8 @@ private:
     void tell_for_whom() {  // once, until something is finished
         if (!all_wait() || !idle_since_ || Clock::now() - *idle_since_ < 2s) return;
         idle_since_ = Clock::time_point::max();
-        if (std::exchange(told_, longest_awaited()) != longest_awaited()) listener_.note("waiting for " + told_);
+        if (std::exchange(told_, longest_awaited()) != longest_awaited())
+            listener_.note("waiting for " + told_);
     }
 
     void show(Progress& progress) {
@@ -125,13 +134,17 @@ private:
         for (std::size_t i = 0; i < count(); ++i) {
             all += sizes_[i];
             so_far += sizes_[i] * done_[i];
-            const double s = seconds_[i], taken = s < 0 ? elapsed + s : s;  // negative: when it began
+            // negative: when it began
+            const double s = seconds_[i], taken = s < 0 ? elapsed + s : s;
             if (taken > longest) longest = taken, slowest = i;
         }
         std::string text = fmt::format("{} of {}", finished_, count());
-        if (so_far > 0) text += fmt::format(", about {:.0f} s left", elapsed * (all - so_far) / so_far);
-        if (name_ && longest > 0) text += fmt::format("; longest {:.0f} s: {}", longest, name_(slowest));
-        if (all_wait()) text = fmt::format("{} of {}, waiting for {}", finished_, count(), longest_awaited());
+        if (so_far > 0)
+            text += fmt::format(", about {:.0f} s left", elapsed * (all - so_far) / so_far);
+        if (name_ && longest > 0)
+            text += fmt::format("; longest {:.0f} s: {}", longest, name_(slowest));
+        if (all_wait())
+            text = fmt::format("{} of {}, waiting for {}", finished_, count(), longest_awaited());
         progress.show(so_far / all, text);
     }
 
@@ -159,16 +172,21 @@ private:
     std::exception_ptr failure_;
 };
 
-void side_by_side(const std::vector<double>& sizes, int jobs, const Listener& listener, const std::string& label,
-                  const std::function<void(std::size_t, Done&)>& work, const std::function<std::string(std::size_t)>& name) {
+void side_by_side(const std::vector<double>& sizes, int jobs, const Listener& listener,
+                  const std::string& label, const std::function<void(std::size_t, Done&)>& work,
+                  const std::function<std::string(std::size_t)>& name) {
     Things things(sizes, listener, work, name);
-    things.run(jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())), *listener.begin(label));
+    things.run(
+        jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
+        *listener.begin(label));
     things.rethrow();
 }
 
-std::unique_ptr<FileLock> lock_once_free(const std::filesystem::path& file, const std::string& doing, const Listener& listener) {
+std::unique_ptr<FileLock> lock_once_free(const std::filesystem::path& file,
+                                         const std::string& doing, const Listener& listener) {
     std::unique_ptr<FileLock> lock;
-    side_by_side({1}, 1, listener, "lock", [&](std::size_t, Done&) { lock = std::make_unique<FileLock>(file, doing); });
+    side_by_side({1}, 1, listener, "lock",
+                 [&](std::size_t, Done&) { lock = std::make_unique<FileLock>(file, doing); });
     return lock;
 }
 

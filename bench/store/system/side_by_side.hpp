@@ -32,18 +32,23 @@ private:
     const std::atomic<bool>* unwanted_ = nullptr;
 };
 
-// work(i, done) for each i below sizes.size(), begun in this order, on `jobs` threads (0: as many as there are cores). `sizes`: how long
-// each is expected to take, in any unit; for the progress line alone. Where one throws no further one is begun, and of what was thrown that
-// of the lowest i is thrown again: the one that would have ended them if they had gone one by one. What the listener throws while it is
-// shown how far they are ends all of them. `name`, where there is one, lets the line say which took longest.
+// work(i, done) for each i below sizes.size(), begun in this order, on `jobs` threads (0: as many
+// as there are cores). `sizes`: how long each is expected to take, in any unit; for the progress
+// line alone. Where one throws no further one is begun, and of what was thrown that of the lowest i
+// is thrown again: the one that would have ended them if they had gone one by one. What the
+// listener throws while it is shown how far they are ends all of them. `name`, where there is one,
+// lets the line say which took longest.
 //
-// A thing that throws Busy (file_lock.hpp) is begun again later, and others meanwhile. Where nothing else is left for two seconds, the
-// listener is told for whom it waits. Within a larger job (is_part) Busy is thrown on to that.
-void side_by_side(const std::vector<double>& sizes, int jobs, const Listener&, const std::string& label,
-                  const std::function<void(std::size_t i, Done&)>& work, const std::function<std::string(std::size_t i)>& name = {});
+// A thing that throws Busy (file_lock.hpp) is begun again later, and others meanwhile. Where
+// nothing else is left for two seconds, the listener is told for whom it waits. Within a larger job
+// (is_part) Busy is thrown on to that.
+void side_by_side(const std::vector<double>& sizes, int jobs, const Listener&,
+                  const std::string& label, const std::function<void(std::size_t i, Done&)>& work,
+                  const std::function<std::string(std::size_t i)>& name = {});
 
 // The listener of what is itself a part of a thing:
-// shows nothing, ends the part by Stopped where the thing is no longer wanted, and has it wait for nobody.
+// shows nothing, ends the part by Stopped where the thing is no longer wanted, and has it wait for
+// nobody.
 class PartOf : public Listener {
     struct Look : Progress {
         explicit Look(const Done& d) : done(d) {}
@@ -53,7 +58,9 @@ class PartOf : public Listener {
 
 public:
     explicit PartOf(const Done& done) : done_(done) {}
-    std::unique_ptr<Progress> begin(const std::string&) const override { return std::make_unique<Look>(done_); }
+    std::unique_ptr<Progress> begin(const std::string&) const override {
+        return std::make_unique<Look>(done_);
+    }
     bool is_part() const override { return true; }
 
 private:
@@ -61,6 +68,7 @@ private:
 };
 
 // The lock of a file, however long another holds it; the listener is told who that is.
-std::unique_ptr<FileLock> lock_once_free(const std::filesystem::path& file, const std::string& doing, const Listener&);
+std::unique_ptr<FileLock> lock_once_free(const std::filesystem::path& file,
+                                         const std::string& doing, const Listener&);
 
 }  // namespace jvari::bench::store

@@ -12,9 +12,7 @@ thread_local double waited = 0;  // [s], for programs that have ended
 thread_local const WaitsForAnother* waits = nullptr;
 }  // namespace
 
-WaitsForAnother::WaitsForAnother() {
-    waits = this;
-}
+WaitsForAnother::WaitsForAnother() { waits = this; }
 WaitsForAnother::~WaitsForAnother() {
     waited += seconds();
     waits = nullptr;
@@ -26,13 +24,16 @@ double WaitsForAnother::seconds() const {
 double processor_seconds() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec) + waited + (waits ? waits->seconds() : 0);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec) + waited +
+           (waits ? waits->seconds() : 0);
 }
 
 std::function<void(long, long)> within(double seconds, std::function<void(long, long)> progress) {
-    return [seconds, start = processor_seconds(), progress = std::move(progress)](long done, long rows) {
+    return [seconds, start = processor_seconds(), progress = std::move(progress)](long done,
+                                                                                  long rows) {
         progress(done, rows);
-        if (processor_seconds() - start > seconds) throw PastItsLimit(fmt::format("past its time limit of {} s", seconds));
+        if (processor_seconds() - start > seconds)
+            throw PastItsLimit(fmt::format("past its time limit of {} s", seconds));
     };
 }
 

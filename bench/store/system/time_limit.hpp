@@ -1,5 +1,5 @@
-// A limit of a run's own processor time, which does not depend on what else the machine does. Of a program that a run waits for
-// (program.hpp) it is the time on the clock.
+// A limit of a run's own processor time, which does not depend on what else the machine does. Of a
+// program that a run waits for (program.hpp) it is the time on the clock.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,9 @@ private:
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// `progress`, which throws PastItsLimit once this thread has computed `seconds` more. To be called on the thread that it was made on.
-std::function<void(long done, long rows)> within(double seconds, std::function<void(long done, long rows)> progress);
+// `progress`, which throws PastItsLimit once this thread has computed `seconds` more. To be called
+// on the thread that it was made on.
+std::function<void(long done, long rows)> within(
+    double seconds, std::function<void(long done, long rows)> progress);
 
 }  // namespace jvari::bench::store

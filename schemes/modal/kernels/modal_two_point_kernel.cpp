@@ -1,5 +1,6 @@
-// The pass of the modal two-point string, and its fused steps for one contact (van Walstijn et al. 2016, eqs 41-48), compiled once per
-// instruction set by Highway. What a scene lacks is absent by a template argument, and so is what stands in series with the points.
+// The pass of the modal two-point string, and its fused steps for one contact (van Walstijn et al.
+// 2016, eqs 41-48), compiled once per instruction set by Highway. What a scene lacks is absent by a
+// template argument, and so is what stands in series with the points.
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -14,7 +15,8 @@ namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Supplied and dissipated energy of the step that is about to be made (51, 52), in the scaled modes.
+// Supplied and dissipated energy of the step that is about to be made (51, 52), in the scaled
+// modes.
 template <bool barrier, bool thread, bool pluck>
 HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s_c) {
     const D d;
@@ -23,8 +25,10 @@ HWY_INLINE void ledger(TwoPoint& m, double F_b, double F_c, double F_e, double s
     for (int j = 0; j < m.size; j += N) {
         V s = hn::Load(d, column(m, Column::u, j));
         if constexpr (pluck) s = hn::MulAdd(hn::Load(d, m.g_e + j), hn::Set(d, F_e), s);
-        if constexpr (thread) s = hn::MulAdd(hn::Load(d, column(m, Column::g_c, j)), hn::Set(d, F_c), s);
-        if constexpr (barrier) s = hn::MulAdd(hn::Load(d, column(m, Column::g_b, j)), hn::Set(d, F_b), s);
+        if constexpr (thread)
+            s = hn::MulAdd(hn::Load(d, column(m, Column::g_c, j)), hn::Set(d, F_c), s);
+        if constexpr (barrier)
+            s = hn::MulAdd(hn::Load(d, column(m, Column::g_b, j)), hn::Set(d, F_b), s);
         lost = hn::MulAdd(hn::Load(d, column(m, Column::loss, j)), hn::Mul(s, s), lost);
         if constexpr (pluck) given = hn::MulAdd(hn::Load(d, m.g_e + j), s, given);
     }
@@ -37,7 +41,8 @@ template <ContactKind kind, bool thread, bool pluck, bool probe, Compliance comp
 HWY_INLINE void step(TwoPoint& m) {
     constexpr bool barrier = kind != ContactKind::none, matched = compliance == Compliance::matched;
     ResidualPair& z = m.series;
-    double F_b = 0, F_c = 0, F_e = 0, y_b = m.y_b, y_c = m.y_c, u_b = m.u_b, u_c = m.u_c, v_c = 0, change = 0;
+    double F_b = 0, F_c = 0, F_e = 0, y_b = m.y_b, y_c = m.y_c, u_b = m.u_b, u_c = m.u_c, v_c = 0,
+           change = 0;
     if constexpr (pluck) {
         const long n = m.step - m.pluck_first;
         F_e = m.pluck[n];
@@ -57,7 +62,8 @@ HWY_INLINE void step(TwoPoint& m) {
     if constexpr (barrier) {
         const double eta = m.h_b - y_b, b = thread ? -u_b - m.theta_bc * v_c : -u_b;  // (48)
         ContactSolution x;
-        if constexpr (kind == ContactKind::linear) x = solve_linear_contact(m.barrier.k, eta, b, m.theta);
+        if constexpr (kind == ContactKind::linear)
+            x = solve_linear_contact(m.barrier.k, eta, b, m.theta);
         else x = solve_power_contact(m.barrier, eta, b, m.theta);
         F_b = x.force;
         m.range.note(F_b);
@@ -66,7 +72,8 @@ HWY_INLINE void step(TwoPoint& m) {
         if constexpr (kind == ContactKind::power) {
             m.iterations += x.iterations;
             m.iterations_most = x.iterations > m.iterations_most ? x.iterations : m.iterations_most;
-            if (!x.converged && m.status.outcome == Outcome::ok) m.status = {Outcome::not_converged, m.step};
+            if (!x.converged && m.status.outcome == Outcome::ok)
+                m.status = {Outcome::not_converged, m.step};
         }
     }
     if constexpr (thread) {
@@ -74,15 +81,20 @@ HWY_INLINE void step(TwoPoint& m) {
         m.impulse_c += F_c;
     }
     if constexpr (probe) {
-        ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);  // s_c by (44)
+        // s_c by (44)
+        ledger<barrier, thread, pluck>(m, F_b, F_c, F_e, u_c + m.theta_bc * F_b + m.theta_cc * F_c);
         if constexpr (matched) m.dissipated += z.lost(F_b, F_c);
         if constexpr (matched && pluck) m.supplied -= (F_b * z.C_be + F_c * z.C_ce) * change;
     }
     if constexpr (matched) z.take<barrier, thread>(F_b, F_c);
     if (m.step % two_point_summed_again == 0) pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
     else {
-        if constexpr (barrier) m.y_b += m.u_b + m.own_bb * F_b + (thread ? m.own_bc * F_c : 0) + (pluck ? m.theta_be * F_e : 0);
-        if constexpr (thread) m.y_c += m.u_c + m.own_cc * F_c + (barrier ? m.own_bc * F_b : 0) + (pluck ? m.theta_ce * F_e : 0);
+        if constexpr (barrier)
+            m.y_b += m.u_b + m.own_bb * F_b + (thread ? m.own_bc * F_c : 0) +
+                     (pluck ? m.theta_be * F_e : 0);
+        if constexpr (thread)
+            m.y_c += m.u_c + m.own_cc * F_c + (barrier ? m.own_bc * F_b : 0) +
+                     (pluck ? m.theta_ce * F_e : 0);
         pass<barrier, thread, pluck, false>(m, F_b, F_c, F_e);
     }
     ++m.step;
@@ -91,9 +103,12 @@ HWY_INLINE void step(TwoPoint& m) {
 template <ContactKind kind, bool thread, bool probe, Compliance compliance>
 HWY_INLINE void steps(TwoPoint& m, long count) {
     while (count > 0) {
-        const long into = m.step - m.pluck_first;  // the pluck acts for pluck_steps from pluck_first
+        // the pluck acts for pluck_steps from pluck_first
+        const long into = m.step - m.pluck_first;
         const bool plucking = into >= 0 && into < m.pluck_steps;
-        const long until_change = plucking ? m.pluck_steps - into : into < 0 && m.pluck_steps > 0 ? -into : count;
+        const long until_change = plucking                        ? m.pluck_steps - into
+                                  : into < 0 && m.pluck_steps > 0 ? -into
+                                                                  : count;
         const long n = until_change < count ? until_change : count;
         if (plucking)
             for (long i = 0; i < n; ++i) step<kind, thread, true, probe, compliance>(m);
@@ -104,7 +119,8 @@ HWY_INLINE void steps(TwoPoint& m, long count) {
 }
 
 HWY_INLINE void write(TwoPoint& m, const Block& out, int row, bool matched) {
-    const double steps = m.steps_per_row, F_b = m.impulse_b / steps, F_c = m.impulse_c / steps, P_b = m.series.P_b(), P_c = m.series.P_c();
+    const double steps = m.steps_per_row, F_b = m.impulse_b / steps, F_c = m.impulse_c / steps,
+                 P_b = m.series.P_b(), P_c = m.series.P_c();
     const long n = m.step - m.pluck_first;
     const double F_e = m.pluck_now && n >= 0 && n <= m.pluck_steps ? m.pluck_now[n] : 0;
     for (int k = 0; k < out.taps; ++k) {
@@ -135,28 +151,31 @@ TwoPointRow choose_for(ContactKind kind, bool thread) {
     using enum ContactKind;
     switch (kind) {
         case none: return thread ? row_of<none, true, compliance> : row_of<none, false, compliance>;
-        case linear: return thread ? row_of<linear, true, compliance> : row_of<linear, false, compliance>;
-        case power: return thread ? row_of<power, true, compliance> : row_of<power, false, compliance>;
+        case linear:
+            return thread ? row_of<linear, true, compliance> : row_of<linear, false, compliance>;
+        case power:
+            return thread ? row_of<power, true, compliance> : row_of<power, false, compliance>;
     }
     return {};
 }
 TwoPointRow choose_row(ContactKind kind, bool thread, Compliance compliance) {
-    return compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread) : choose_for<Compliance::matched>(kind, thread);
+    return compliance == Compliance::own ? choose_for<Compliance::own>(kind, thread)
+                                         : choose_for<Compliance::matched>(kind, thread);
 }
 
 TwoPointPass choose_pass(bool barrier, bool thread, bool pluck) {
     static constexpr TwoPointPass table[2][2][2] = {
-        {{pass<false, false, false>, pass<false, false, true>}, {pass<false, true, false>, pass<false, true, true>}},
-        {{pass<true, false, false>, pass<true, false, true>}, {pass<true, true, false>, pass<true, true, true>}}};
+        {{pass<false, false, false>, pass<false, false, true>},
+         {pass<false, true, false>, pass<false, true, true>}},
+        {{pass<true, false, false>, pass<true, false, true>},
+         {pass<true, true, false>, pass<true, true, true>}}};
     return table[barrier][thread][pluck];
 }
 
 double dot_of_column(const double* w, const TwoPointStream& m, TwoPointColumn x) {
     return dot(w, m, x);
 }
-double plain_dot(const double* w, const double* x, int size) {
-    return dot(w, x, size);
-}
+double plain_dot(const double* w, const double* x, int size) { return dot(w, x, size); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari

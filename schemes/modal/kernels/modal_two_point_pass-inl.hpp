@@ -1,4 +1,5 @@
-// The pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it. Compiled once per instruction set by Highway.
+// The pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it.
+// Compiled once per instruction set by Highway.
 #if defined(JVARI_MODAL_TWO_POINT_PASS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_TWO_POINT_PASS
 #undef JVARI_MODAL_TWO_POINT_PASS
@@ -34,14 +35,16 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Col
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
-// Sums over the lanes of four vectors at once: half the shuffles of four sums, each by halves of halves.
+// Sums over the lanes of four vectors at once: half the shuffles of four sums, each by halves of
+// halves.
 HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
     const D d;
 #if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     const hn::CappedTag<double, 4> four;
     const V ac = hn::Add(hn::ConcatLowerLower(d, c, a), hn::ConcatUpperUpper(d, c, a));
     const V be = hn::Add(hn::ConcatLowerLower(d, e, b), hn::ConcatUpperUpper(d, e, b));
-    const V pairs = hn::Add(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(be), ac), hn::OddEvenBlocks(be, hn::SwapAdjacentBlocks(ac)));
+    const V pairs = hn::Add(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(be), ac),
+                            hn::OddEvenBlocks(be, hn::SwapAdjacentBlocks(ac)));
     const V all = hn::Add(pairs, hn::Shuffle01(pairs));  // a a b b c c e e
     hn::Store(hn::LowerHalf(four, hn::ConcatEven(d, all, all)), four, to);
 #else
@@ -52,7 +55,8 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 #endif
 }
 
-// In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for one, and a pass waits for its loads.
+// In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for
+// one, and a pass waits for its loads.
 HWY_INLINE V held(V v) {
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     asm("" : "+v"(v.raw));
@@ -60,8 +64,8 @@ HWY_INLINE V held(V v) {
     return v;
 }
 
-// One pass: the update and the next dots. Presence of contact, thread and pluck is a template argument: an absent part costs nothing. Two
-// accumulators per dot hide the latency of adding.
+// One pass: the update and the next dots. Presence of contact, thread and pluck is a template
+// argument: an absent part costs nothing. Two accumulators per dot hide the latency of adding.
 template <bool barrier, bool thread, bool pluck, bool dots_of_y = true>
 HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
     const D d;
@@ -72,7 +76,8 @@ HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
     V yb[2], yc[2], ub[2], uc[2];
     for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
     const auto at = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {
-        double* HWY_RESTRICT line = stream + (N == two_point_line ? j * two_point_columns : two_point_at(Column::y, j));
+        double* HWY_RESTRICT line =
+            stream + (N == two_point_line ? j * two_point_columns : two_point_at(Column::y, j));
         const auto of = [&](Column q) HWY_ATTR __attribute__((always_inline)) {
             return line + static_cast<int>(q) * two_point_line;
         };
@@ -89,7 +94,9 @@ HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
         }
         const V s = hn::Add(u0, forced);  // (41)
         const V y1 = hn::Add(y0, s);      // (40)
-        const V u1 = hn::NegMulAdd(hn::Load(d, of(Column::c)), y1, hn::NegMulAdd(hn::Load(d, of(Column::loss)), s, hn::Add(s, forced)));
+        const V u1 =
+            hn::NegMulAdd(hn::Load(d, of(Column::c)), y1,
+                          hn::NegMulAdd(hn::Load(d, of(Column::loss)), s, hn::Add(s, forced)));
         hn::Store(u1, d, of(Column::u));
         hn::Store(y1, d, of(Column::y));
         if constexpr (barrier) {

@@ -1,16 +1,20 @@
-// Modal recursion and synthesis at the reads alone, one pass over the modes per step   (Issanchou et al. 2016, eq 14).
+// Modal recursion and synthesis at the reads alone, one pass over the modes per step   (Issanchou
+// et al. 2016, eq 14).
 //
-// Layout: modes j and N-j stand in pairs, level = [lo | hi] with lo = modes 1 .. H, hi = modes N-1 .. N-H, each padded with zeros. On a
-// node sin(i(N-j) pi/N) = -(-1)^i sin(ij pi/N), so a pair shares one weight and enters as lo + hi on odd nodes, lo - hi on even ones.
-// Weights of a run of consecutive nodes come from two loads by sin((i+2)a) = 2cos(2a) sin(ia) - sin((i-2)a) in registers; their sums stay
-// in registers. For even N the middle mode is its own partner:
+// Layout: modes j and N-j stand in pairs, level = [lo | hi] with lo = modes 1 .. H, hi = modes N-1
+// .. N-H, each padded with zeros. On a node sin(i(N-j) pi/N) = -(-1)^i sin(ij pi/N), so a pair
+// shares one weight and enters as lo + hi on odd nodes, lo - hi on even ones. Weights of a run of
+// consecutive nodes come from two loads by sin((i+2)a) = 2cos(2a) sin(ia) - sin((i-2)a) in
+// registers; their sums stay in registers. For even N the middle mode is its own partner:
 // the place opposite holds C~ = 0, kappa = 1, so that what is pushed into it reads as 0.
 //
-// Vector instructions are chosen at run time (Highway); the order of summation, so the last digits, depends on the machine.
+// Vector instructions are chosen at run time (Highway); the order of summation, so the last digits,
+// depends on the machine.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/modal/kernels/three_point_pass.cpp"
 #ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)  // vectors of unknown size make no arrays
+// vectors of unknown size make no arrays
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #endif
 #include <hwy/foreach_target.h>  // NOLINT: must come before highway.h
 #include <hwy/highway.h>
@@ -60,13 +64,12 @@ using V = hn::Vec<D>;
 // Sums that fit in the registers beside the eight values that a pair of modes needs.
 constexpr int most_sums = HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 ? 20 : 8;
 
-HWY_INLINE double total(V x) {
-    return hn::GetLane(hn::SumOfLanes(D(), x));
-}
+HWY_INLINE double total(V x) { return hn::GetLane(hn::SumOfLanes(D(), x)); }
 
 // Adds to sum[k] the displacement of node first + k: a = lo + sign hi, b = lo - sign hi.
 template <int K>
-HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, long v, V a, V b, V* sum) {
+HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, long v, V a, V b,
+                           V* sum) {
     const D tag;
     const V first = hn::Load(tag, s0 + v);
     sum[0] = hn::MulAdd(first, a, sum[0]);
@@ -75,7 +78,8 @@ HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, lo
         sum[1] = hn::MulAdd(second, b, sum[1]);
         if constexpr (K > 2) {
             const V c = hn::Load(tag, p.twocos + v);  // 2 cos a
-            V even0 = first, odd0 = second, even = hn::MulSub(c, second, first), odd = hn::MulSub(c, even, second);
+            V even0 = first, odd0 = second, even = hn::MulSub(c, second, first),
+              odd = hn::MulSub(c, even, second);
             const V c2 = hn::MulSub(c, c, hn::Set(tag, 2.0));  // 2 cos 2a
             sum[2] = hn::MulAdd(even, a, sum[2]);
             if constexpr (K > 3) sum[3] = hn::MulAdd(odd, b, sum[3]);
@@ -90,7 +94,8 @@ HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, lo
     }
 }
 
-// What is pushed in this step: the first two ports' parts stay in registers, further ports (a long contact, a pluck) are looped over.
+// What is pushed in this step: the first two ports' parts stay in registers, further ports (a long
+// contact, a pluck) are looped over.
 template <int pushes>  // 0, 1, 2, or 3 for more
 struct Pushed {
     static constexpr int kept = pushes < 2 ? pushes : 2;
@@ -126,7 +131,8 @@ HWY_INLINE Pair update(const Pass& p, const Pushed<pushes>& pushed, long v) {
     }
     const V y = hn::Add(hn::Load(tag, ylo), a), z = hn::Add(hn::Load(tag, yhi), b);
     a = hn::NegMulAdd(hn::Load(tag, p.kappa + v), y, hn::Mul(hn::Load(tag, p.Ct + v), a));
-    b = hn::NegMulAdd(hn::Load(tag, p.kappa + p.half + v), z, hn::Mul(hn::Load(tag, p.Ct + p.half + v), b));
+    b = hn::NegMulAdd(hn::Load(tag, p.kappa + p.half + v), z,
+                      hn::Mul(hn::Load(tag, p.Ct + p.half + v), b));
     hn::Store(y, tag, ylo);
     hn::Store(z, tag, yhi);
     hn::Store(a, tag, dlo);
@@ -156,14 +162,16 @@ void nodes(const Pass& pass, int first, int count, int out, double sign) {
         Pair x;
         if constexpr (pushes == no_step) x = reread(p, v);
         else x = update(p, pushed, v);
-        synthesise<K>(p, s0, s1, v, hn::MulAdd(way, x.hi, x.lo), hn::NegMulAdd(way, x.hi, x.lo), sum);
+        synthesise<K>(p, s0, s1, v, hn::MulAdd(way, x.hi, x.lo), hn::NegMulAdd(way, x.hi, x.lo),
+                      sum);
     }
     for (int k = 0; k < K; ++k)
         if (k < count) p.free[out + k] = total(sum[k]);
 }
 
 template <int pushes, int K = most_sums>
-void chunk(const Pass& p, int first, int count, int out, double sign) {  // by the least K, even or 1, that has room
+// by the least K, even or 1, that has room
+void chunk(const Pass& p, int first, int count, int out, double sign) {
     if constexpr (K > 2)
         if (count <= K - 2) return chunk<pushes, K - 2>(p, first, count, out, sign);
     if (count == 1) return nodes<1, pushes>(p, first, count, out, sign);
@@ -213,7 +221,8 @@ void advance_with(const Pass& p) {
     }
     for (int r = 0; r < p.runs; ++r) {
         const NodeRun& run = p.run[r];
-        for (int k = 0; k < run.count; k += most_sums) {  // most_sums is even: each chunk starts on the same parity
+        // most_sums is even: each chunk starts on the same parity
+        for (int k = 0; k < run.count; k += most_sums) {
             const int count = std::min(run.count - k, most_sums);
             if (r + k > 0) chunk<no_step>(p, run.first + k, count, run.out + k, run.sign);
             else chunk<pushes>(p, run.first + k, count, run.out + k, run.sign);
@@ -250,16 +259,19 @@ struct ThreePointPass::Plan {
     LinearUpdate update;
     int half;                            // H
     std::vector<AlignedVector> weights;  // of each port, [lo | hi]
-    std::vector<AlignedVector> pushed;   // what it pushes, over gain; none where the weights are that too
-    std::vector<int> port;               // of each read in the order that the pass reads them
-    std::vector<const double*> line;     // its weights
+    // what it pushes, over gain; none where the weights are that too
+    std::vector<AlignedVector> pushed;
+    std::vector<int> port;            // of each read in the order that the pass reads them
+    std::vector<const double*> line;  // its weights
     std::vector<NodeRun> runs;
     std::vector<Push> push;
     AlignedVector Ct, kappa, twocos;
     std::vector<double> free;
     long padded = 0;
 
-    long place(int mode) const { return mode <= half ? mode - 1 : padded + update.intervals - mode - 1; }
+    long place(int mode) const {
+        return mode <= half ? mode - 1 : padded + update.intervals - mode - 1;
+    }
 };
 
 ThreePointPass::ThreePointPass(const LinearUpdate& update) : plan_(std::make_unique<Plan>()) {
@@ -276,7 +288,8 @@ ThreePointPass::ThreePointPass(const LinearUpdate& update) : plan_(std::make_uni
         p.Ct.data()[p.place(j)] = update.Ct[j - 1];
         p.kappa.data()[p.place(j)] = update.kappa[j - 1];
     }
-    for (int j = 1; j <= p.half; ++j) p.twocos.data()[j - 1] = 2 * std::cos(std::numbers::pi * j / N);
+    for (int j = 1; j <= p.half; ++j)
+        p.twocos.data()[j - 1] = 2 * std::cos(std::numbers::pi * j / N);
     for (const Port& port : update.ports) p.weights.push_back(reading(port.weights));
     for (const Port& port : update.ports) {
         if (update.over_plain.empty()) break;
@@ -287,9 +300,11 @@ ThreePointPass::ThreePointPass(const LinearUpdate& update) : plan_(std::make_uni
     p.push.resize(update.ports.size());
 
     for (int z = 0; z < update.reads; ++z) p.port.push_back(z);
-    const bool all_nodes = std::all_of(p.port.begin(), p.port.end(), [&](int z) { return update.ports[z].node != 0; });
+    const bool all_nodes =
+        std::all_of(p.port.begin(), p.port.end(), [&](int z) { return update.ports[z].node != 0; });
     const auto node = [&](int z) { return update.ports[z].node; };
-    if (all_nodes) std::sort(p.port.begin(), p.port.end(), [&](int a, int b) { return node(a) < node(b); });
+    if (all_nodes)
+        std::sort(p.port.begin(), p.port.end(), [&](int a, int b) { return node(a) < node(b); });
     for (int k = 0; k < update.reads; ++k) {
         p.line.push_back(p.weights[p.port[k]].data());
         if (!all_nodes) continue;
@@ -315,7 +330,8 @@ void ThreePointPass::read(double* free) const {
     for (int z = 0; z < plan_->update.reads; ++z) {
         free[z] = 0;
         for (std::size_t v = 0; v < levels.displacement.size(); ++v)
-            free[z] += plan_->weights[z].data()[v] * (levels.displacement.data()[v] + levels.increment.data()[v]);
+            free[z] += plan_->weights[z].data()[v] *
+                       (levels.displacement.data()[v] + levels.increment.data()[v]);
     }
 }
 
@@ -327,11 +343,22 @@ void ThreePointPass::advance(const double* force, double* free) {
         const double* w = (p.pushed.empty() ? p.weights : p.pushed)[z].data();
         const int node = p.update.ports[z].node;
         const double push = p.update.gain * force[z];
-        p.push[pushes++] = {w, node == 0 ? w + p.padded : w, push, node != 0 && node % 2 == 0 ? -push : push};
+        p.push[pushes++] = {w, node == 0 ? w + p.padded : w, push,
+                            node != 0 && node % 2 == 0 ? -push : push};
     }
-    const Pass pass{
-        p.Ct.data(), p.kappa.data(), p.twocos.data(), levels.displacement.data(),      levels.increment.data(), p.padded,     p.push.data(),
-        pushes,      p.line.data(),  p.runs.data(),   static_cast<int>(p.runs.size()), p.update.reads,          p.free.data()};
+    const Pass pass{p.Ct.data(),
+                    p.kappa.data(),
+                    p.twocos.data(),
+                    levels.displacement.data(),
+                    levels.increment.data(),
+                    p.padded,
+                    p.push.data(),
+                    pushes,
+                    p.line.data(),
+                    p.runs.data(),
+                    static_cast<int>(p.runs.size()),
+                    p.update.reads,
+                    p.free.data()};
     HWY_DYNAMIC_DISPATCH(advance)(pass);
     for (int k = 0; k < p.update.reads; ++k) free[p.port[k]] = p.free[k];
 }
@@ -342,7 +369,8 @@ void ThreePointPass::to_modal(const AlignedVector& level, double* modal) const {
 
 AlignedVector ThreePointPass::reading(const std::vector<double>& modal_weights) const {
     AlignedVector w(2 * plan_->padded);
-    for (int j = 1; j < plan_->update.intervals; ++j) w.data()[plan_->place(j)] = modal_weights[j - 1];
+    for (int j = 1; j < plan_->update.intervals; ++j)
+        w.data()[plan_->place(j)] = modal_weights[j - 1];
     return w;
 }
 

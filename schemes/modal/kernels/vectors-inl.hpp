@@ -1,5 +1,5 @@
-// The vectors of the modal kernels, and their sum of products: two accumulators hide the latency of adding.
-// Compiled once per instruction set by Highway.
+// The vectors of the modal kernels, and their sum of products: two accumulators hide the latency of
+// adding. Compiled once per instruction set by Highway.
 #if defined(JVARI_MODAL_VECTORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_VECTORS
 #undef JVARI_MODAL_VECTORS
