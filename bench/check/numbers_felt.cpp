@@ -15,6 +15,7 @@
 // the whole string, and the reference has some modes. Nodes of a profile add what they leave out
 // (scenes.hpp).
 #include <fmt/core.h>
+#include <algorithm>
 
 #include <cmath>
 #include <complex>

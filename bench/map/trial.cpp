@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/compare/compare.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "reference/certificate.hpp"
 #include "scenes/modes.hpp"

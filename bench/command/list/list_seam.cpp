@@ -1,5 +1,6 @@
 #include "bench/command/list/list_seam.hpp"
 
+#include "bench/compare/catalogue.hpp"
 #include "bench/study/columns.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"
