@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/certificate.hpp"
 
@@ -37,11 +38,28 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
     return result;
 }
 
-double left_after(double last, double before, bool matched) {
+double left_after(std::span<const double> changes, bool matched) {
+    if (changes.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const double last = changes.back();
+    if (changes.size() == 1) return (and_further_ones - 1) * last;
+    const auto earlier = changes.first(changes.size() - 1);
+    const double before = earlier.back();
+    if (last > 0 && last >= *std::ranges::max_element(earlier))
+        return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
     if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
     const double seen = std::max(ratio, fastest);
     return last * std::max(seen / (1 - seen), matched ? least_left_of_matched : 0);
+}
+
+double no_less(double left_out, double apart, double change) {
+    return apart > change ? std::max(left_out, apart) : left_out;  // NaN stays NaN
+}
+
+std::vector<double> extrapolated(std::span<const double> own, std::span<const double> of_half) {
+    std::vector<double> y(std::min(own.size(), of_half.size()));
+    for (std::size_t n = 0; n < y.size(); ++n) y[n] = 2 * own[n] - of_half[n];
+    return y;
 }
 
 }  // namespace jvari

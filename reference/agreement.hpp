@@ -5,6 +5,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "schemes/trace.hpp"
 
@@ -29,12 +30,20 @@ struct Agreement {                                               // of one tap
 };
 Agreement agreement(std::span<const double> a, std::span<const double> b, double rate);
 
-// What all further doublings change, by what the last one changed and the one before it (NaN: there
-// was none). They are a geometric series whose ratio is the one observed: at least a quarter, as of
-// order two, since one pair can agree by chance. With one doubling, or where they do not get
-// smaller so fast, the order is one half, and the larger of the two counts. Matched modes converge
-// unevenly, so at least 1.2 times the last change is left: after a doubling that changed C3's
-// bridge force by e, 1.08 e was left.
-double left_after(double last, double before, bool matched);
+// What all further doublings change, by what each changed so far, the first one first; none: NaN.
+// They are a geometric series whose ratio is that of the last two: at least a quarter, as of order
+// two, since one pair can agree by chance. With one doubling, or where the last two do not get
+// smaller so fast, the order is one half, and the larger of them counts. Where the last one is the
+// largest of all nothing is known of a limit: NaN. Matched modes converge unevenly, so at least 1.2
+// times the last change is left: after a doubling that changed C3's bridge force by e, 1.08 e was
+// left.
+double left_after(std::span<const double> changes, bool matched);
+
+// Matched solutions are doubled from matched ones, which agree with one another also where matching
+// is wrong. Own modes err as 1/modes, so 2 y(N) - y(N/2) errs as 1/N^2. What a matched solution
+// leaves out is no less than it lies `apart` from that, unless that is no more than the `change` of
+// the extrapolation itself since half as many modes.
+double no_less(double left_out, double apart, double change);
+std::vector<double> extrapolated(std::span<const double> own, std::span<const double> of_half);
 
 }  // namespace jvari

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -183,7 +184,8 @@ JV double jv_louder(const Kept* a, const Kept* b, int tap, double hertz) {
     return 10 * std::log10(a->power_above(hertz, tap) / b->power_above(hertz, tap));
 }
 JV double jv_left_after(double last, double before, int matched) {
-    return left_after(last, before, matched != 0);
+    const double changes[] = {before, last};
+    return left_after(std::span(changes).last(std::isnan(before) ? 1 : 2), matched != 0);
 }
 
 // Of runs by these schemes, a line each: `figures` holds error, its uncertainty, the cost and its

@@ -16,12 +16,14 @@
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::study {
 
 namespace {
 constexpr int most_modes_found = 4096;
+constexpr std::array windows = {10e-3, 50e-3, HUGE_VAL};  // [s], those of Trust
 // Windows of the exact solution are as short as the fastest mode asks. On a string whose modes lie
 // this far apart [Hz], or less, the work of `modes^2` takes the time that `budget` says; on a
 // shorter or stiffer one, that of modes times the highest frequency over this.
@@ -93,17 +95,18 @@ ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
     return choice;
 }
 
-double change(const Run& more, const Run& fewer, int tap, double from, double window) {
-    const double rate = more.trace.tap_rate;
-    return relative_difference(rows_from(fewer.trace.column(tap), from, rate),
-                               rows_from(more.trace.column(tap), from, rate), rate, window);
+double change(const Trace& more, const Trace& fewer, int tap, double from, double window) {
+    const double rate = more.tap_rate;
+    return relative_difference(rows_from(fewer.column(tap), from, rate),
+                               rows_from(more.column(tap), from, rate), rate, window);
 }
 
 // How far the model is solved is what its certificate says, else its noise floor: an error of
 // rounding grows like a change of the start. What the model leaves out is what is left after the
 // doublings.
 trust::Trust trust_of(const trust::Trust& solved, const Reference& last,
-                      const std::vector<Reference>& coarser, const Size& of, double from) {
+                      const std::vector<Reference>& coarser, const Size& of, double from,
+                      bool matched) {
     trust::Trust t = solved;
     const Run &more = last.run, &fewer = coarser.back().run;
     const auto taps = static_cast<std::size_t>(more.trace.taps());
@@ -114,18 +117,24 @@ trust::Trust trust_of(const trust::Trust& solved, const Reference& last,
     t.left_out.assign(taps, {});
     for (std::size_t k = 0; k < taps; ++k)
         for (std::size_t w = 0; w < t.left_out[k].size(); ++w) {
-            const double end = std::array{10e-3, 50e-3, HUGE_VAL}[w];
+            const double end = windows[w];
             const bool covered = w == 2 || end <= until + 1e-6;
             const auto changed = [&](const Run& a, const Run& b) {
-                return change(a, b, static_cast<int>(k), from, end);
+                return change(a.trace, b.trace, static_cast<int>(k), from, end);
             };
-            const double before =
-                coarser.size() > 1 ? changed(fewer, coarser[coarser.size() - 2].run) : store::nan;
-            t.left_out[k][w] = covered ? left_after(changed(more, fewer), before,
-                                                    is_matched(last.choice.settings.options))
-                                       : store::nan;
+            t.left_out[k][w] = store::nan;
+            if (!covered) continue;
             // beyond the certificate, too
-            if (std::isnan(t.figure[k][w]) && covered) t.figure[k][w] = changed(last.moved, more);
+            if (std::isnan(t.figure[k][w])) t.figure[k][w] = changed(last.moved, more);
+            std::vector<double> changes;
+            for (std::size_t n = 0; n < coarser.size(); ++n)
+                changes.push_back(
+                    changed(n + 1 < coarser.size() ? coarser[n + 1].run : more, coarser[n].run));
+            double& left_out = t.left_out[k][w];
+            left_out = left_after(changes, matched);
+            // what is no more than either is solved to does not grow
+            if (std::isnan(left_out) && changes.back() <= t.figure[k][w])
+                left_out = left_after({&changes.back(), 1}, matched);
         }
     t.doubled = of.points == 0 ? "modes"
                 : last.choice.settings.modes == coarser.back().choice.settings.modes
@@ -133,6 +142,29 @@ trust::Trust trust_of(const trust::Trust& solved, const Reference& last,
                     : "modes and points";
     return t;
 }
+
+// Own modes beside a matched reference: extrapolated from as many, and from half as many.
+std::vector<Trace> own_motion(const ReferenceChoice& matched, const Scene& scene, const Size& size,
+                              int jobs, const store::Listener& listener, double time_limit) {
+    ReferenceChoice own = matched;
+    std::erase_if(own.settings.options,
+                  [](const auto& o) { return o.first == compliance_option.name; });
+    std::vector<Trace> runs, result;
+    for (int part = 1; part <= 4; part *= 2) {
+        if (size.modes / part < 1) return {};
+        own.settings.modes = size.modes / part;
+        runs.push_back(run_reference({own}, scene, jobs, listener, time_limit, true).run.trace);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        Trace& t = result.emplace_back(runs[k]);
+        t.rows = std::min(runs[k].rows, runs[k + 1].rows);
+        for (int tap = 0; tap < t.taps(); ++tap)
+            std::ranges::copy(extrapolated(runs[k].column(tap), runs[k + 1].column(tap)),
+                              t.tap.begin() + tap * t.stride);
+    }
+    return result;
+}
+
 // What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where
 // the whole would take it too long.
 void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store::Listener& listener,
@@ -154,9 +186,9 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
     for (int k = 0; k < run.trace.taps(); ++k) {
         auto& figure = r.trust.figure.emplace_back();
         for (std::size_t w = 0; w < figure.size(); ++w) {
-            const double end = std::array{10e-3, 50e-3, HUGE_VAL}[w];
+            const double end = windows[w];
             const bool covered = w == 2 ? whole : end <= until + 1e-6;
-            figure[w] = covered ? change(r.run, run, k, from, end) : store::nan;
+            figure[w] = covered ? change(r.run.trace, run.trace, k, from, end) : store::nan;
         }
     }
     r.trust.against = sundials.name;
@@ -178,7 +210,8 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         }
         first.push_back(c.oversampled ? c : sized(c, size));
     }
-    Truth truth{run_reference(first, scene, jobs, listener, time_limit), {}, {}};
+    Truth truth;
+    truth.reference = run_reference(first, scene, jobs, listener, time_limit);
     if (truth.reference.choice.oversampled) {
         truth.said = "a stand-in, as it is: no modes to double";
         return truth;
@@ -191,6 +224,8 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     const int tap = headline_of(scene).nut;
     const double from = free_from(scene), end = headline_window(scene);
     const std::size_t window = std::isinf(end) ? 2 : end >= 50e-3 ? 1 : 0;
+    truth.matched =
+        is_matched(choice.settings.options) || needed_by(scene).has(Feature::rigid_barrier);
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
     double unsettled = HUGE_VAL;  // by what is left out of the headline figure
     const auto all = find ? measured(scene) : std::nullopt;
@@ -198,7 +233,7 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         return find ? size.twice(all.value_or(2 * most_modes_found))
                     : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
     };
-    while (find ? unsettled >= settled && next() != size &&
+    while (find ? !(unsettled < settled) && next() != size &&
                       within_budget(*choice.scheme, scene, next())
                 : size.modes < modes) {
         Reference more;
@@ -217,13 +252,31 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         size = next();
         truth.coarser.push_back(std::move(truth.reference));
         truth.reference = std::move(more);
-        truth.reference.trust = trust_of(solved, truth.reference, truth.coarser, size, from);
+        truth.reference.trust =
+            trust_of(solved, truth.reference, truth.coarser, size, from, truth.matched);
         unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
         const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
         const auto free = [&](const Trace& t) {
             return rows_from(t.column(tap), from, t.tap_rate);
         };
         truth.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
+    }
+    if (!truth.coarser.empty() && is_matched(choice.settings.options)) {
+        try {
+            truth.own = own_motion(choice, scene, size, jobs, listener,
+                                   find ? std::min(time_limit, patience) : time_limit);
+        } catch (const store::PastItsLimit&) {  // without it the doublings alone tell
+        } catch (const Refusal&) {}
+        for (std::size_t k = 0; k < scene.taps.size() && !truth.own.empty(); ++k)
+            for (std::size_t w = 0; w < windows.size(); ++w) {
+                const auto apart = [&](const Trace& a, const Trace& b) {
+                    return change(a, b, static_cast<int>(k), from, windows[w]);
+                };
+                double& left_out = truth.reference.trust.left_out[k][w];
+                left_out = no_less(left_out, apart(truth.reference.run.trace, truth.own[0]),
+                                   apart(truth.own[0], truth.own[1]));
+            }
+        unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
     }
     truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
     if (all) {
@@ -235,18 +288,22 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
                         highest / 1000);
     }
     if (!truth.coarser.empty()) {
-        truth.said +=
-            fmt::format("; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
-                        std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
-                        change(truth.reference.run, truth.coarser.back().run, tap, from, end));
+        truth.said += fmt::format(
+            "; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
+            std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
+            change(truth.reference.run.trace, truth.coarser.back().run.trace, tap, from, end));
     }
+    if (!truth.coarser.empty() && std::isnan(unsettled))
+        truth.said +=
+            ". Each doubling changes it by more than the one before, so what they leave out is "
+            "unknown. A start with a sharp corner does that to forces: give it a `smoothing`";
     const bool profile = needed_by(scene).any(any_profile);
     if (all && !profile) {
         confirm(truth.reference, scene, size, jobs, listener, time_limit);
-    } else if (find && unsettled >= settled) {
+    } else if (find && !(unsettled < settled)) {
         truth.said += "; twice as many would take too long";
         if (truth.coarser.empty()) truth.said += ", so what they leave out is unknown";
-        else if (size.points > 0)
+        else if (size.points > 0 && unsettled < HUGE_VAL)
             truth.said += fmt::format(
                 ". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} "
                 "takes more",

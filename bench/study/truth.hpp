@@ -11,8 +11,9 @@
 // alike, and alike at every point of a sweep.
 //
 // What the reference leaves out follows from its own doublings, on every tap and window
-// (left_after). Without a doubling and without a certificate its uncertainty is unknown. An error
-// of less than ten times the uncertainty is shown as a bound (bound.hpp).
+// (left_after), and where it is matched from own modes beside it (no_less). Without a doubling and
+// without a certificate its uncertainty is unknown. An error of less than ten times the uncertainty
+// is shown as a bound (bound.hpp).
 #pragma once
 
 #include "bench/study/cell.hpp"
@@ -31,7 +32,11 @@ constexpr double budget = 1.5e6;
 // Throws as run_reference.
 struct Truth {
     Reference reference;
+    bool matched = false;            // also where no option says so: over a rigid barrier
     std::vector<Reference> coarser;  // those that it was doubled from, the coarsest first
+    // Where the reference is matched: the motion with as many own modes and with half as many, each
+    // extrapolated. Empty where the scene has no own solution (a rigid barrier) or it took too long.
+    std::vector<Trace> own;
     std::string said;
     // [s], of the headline against itself with half the modes and points
     double horizon = std::numeric_limits<double>::quiet_NaN();

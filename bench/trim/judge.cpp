@@ -45,18 +45,20 @@ double uncertainty(const study::Truth& t, int tap, std::size_t measure, double f
                 std::string(trust::Trust::columns[w]).substr(std::string("certificate").size()))
             return of.trust.any() ? of.trust.of_scene(static_cast<std::size_t>(tap), w)
                                   : store::nan;
-    const auto changed = [&](std::size_t last) {
-        const study::Reference& more = last < t.coarser.size() ? t.coarser[last] : of;
-        const double rate = of.run.trace.tap_rate;
-        const auto free = [&](const study::Reference& r) {
-            return rows_from(r.run.trace.column(tap), from, rate);
-        };
-        return study::error_of(measure, free(t.coarser[last - 1]), free(more), rate);
+    const double rate = of.run.trace.tap_rate;
+    const auto apart = [&](const Trace& a, const Trace& b) {
+        return study::error_of(measure, rows_from(a.column(tap), from, rate),
+                               rows_from(b.column(tap), from, rate), rate);
     };
-    const std::size_t n = t.coarser.size();
-    return n == 0 ? store::nan
-                  : left_after(changed(n), n > 1 ? changed(n - 1) : store::nan,
-                               is_matched(of.choice.settings.options));
+    std::vector<double> changes;
+    for (std::size_t n = 0; n < t.coarser.size(); ++n) {
+        const study::Reference& more = n + 1 < t.coarser.size() ? t.coarser[n + 1] : of;
+        changes.push_back(apart(t.coarser[n].run.trace, more.run.trace));
+    }
+    const double left_out = left_after(changes, t.matched);
+    return t.own.empty()
+               ? left_out
+               : no_less(left_out, apart(t.own[0], of.run.trace), apart(t.own[1], t.own[0]));
 }
 }  // namespace
 

@@ -661,15 +661,62 @@ TEST(Truth, AMatchedCellIsInNoModelWithComplianceOfItsOwn) {
 }
 
 TEST(Truth, WhatIsLeftAfterDoublingsFollowsTheRateThatTheyShow) {
-    EXPECT_NEAR(left_after(1e-3, 3e-3, false), 5e-4, 1e-12);  // 1/3 + 1/9 + ...
+    const auto left = [](std::vector<double> changes, bool matched) {
+        return left_after(changes, matched);
+    };
+    EXPECT_NEAR(left({3e-3, 1e-3}, false), 5e-4, 1e-12);  // 1/3 + 1/9 + ...
     // no better than order two, since one pair can agree by chance
-    EXPECT_NEAR(left_after(1e-6, 1e-1, false), 1e-6 / 3, 1e-18);
-    EXPECT_NEAR(left_after(1e-3, nan, false), 2.5e-3, 1e-12);  // one doubling: order one half
-    EXPECT_NEAR(left_after(1e-3, 1.1e-3, false), 2.75e-3, 1e-12);
-    EXPECT_NEAR(left_after(3e-3, 1e-3, false), 7.5e-3, 1e-12);  // they do not get smaller
-    EXPECT_EQ(left_after(0, 0, false), 0);
-    EXPECT_NEAR(left_after(1e-3, 3e-3, true), 1.2e-3, 1e-12);  // matched modes converge unevenly
-    EXPECT_NEAR(left_after(1e-3, nan, true), 2.5e-3, 1e-12);
+    EXPECT_NEAR(left({1e-1, 1e-6}, false), 1e-6 / 3, 1e-18);
+    EXPECT_NEAR(left({1e-3}, false), 2.5e-3, 1e-12);  // one doubling: order one half
+    EXPECT_NEAR(left({1.1e-3, 1e-3}, false), 2.75e-3, 1e-12);
+    EXPECT_NEAR(left({1e-2, 1e-3, 3e-3}, false), 7.5e-3, 1e-12);  // they converge unevenly
+    EXPECT_TRUE(std::isnan(left({2e-3, 1e-3, 3e-3}, false)));     // or not at all
+    EXPECT_TRUE(std::isnan(left({1e-3, 1e-3}, true)));
+    EXPECT_TRUE(std::isnan(left({}, true)));
+    EXPECT_EQ(left({0, 0}, false), 0);
+    EXPECT_NEAR(left({3e-3, 1e-3}, true), 1.2e-3, 1e-12);  // matched modes converge unevenly
+    EXPECT_NEAR(left({1e-3}, true), 2.5e-3, 1e-12);
+}
+
+// Matched solutions agree with one another also where matching is wrong: own ones, extrapolated,
+// do not agree with them there.
+TEST(Truth, AMatchedOneLeavesOutNoLessThanItLiesBesideOwnModesExtrapolated) {
+    EXPECT_EQ(no_less(1e-4, 1e-2, 1e-3), 1e-2);
+    EXPECT_EQ(no_less(1e-4, 1e-3, 1e-2), 1e-4);  // the extrapolation does not know better
+    EXPECT_EQ(no_less(1e-1, 1e-2, 1e-3), 1e-1);
+    EXPECT_TRUE(std::isnan(no_less(nan, 1e-2, 1e-3)));
+    const std::vector<double> own = {1 + 1.0 / 40, -3 + 2.0 / 40},
+                              half = {1 + 1.0 / 20, -3 + 2.0 / 20};
+    EXPECT_NEAR(extrapolated(own, half)[0], 1, 1e-15);
+    EXPECT_NEAR(extrapolated(own, half)[1], -3, 1e-15);
+
+    const auto truth = truth_of(532);
+    const int modes = truth.reference.choice.settings.modes, bridge = 2;
+    ASSERT_EQ(truth.own.size(), 2u);
+    const auto apart = [&](const Trace& a, const Trace& b) {
+        return relative_difference(a.column(bridge), b.column(bridge), 44100, 10e-3);
+    };
+    const Trace& matched = truth.reference.run.trace;
+    // nearer than half as many own ones by far, or the extrapolation is not of their order
+    EXPECT_LT(apart(truth.own[0], matched), 0.4 * apart(truth.own[1], matched)) << modes;
+    EXPECT_LT(apart(truth.own[0], matched), apart(truth.own[1], truth.own[0])) << modes;
+    EXPECT_LT(truth.reference.trust.left_out[bridge][0], 1e-2) << modes;
+}
+
+// The third derivative at the end, of modes that fall as 1/i^2, is a sum that grows without end.
+TEST(Truth, TheForceOfASharpCornerOnAStiffStringIsUnknown) {
+    const Scene scene = bench::compare::load_scene(
+        "free_string",
+        {"string.0.initial.smoothing=0", "string.0.damping={law=\"none\"}",
+         "string.0.bending_stiffness=6e-3"},
+        0.0105);
+    const bench::study::Plan plan = plan_for("free_string", {"modal_two_point"});
+    const auto truth = bench::study::run_truth(plan.points.front().references, scene, 1024, 1,
+                                               bench::store::Listener());
+    ASSERT_GE(truth.coarser.size(), 2u) << truth.said;
+    EXPECT_TRUE(std::isnan(truth.reference.trust.left_out[0][0])) << truth.said;
+    EXPECT_LT(truth.reference.trust.left_out[1][0], 1e-3);  // its displacement is known
+    EXPECT_TRUE(says(truth.said, "smoothing")) << truth.said;
 }
 
 TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
