@@ -1,20 +1,24 @@
 #!/bin/sh
-# The README's first table is what results/work-precision holds: each row's error and cost are those of its scheme at its rate, rounded, the
-# error is within what is wanted, and no unflagged run within it is surely cheaper (upper quartile below the row's lower one). An error counts
-# with what the reference is certain to, and says so by "≤", where that is more than a tenth of it. Schemes are as published (compliance=own)
-# where their name says nothing else; one without a rate has its modes in its place. A control (schemes.def) is no row and no cheaper run.
-# usage: answer.sh [TREE]
+# The README's first table is what results/work-precision holds: each row's error and cost are those
+# of its scheme at its rate, rounded, the error is within what is wanted, and no unflagged run
+# within it is surely cheaper (upper quartile below the row's lower one). An error counts with what
+# the reference is certain to, and says so by "≤", where that is more than a tenth of it. Schemes
+# are as published (compliance=own) where their name says nothing else; one without a rate has its
+# modes in its place. A control (schemes.def) is no row and no cheaper run. usage: answer.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 results=results/work-precision
 awk -F '[|,]' '
 function trim(text) { gsub(/^ +| +$/, "", text); return text }
 function rounds(actual, printed, scale, digits) {  # is `printed` what `actual` rounds to?
     digits = index(printed, ".") ? length(printed) - index(printed, ".") : 0
-    return actual * scale - printed <= 0.5001 * 10^-digits && printed - actual * scale <= 0.5001 * 10^-digits
+    half = 0.5001 * 10^-digits
+    return actual * scale - printed <= half && printed - actual * scale <= half
 }
 FNR == NR { if (sub(/^JVARI_CONTROL\(/, "")) { sub(/\).*/, ""); control[$0] = 1 } next }
 FNR == 1 { ++file; if (file < 3) { delete at; for (i = 1; i <= NF; ++i) at[$i] = i } }
-file == 1 && FNR > 1 { low[$1] = $at["cost_lower"]; high[$1] = $at["cost_upper"]; cost[$1] = $at["cost_s_per_s"] }
+file == 1 && FNR > 1 {
+    low[$1] = $at["cost_lower"]; high[$1] = $at["cost_upper"]; cost[$1] = $at["cost_s_per_s"]
+}
 file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" && !($at["scheme"] in control) {
     options = $at["options"]; sub(/^compliance=own$/, "", options)
     place = $at["rate"] == "" ? $at["modes"] " modes" : $at["rate"] / 1000 " kHz"
@@ -35,10 +39,11 @@ file == 3 && /^\|.* ms \|$/ {
     run = id[substr(cell[3], RSTART + 1, RLENGTH - 2), trim(cell[4])]
     unit = printed[2]
     sub(/^≤/, "", printed[1])
-    if (run == "" || unit != goal[3] || !rounds(shown[run, unit], printed[1], 1) || !rounds(cost[run], ms[1], 1000) ||
-        error[run, unit] + 0 > goal[2] + 0) wrong = wrong "\n" $0
+    if (run == "" || unit != goal[3] || !rounds(shown[run, unit], printed[1], 1) ||
+        !rounds(cost[run], ms[1], 1000) || error[run, unit] + 0 > goal[2] + 0) wrong = wrong "\n" $0
     for (other in cost)
-        if ((other, unit) in error && error[other, unit] + 0 <= goal[2] + 0 && high[other] < low[run]) { cheaper = cheaper "\n" $0; break }
+        if ((other, unit) in error && error[other, unit] + 0 <= goal[2] + 0 &&
+            high[other] < low[run]) { cheaper = cheaper "\n" $0; break }
     ++rows
 }
 END {

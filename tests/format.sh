@@ -4,11 +4,14 @@
 cd "${1:-$(dirname "$0")/..}" || exit 2
 for program in clang-format-14 clang-format; do
     if "$program" --version 2>/dev/null | grep -q 'version 14\.'; then
-        [ -x node_modules/.bin/prettier ] || { echo "prettier is not here: nothing checked" >&2; exit 77; }
-        find scenes schemes reference analysis bench tests python web -name '*.cpp' -o -name '*.hpp' | sort |
+        [ -x node_modules/.bin/prettier ] ||
+            { echo "prettier is not here: nothing checked" >&2; exit 77; }
+        find scenes schemes reference analysis bench tests python web \
+            -name '*.cpp' -o -name '*.hpp' | sort |
             xargs "$program" --dry-run --Werror || { echo "mend by: $program -i FILE" >&2; exit 1; }
         find bench tests web results -name '*.js' -o -name '*.mjs' -o -name '*.css' | sort |
-            xargs node_modules/.bin/prettier --check || { echo "mend by: npx prettier --write FILE" >&2; exit 1; }
+            xargs node_modules/.bin/prettier --check ||
+                { echo "mend by: npx prettier --write FILE" >&2; exit 1; }
         exit 0
     fi
 done

@@ -1,6 +1,7 @@
 #!/bin/sh
-# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp, run.hpp and scenes; bench is a staircase of rooms above them; tests see all.
-# No scheme includes another, and each library is seen where docs/dependencies.md says and nowhere else. usage: layering.sh [TREE]
+# The layers: scenes <- schemes <- reference; analysis sees schemes/trace.hpp, run.hpp and scenes;
+# bench is a staircase of rooms above them; tests see all. No scheme includes another, and each
+# library is seen where docs/dependencies.md says and nowhere else. usage: layering.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
 status=0
 forbid() {  # forbid REASON PATTERN PATHS...: no line of PATHS matches PATTERN
@@ -13,44 +14,68 @@ forbid() {  # forbid REASON PATTERN PATHS...: no line of PATHS matches PATTERN
 }
 files() { find "$@" -name '*.hpp' -o -name '*.cpp' | sort; }
 
-forbid "scenes see nothing above them" '#include "(schemes|reference|analysis|bench)/' $(files scenes)
-forbid "schemes see scenes alone" '#include "(reference|analysis|bench)/' $(files schemes)
-forbid "references see schemes and scenes" '#include "(analysis|bench)/' $(files reference)
-forbid "the event-driven exact solution stands above the other references" '#include "reference/exact/' reference/*.hpp reference/*.cpp
-forbid "the seam sees no scheme" '#include "schemes/(body|contact|modal|spatial|grid|sitar)/' schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
-forbid "contacts see the seam alone" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/contact)
-forbid "a moving body sees contacts and the seam" '#include "schemes/(modal|spatial|grid|sitar)/' $(files schemes/body)
-forbid "modal schemes see contacts and the seam" '#include "schemes/(spatial|grid|sitar)/' $(files schemes/modal)
-forbid "kernels of modes see no scheme" '#include "schemes/modal/(modal_[^s]|three)' $(files schemes/modal/kernels)
-forbid "spatial schemes see modes, contacts and the seam" '#include "schemes/(grid|sitar)/' $(files schemes/spatial)
-forbid "the problem of schemes from outside sees contacts and the seam" '#include "schemes/(body|modal|spatial|grid|sitar)/' $(files schemes/open)
-forbid "grids see contacts and the seam" '#include "schemes/(modal|spatial|sitar)/' $(files schemes/grid)
-forbid "sitars see contacts and the seam" '#include "schemes/(modal|spatial|grid)/' $(files schemes/sitar)
+unseen() {  # unseen REASON ROOMS PATHS...: no file of PATHS includes a header of ROOMS
+    reason=$1 rooms=$2
+    shift 2
+    forbid "$reason" "#include \"($rooms)" "$@"
+}
+schemes() { echo "schemes/($1)/"; }
+engine="scenes schemes reference analysis"
+
+unseen "scenes see nothing above them" '(schemes|reference|analysis|bench)/' $(files scenes)
+unseen "schemes see scenes alone" '(reference|analysis|bench)/' $(files schemes)
+unseen "references see schemes and scenes" '(analysis|bench)/' $(files reference)
+unseen "the event-driven exact solution stands above the other references" 'reference/exact/' \
+    reference/*.hpp reference/*.cpp
+unseen "the seam sees no scheme" "$(schemes 'body|contact|modal|spatial|grid|sitar')" \
+    schemes/*.hpp schemes/scheme.cpp schemes/several_strings.cpp schemes/trace.cpp schemes/run.cpp
+unseen "contacts see the seam alone" "$(schemes 'body|modal|spatial|grid|sitar')" \
+    $(files schemes/contact)
+unseen "a moving body sees contacts and the seam" "$(schemes 'modal|spatial|grid|sitar')" \
+    $(files schemes/body)
+unseen "modal schemes see contacts and the seam" "$(schemes 'spatial|grid|sitar')" \
+    $(files schemes/modal)
+unseen "kernels of modes see no scheme" 'schemes/modal/(modal_[^s]|three)' \
+    $(files schemes/modal/kernels)
+unseen "spatial schemes see modes, contacts and the seam" "$(schemes 'grid|sitar')" \
+    $(files schemes/spatial)
+unseen "the problem of schemes from outside sees contacts and the seam" \
+    "$(schemes 'body|modal|spatial|grid|sitar')" $(files schemes/open)
+unseen "grids see contacts and the seam" "$(schemes 'modal|spatial|sitar')" $(files schemes/grid)
+unseen "sitars see contacts and the seam" "$(schemes 'modal|spatial|grid')" $(files schemes/sitar)
 above=
-for room in command report trim check suite map diff judge compare study trust sound store; do  # each room of bench sees itself and those after it here
-    [ -z "$above" ] || forbid "bench/$room sees nothing of the rooms above it" "#include \"bench/($above)/" $(files bench/$room)
+# each room of bench sees itself and those after it here
+for room in command report trim check suite map diff judge compare study trust sound store; do
+    [ -z "$above" ] || unseen "bench/$room sees nothing of the rooms above it" "bench/($above)/" \
+        $(files bench/$room)
     above=${above:+$above|}$room
     forbid "bench/$room opens the namespace of its room" "^namespace jvari(::bench::[a-z]+)? \\{$" \
         $(grep -LE "^namespace jvari::bench::$room \\{$" $(files bench/$room))
 done
-forbid "locks, signals and programs see nothing else of the store" '#include "bench/store/[a-z_0-9]+\.' $(files bench/store/system)
-forbid "a comparison does not see how it is written down" '#include "bench/compare/record/' bench/compare/*.hpp bench/compare/*.cpp
-forbid "only the command line talks to standard streams: others have a Listener" 'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
-    $(files scenes schemes reference analysis bench/store bench/sound bench/trust bench/study bench/compare bench/judge bench/diff bench/map bench/suite bench/check bench/report)
-forbid "the page's module sees the core and no room of bench" '#include "bench/' $(files web)
-forbid "nothing sees the page's module" '#include "web/' $(files scenes schemes reference analysis bench python)
-forbid "the Python module sees the engine, not the command line" '#include "bench/command/' $(files python)
-forbid "the engine sees no Python" '#include "python/' $(files scenes schemes reference analysis bench)
-forbid "store and trust measure nothing" '#include "analysis/' $(files bench/store bench/trust)
-forbid "analysis never sees which scheme made a trace" '#include "(schemes/[^tr]|schemes/t[^r]|schemes/r[^u]|reference/|bench/)' $(files analysis)
-# Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the tests compare with any of them.
+unseen "locks, signals and programs see nothing else of the store" 'bench/store/[a-z_0-9]+\.' \
+    $(files bench/store/system)
+unseen "a comparison does not see how it is written down" 'bench/compare/record/' \
+    bench/compare/*.hpp bench/compare/*.cpp
+forbid "only the command line talks to standard streams: others have a Listener" \
+    'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
+    $(files $engine bench | grep -vE '^bench/(command|kernels)/')
+unseen "the page's module sees the core and no room of bench" 'bench/' $(files web)
+unseen "nothing sees the page's module" 'web/' $(files $engine bench python)
+unseen "the Python module sees the engine, not the command line" 'bench/command/' $(files python)
+unseen "the engine sees no Python" 'python/' $(files $engine bench)
+unseen "store and trust measure nothing" 'analysis/' $(files bench/store bench/trust)
+unseen "analysis never sees which scheme made a trace" \
+    'schemes/[^tr]|schemes/t[^r]|schemes/r[^u]|reference/|bench/' $(files analysis)
+# Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the
+# tests compare with any of them.
 product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
-only() {  # only LIBRARY PATTERN PLACES: of the product, files whose names begin with PLACES alone include PATTERN
+only() {  # only LIBRARY PATTERN PLACES: of the product, files that begin with PLACES alone include it
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
 }
 only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'analysis/'
-only Eigen 'Eigen/' 'schemes/|reference/(in_series|exact/(touching_set|collocated_contact|series_window))|analysis/'
+only Eigen 'Eigen/' \
+    'schemes/|reference/(in_series|exact/(touching_set|collocated_contact|series_window))|analysis/'
 only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
 only FFTW 'fftw' 'analysis/(squared_transform|convolution)'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'
@@ -61,10 +86,15 @@ only xxHash 'xxhash' 'bench/store/checksum'
 only libsndfile 'sndfile' 'bench/(store|sound)/'
 only libsamplerate 'samplerate' 'bench/sound/'
 only pybind11 'pybind11/' 'python/'
-forbid "no header leaks a library" '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|sndfile|CLI|fmt|cvode|sundials)' \
-    $(find scenes schemes reference analysis -name '*.hpp' ! -name '*-inl.hpp')  # -inl: part of a file of its own folder, compiled once for each set of instructions
-forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' $(find results -maxdepth 3 -path results/runs -prune -o \( -name '*.json' -o -name '*.toml' \) -print)
-forbid "records come from a commit that exists" '^  "commit": "[^"]*-dirty' $(find results -maxdepth 3 -name manifest.json)
+# -inl: part of a file of its own folder, compiled once for each set of instructions
+forbid "no header leaks a library" \
+    '#include <(toml|fftw|Eigen|hwy|gsl|nlohmann|sndfile|CLI|fmt|cvode|sundials)' \
+    $(find $engine -name '*.hpp' ! -name '*-inl.hpp')
+forbid "records name no folder of the machine that made them" '[ "=]/(tmp|root|home)/' \
+    $(find results -maxdepth 3 -path results/runs -prune -o \
+        \( -name '*.json' -o -name '*.toml' \) -print)
+forbid "records come from a commit that exists" '^  "commit": "[^"]*-dirty' \
+    $(find results -maxdepth 3 -name manifest.json)
 lines=$(cat $product | wc -l)
 share() {  # share MOST ROOM FILES...: they have at most so many of the product's lines
     most=$1 room=$2

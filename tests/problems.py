@@ -1,6 +1,8 @@
-"""The files of results/problems are what the program exports. The table of its README names each file and its scene.
+"""The files of results/problems are what the program exports. The table of its README names each
+file and its scene.
 
-problems.py JVARI FILE ...: exports these and compares. problems.py JVARI --write: makes all of them again, and their uncertainties in the table.
+problems.py JVARI FILE ...: exports these and compares.
+problems.py JVARI --write: makes all of them again, and their uncertainties in the table.
 """
 
 import json
@@ -22,8 +24,10 @@ assert len(scenes) == 12, f"{len(scenes)} problems in the table"
 
 def exported(name, path):
     asked = scenes[name].split()
-    duration = [] if "--duration" in asked else ["--duration", "0.05"]  # a plucked string is judged from where its pluck ends
-    subprocess.run([program, "export", *asked, *duration, "--rate", "44100", "--out", path, "--quiet"], check=True)
+    # a plucked string is judged from where its pluck ends
+    duration = [] if "--duration" in asked else ["--duration", "0.05"]
+    command = [program, "export", *asked, *duration, "--rate", "44100", "--out", path, "--quiet"]
+    subprocess.run(command, check=True)
     with open(path) as file:
         return json.load(file)
 
@@ -53,16 +57,20 @@ def compare(name):
         same(was[member], now[member], f"{name}: {member}")
     old, new = was["reference"], now["reference"]
     assert list(old) == list(new), f"{name}: the members of the reference are {list(new)}"
-    for tap, a, b, known, anew in zip(was["tap_names"], old["trace"], new["trace"], old["uncertainty_l2_50ms"], new["uncertainty_l2_50ms"]):
+    known_to = [r["uncertainty_l2_50ms"] for r in (old, new)]
+    for tap, a, b, known, anew in zip(was["tap_names"], old["trace"], new["trace"], *known_to):
         apart = math.dist(a, b) / math.hypot(*a)
-        assert apart <= known + anew, f"{name}: the reference of {tap} moved by {apart:.2g}, and is known to {known:.2g} and {anew:.2g}"
+        assert apart <= known + anew, (f"{name}: the reference of {tap} moved by {apart:.2g}, and is "
+                                       f"known to {known:.2g} and {anew:.2g}")
 
 
 if names == ["--write"]:
     for name in scenes:
-        known = exported(name, os.path.join(folder, name + ".json"))["reference"]["uncertainty_l2_50ms"][0]
+        problem = exported(name, os.path.join(folder, name + ".json"))
+        known = problem["reference"]["uncertainty_l2_50ms"][0]
         print(f"{name}: {known:.1e}")
-        text = row.sub(lambda m: m[0].replace(f"| {m[4]} |", f"| {known:.1e} |") if m[1] == name else m[0], text)
+        text = row.sub(lambda m: m[0] if m[1] != name else
+                       m[0].replace(f"| {m[4]} |", f"| {known:.1e} |"), text)
     with open(os.path.join(folder, "README.md"), "w") as file:
         file.write(text)
 for name in names if names != ["--write"] else []:

@@ -1,6 +1,7 @@
 #!/bin/sh
-# The table of docs/schemes.md between "<!-- jvari list -->" and "<!-- end -->", and the notes below it, are what the program says. The head of
-# the table stays as it is and names every feature. usage: readme.sh PROGRAM [TREE]; with WRITE=1 in the environment the table is made so.
+# The table of docs/schemes.md between "<!-- jvari list -->" and "<!-- end -->", and the notes below
+# it, are what the program says. The head of the table stays as it is and names every feature.
+# usage: readme.sh PROGRAM [TREE]; with WRITE=1 in the environment the table is made so.
 tree=${2:-$(dirname "$0")/..}
 cd "$tree" || exit 2
 scratch=$(mktemp -d) && trap 'rm -rf "$scratch"' EXIT
@@ -28,10 +29,12 @@ for d in said["schemes"] + said["references"]:
     if note:
         notes.setdefault(note, []).append(f"`{d['name']}`")
 lines = [head, "|---|" + ":-:|" * len(features) + "---|", *rows, "",
-         "● as in the scene; ◐ approximated, and a fact of the run says how. Every scheme takes several strings and a body.", "",
+         "● as in the scene; ◐ approximated, and a fact of the run says how. "
+         "Every scheme takes several strings and a body.", "",
          *(f"- {', '.join(names)}: {note}" for note, names in notes.items()), "", ""]
 print(above + begin + "\n".join(lines) + end + below, end="")
 PYTHON
 if [ -n "$WRITE" ]; then cp "$scratch/text" "$text"
-else diff "$text" "$scratch/text" || { echo "the table in $text is not what 'jvari list --json' says" >&2; exit 1; }
+else diff "$text" "$scratch/text" ||
+    { echo "the table in $text is not what 'jvari list --json' says" >&2; exit 1; }
 fi

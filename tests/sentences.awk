@@ -1,5 +1,6 @@
-# The sentences of Markdown files, one a line: FILE:LINE, a tab, the sentence. LINE is where its paragraph, list item or table row begins.
-# Left out: blocks of code, HTML comments, rules of tables. A span of code becomes the one word CODE, a link its text.
+# The sentences of Markdown files, one a line: FILE:LINE, a tab, the sentence. LINE is where its
+# paragraph, list item or table row begins. Left out: blocks of code, HTML comments, rules of
+# tables. A span of code becomes the one word CODE, a link its text.
 function sentences(text, where, parts, n, i) {
     gsub(/<[^ >][^>]*>/, "", text)
     gsub(/`[^`]*`/, "CODE", text)
@@ -11,7 +12,7 @@ function sentences(text, where, parts, n, i) {
     }
     gsub(/\*\*|\*/, "", text)
     gsub(/\.\.\./, "…", text)
-    while (match(text, /(^|[ (])(al|eqs?|figs?|pp|vol|no|ed|e\.g|i\.e|ch|Proc|Int|Conf|Soc|Am)\. /))  # no ends of sentences
+    while (match(text, /(^|[ (])(al|eqs?|figs?|pp|vol|no|ed|e\.g|i\.e|ch|Proc|Int|Conf|Soc|Am)\. /))
         text = substr(text, 1, RSTART + RLENGTH - 3) " " substr(text, RSTART + RLENGTH)
     gsub(/[.!?]["”)]* +/, "&\n", text)
     n = split(text, parts, / *\n/)

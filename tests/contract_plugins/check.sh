@@ -1,5 +1,6 @@
 #!/bin/sh
-# `jvari check` of a scheme breaks just this promise. usage: check.sh JVARI PLUGIN SCHEME [PROMISE], without PROMISE: it breaks none
+# `jvari check` of a scheme breaks just this promise. usage: check.sh JVARI PLUGIN SCHEME [PROMISE],
+# without PROMISE: it breaks none
 said=$("$1" check "$3" --plugin "$2" 2>&1)
 code=$?
 broken=$(echo "$said" | sed -n 's|^  BROKEN  *\([A-Za-z]*\).*|\1|p' | tr '\n' ' ')

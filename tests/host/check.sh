@@ -1,25 +1,32 @@
 #!/bin/sh
-# check.sh JVARI HOST PREFIX: the host of main.cpp plays what the program plays, and links no library under the GPL, nor any other that the
-# schemes do without. The libraries of scenes, schemes and reference in PREFIX name no function of GSL or FFTW.
+# check.sh JVARI HOST PREFIX: the host of main.cpp plays what the program plays, and links no
+# library under the GPL, nor any other that the schemes do without. The libraries of scenes, schemes
+# and reference in PREFIX name no function of GSL or FFTW.
 set -eu
 jvari=$1 host=$2 prefix=$3
 fail() { echo "check.sh: $*" >&2; exit 1; }
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
-"$jvari" run tanpura_c3_release --scheme modal_two_point --rate 48000 --tap-rate 48000 --duration 0.2 --out "$dir/trace.csv" --quiet
+"$jvari" run tanpura_c3_release --scheme modal_two_point --rate 48000 --tap-rate 48000 \
+    --duration 0.2 --out "$dir/trace.csv" --quiet
 "$host" "$dir/string.wav"
 od -A n -t d2 -v -w2 -j 44 "$dir/string.wav" > "$dir/samples"
-[ "$(head -c 12 "$dir/string.wav" | tr -d '\000-\037\200-\377' | cut -c1-4)" = RIFF ] || fail "the host writes no WAV file"
+[ "$(head -c 12 "$dir/string.wav" | tr -d '\000-\037\200-\377' | cut -c1-4)" = RIFF ] ||
+    fail "the host writes no WAV file"
 awk -F, 'NR == FNR { said[NR] = $1; next }
     FNR == 1 { for (i = 1; i <= NF; ++i) if ($i ~ /^nut/) nut = i; next }
     n < 9600 { want[++n] = $nut; if ($nut ^ 2 > most) most = $nut ^ 2 }
     END {
-        for (k = 1; k <= n; ++k) if ((said[k] - 32767 * want[k] / sqrt(most)) ^ 2 > 0.51 ^ 2) { print "sample", k, said[k], 32767 * want[k] / sqrt(most); exit 1 }
+        for (k = 1; k <= n; ++k) {
+            loud = 32767 * want[k] / sqrt(most)
+            if ((said[k] - loud) ^ 2 > 0.51 ^ 2) { print "sample", k, said[k], loud; exit 1 }
+        }
         exit n != 9600 || (n + 1) in said
     }' "$dir/samples" "$dir/trace.csv" || fail "the host does not play what the program plays"
 # docs/host.md shows these very lines.
 here=$(dirname "$0")
-sed -n '/^```cpp$/,/^```$/{/^```/d;p}' "$here/../../docs/host.md" | cmp -s - "$here/main.cpp" || fail "docs/host.md does not show tests/host/main.cpp"
+sed -n '/^```cpp$/,/^```$/{/^```/d;p}' "$here/../../docs/host.md" | cmp -s - "$here/main.cpp" ||
+    fail "docs/host.md does not show tests/host/main.cpp"
 
 needs=$(ldd "$host")
 for library in gsl fftw3 sundials sndfile samplerate fmt; do

@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# check.sh JVARI PLUGIN: a suite by an array of Slurm that loses a node and a task, against the same suite in one process. Three nodes on
-# loopback, all of them this machine; what it starts it ends, by their ids. PLUGIN: held_scheme.cpp, whose runs stop in the middle where the
-# test wants to end them, so that nothing here depends on how fast the machine is. 77: there is no Slurm here.
+# check.sh JVARI PLUGIN: a suite by an array of Slurm that loses a node and a task, against the same
+# suite in one process. Three nodes on loopback, all of them this machine; what it starts it ends,
+# by their ids. PLUGIN: held_scheme.cpp, whose runs stop in the middle where the test wants to end
+# them, so that nothing here depends on how fast the machine is. 77: there is no Slurm here.
 set -euo pipefail
 jvari=$(realpath "$1") plugin=$(realpath "$2")
 here=$(realpath "$(dirname "$0")")
 PATH=$PATH:/usr/sbin:/sbin
 for program in slurmctld slurmd sbatch squeue scancel; do
-    command -v $program >/dev/null || { echo "skipped: $program is not installed (Debian: slurm-wlm)"; exit 77; }
+    command -v $program >/dev/null ||
+        { echo "skipped: $program is not installed (Debian: slurm-wlm)"; exit 77; }
 done
 dir=$(mktemp -d "${TMPDIR:-/tmp}/jvari-slurm-XXXXXX")
 export SLURM_CONF=$dir/slurm.conf JVARI_HOLD=$dir/hold JVARI_CACHE= JVARI_NODE_MODULES=/nowhere
@@ -15,9 +17,12 @@ say() { echo "$((SECONDS)) s: $*"; }
 
 free() { ! (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; }
 port=$((10000 + $$ % 5000 * 4))  # below those that the system gives to outgoing connections
-until free $port && free $((port + 1)) && free $((port + 2)) && free $((port + 3)); do port=$((port + 4)); done
+until free $port && free $((port + 1)) && free $((port + 2)) && free $((port + 3)); do
+    port=$((port + 4))
+done
 
-# auth/none, no accounting, no cgroups: a cluster for this test alone. Nodes spread what they get (LLN), or the first would get it all.
+# auth/none, no accounting, no cgroups: a cluster for this test alone. Nodes spread what they get
+# (LLN), or the first would get it all.
 host=$(hostname -s) user=$(id -un)
 mkdir "$dir"/state "$dir"/spool "$dir"/log "$dir"/run "$JVARI_HOLD"
 cat > "$SLURM_CONF" <<CONF
@@ -55,7 +60,8 @@ SlurmdParameters=config_overrides
 MaxArraySize=1001
 CONF
 for k in 1 2 3; do
-    echo "NodeName=v$k NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + k)) CPUs=2 RealMemory=1000 State=UNKNOWN" >> "$SLURM_CONF"
+    echo "NodeName=v$k NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + k))" \
+        "CPUs=2 RealMemory=1000 State=UNKNOWN" >> "$SLURM_CONF"
 done
 echo "PartitionName=all LLN=YES Nodes=ALL Default=YES MaxTime=INFINITE State=UP" >> "$SLURM_CONF"
 
@@ -91,7 +97,13 @@ finish() {
 trap finish EXIT
 trap 'exit 130' INT TERM
 
-came_up() { for _ in $(seq 300); do [ "$(sinfo -h -N -t idle -o %N 2>/dev/null | sort -u | grep -c .)" = 3 ] && return 0; sleep 0.2; done; return 1; }
+came_up() {
+    for _ in $(seq 300); do
+        [ "$(sinfo -h -N -t idle -o %N 2>/dev/null | sort -u | grep -c .)" = 3 ] && return 0
+        sleep 0.2
+    done
+    return 1
+}
 start() { slurmctld -c && for k in 1 2 3; do slurmd -N v$k || return 1; done && came_up; }
 if ! start; then
     tail -n 5 "$dir"/log/* || true
@@ -101,7 +113,8 @@ fi
 
 cd "$dir"
 touch hold/v1 hold/v2
-# The lines of docs/using.md, where the program has the plugin and the suite of the library is the test's.
+# The lines of docs/using.md, where the program has the plugin and the suite of the library is the
+# test's.
 mkdir -p build/release suites
 printf '#!/bin/sh\nexec "%s" "$@" --plugin "%s"\n' "$jvari" "$plugin" > build/release/jvari
 chmod +x build/release/jvari
@@ -115,7 +128,8 @@ held_on() {  # NODE: the task that stopped itself there
     local file
     for _ in $(seq 3000); do
         for file in hold/"$1".*; do
-            grep -q '^State:.T' "/proc/${file##*.}/status" 2>/dev/null && echo "${file##*.}" && return 0
+            grep -q '^State:.T' "/proc/${file##*.}/status" 2>/dev/null && echo "${file##*.}" &&
+                return 0
         done
         sleep 0.1
     done
@@ -124,14 +138,23 @@ held_on() {  # NODE: the task that stopped itself there
 }
 lost=$(held_on v2) killed=$(held_on v1)
 say "a task is in the middle of its work on each of two nodes"
-end "$(cat run/v2.pid)"                                                       # a power cut: the daemons go first
+# a power cut: the daemons go first
+end "$(cat run/v2.pid)"
 for task in "$lost" $(tasks_on v2); do end $(step_of "$task") "$task"; done
 rm -f run/v2.pid
-end "$killed"                                                                 # as for its memory: Slurm calls that task failed
+# as for its memory: Slurm calls that task failed
+end "$killed"
 
 # A call that Slurm does not answer says nothing.
 idle() { local jobs; jobs=$(squeue -h -o %A 2>/dev/null) && [ -z "$jobs" ]; }
-wait_for_all() { for _ in $(seq 600); do ! idle || return 0; sleep 0.5; done; echo "jobs are left after 5 minutes"; return 1; }
+wait_for_all() {
+    for _ in $(seq 600); do
+        ! idle || return 0
+        sleep 0.5
+    done
+    echo "jobs are left after 5 minutes"
+    return 1
+}
 # Meanwhile the same in one process.
 build/release/jvari suite stability --out whole --quiet > /dev/null
 wait_for_all
@@ -139,8 +162,9 @@ requeued=$(grep -c "due to failure of node v2" log/slurmctld.log || true)
 [ "$requeued" -ge 1 ] || { echo "no task of the lost node was put back"; exit 1; }
 cells=$(($(wc -l < whole/errors.csv) - 1)) ran=0
 for n in $(sed -n "s/^$cells cells, \([0-9]*\) run, .*/\1/p" task-*); do ran=$((ran + n)); done
-[ "$ran" -ge 1 ] && [ "$ran" -le "$cells" ] || { echo "the tasks that came to their end ran $ran of $cells cells"; exit 1; }
-for table in errors.csv maps.csv boundaries.csv convergence.csv; do cmp whole/$table maps/$table; done
+[ "$ran" -ge 1 ] && [ "$ran" -le "$cells" ] ||
+    { echo "the tasks that came to their end ran $ran of $cells cells"; exit 1; }
+for table in errors maps boundaries convergence; do cmp whole/$table.csv maps/$table.csv; done
 build/release/jvari suite stability --out maps --resume > last
 grep -q "^$cells cells, 0 run, 0 timed, " last
 [ -z "$(find maps -name '*.lock')" ] || { find maps -name '*.lock'; exit 1; }
