@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -189,7 +190,7 @@ length = 1
 linear_density = 1e-3
 tension = 40
 damping = {law = "per_period", factor = 0.99}
-barrier = [{shape = "profile", curve = "line", coefficient = -0.01, from = 0, to = 0.01, stiffness_density = 1e9},
+barrier = [{shape="profile", curve="line", coefficient=-0.01, from=0,to=0.01,stiffness_density=1e9},
            {shape = "profile", curve = "flat", from = 0.9, to = 1, stiffness_density = 1e9}]
 initial = {shape = "mode", number = 3, amplitude = 1e-3}
 [[tap]]
@@ -386,19 +387,6 @@ TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
     EXPECT_FALSE(needed_by(parse_scene(lumped, "scene.toml")).has(Feature::rigid_barrier));
     EXPECT_NE(write_scene(scene).find("stiffness = \"rigid\""), std::string::npos);
     EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene);
-    const std::vector<std::pair<std::vector<std::string>, std::string>> rows{
-        {{"string.0.barrier.0.stiffness=hard"},
-         "--set string.0.barrier.0.stiffness=hard: string.0.barrier.0.stiffness: found \"hard\", "
-         "expected \"rigid\" or a positive number "
-         "[N/m^exponent]"},
-        {{"string.0.barrier.0.stiffness=rigid", "string.0.barrier.0.exponent=2"},
-         "--set string.0.barrier.0.exponent=2: string.0.barrier.0.exponent: found 2, expected "
-         "none, as the barrier is rigid"},
-        {{"string.0.barrier.0.stiffness=rigid", "string.0.barrier.0.contact_loss=1"},
-         "--set string.0.barrier.0.contact_loss=1: string.0.barrier.0.contact_loss: found 1, "
-         "expected none, as the barrier is rigid"},
-    };
-    for (const auto& [overrides, expected] : rows) EXPECT_EQ(message(lumped, overrides), expected);
     EXPECT_NE(message(lumped, {"string.0.barrier.0.stiffness=inf"}), "(read without an error)");
     const Scene profile =
         read_scene("sitar_parabola",
@@ -410,54 +398,6 @@ TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
     EXPECT_TRUE(needed_by(wall).has(Feature::rigid_profile) &&
                 is_rigid(wall.strings[0].barriers[0]));
     EXPECT_NE(write_scene(wall).find("stiffness_density = \"rigid\""), std::string::npos);
-}
-
-TEST(Overrides, ErrorsNameTheOverride) {
-    const std::vector<std::pair<std::string, std::string>> rows{
-        {"string.0.tension=-1",
-         "--set string.0.tension=-1: string.0.tension: found -1, expected a positive number [N]"},
-        {"string.0.tension=nan",
-         "--set string.0.tension=nan: string.0.tension: found nan, expected a positive number [N]"},
-        {"string.0.tension=30 N",
-         "--set string.0.tension=30 N: string.0.tension: found \"30 N\", expected a positive "
-         "number [N]"},
-        {"string.0.tension=",
-         "--set string.0.tension=: string.0.tension: found \"\", expected a positive number [N]"},
-        {"string.0.tensoin=30",
-         "--set string.0.tensoin=30: string.0.tensoin: unknown key; did you mean \"tension\"?"},
-        {"string.1000000000.length=1",
-         "--set string.1000000000.length=1: string: found index 1000000000, expected an index from "
-         "0 to 1"},
-        {"string.99999999999999999999.length=1",
-         "--set string.99999999999999999999.length=1: string: found index 99999999999999999999, "
-         "expected an index from 0 to 1"},
-        {"string.first.length=1",
-         "--set string.first.length=1: string: found \"first\", expected an index from 0 to 1"},
-        {"string.1.length=1",
-         "--set string.1.length=1: string.1.linear_density: found nothing, expected a positive "
-         "number [kg/m]"},
-        {"duration.s=1",
-         "--set duration.s=1: duration: found 1, expected a table with the key \"s\""},
-        {"duration", "--set duration: expected key.path=value"},
-        {"=1", "--set =1: expected key.path=value"},
-        {"string..length=1",
-         "--set string..length=1: string: found \"\", expected an index from 0 to 1"},
-        {"a..b=1", "--set a..b=1: found an empty part in the key, expected key.path=value"},
-        {"name=[1",
-         "--set name=[1: not valid TOML: Error while parsing array: encountered end-of-file"},
-        {"duration=1\nname=2",
-         "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive number "
-         "[s]"},
-        {"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1",
-         "--set a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1: found a key of 17 parts, expected at most 16"},
-        {"name=../../x",
-         "--set name=../../x: name: found \"../../x\", which begins with a point, expected a name "
-         "that files can be called by"},
-        {"string.0.length=0.005",
-         "scene.toml:9: string.0.barrier.0.position: found 0.01, expected 0 < x < 0.005 [m], on "
-         "the string"},
-    };
-    for (const auto& [override, expected] : rows) EXPECT_EQ(message(lumped, {override}), expected);
 }
 
 // ---- A material and a diameter in place of two numbers
@@ -499,18 +439,8 @@ TEST(Material, APitchFollowsItAndAWrittenSceneSaysTheNumbers) {
     EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene) << write_scene(scene);
 }
 
-TEST(Material, OfTwoFormsInOneFileIsAnErrorAndAnOverrideWins) {
+TEST(Material, OfAnOverrideWins) {
     const std::string steel = wire + "material = \"steel\"\ndiameter = 0.28e-3\n";  // 6, 7
-    const auto refused = [](const std::string& key, const std::string& found) {
-        return "scene.toml:8: string.0." + key + ": found " + found +
-               ", expected nothing beside material and diameter, which say as much";
-    };
-    EXPECT_EQ(message(steel + "linear_density = 1e-3\n"), refused("linear_density", "0.001"));
-    EXPECT_EQ(message(steel + "bending_stiffness = 0\n"), refused("bending_stiffness", "0"));
-    EXPECT_EQ(message(wire + "material = \"steel\"\n"),
-              "scene.toml:3: string.0.diameter: found nothing, expected a positive number [m]");
-    EXPECT_EQ(message(wire + "material = \"steel\"\ndiameter = 0\n"),
-              "scene.toml:7: string.0.diameter: found 0, expected a positive number [m]");
     EXPECT_EQ(message(wire + "diameter = 1e-3\n").substr(0, 66),
               "scene.toml:3: string.0.material: found nothing, expected one of \"s");
     EXPECT_NE(
@@ -563,243 +493,72 @@ TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
     EXPECT_NE(write_scene(scene).find("tension = "), std::string::npos);
 }
 
-TEST(Pitch, ErrorsNameLineAndKey) {
-    const std::string note =
-        "expected a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"";
-    for (const char* wrong : {"H3", "C", "C10", "C-2", "c3", "C3 ", "C#b3", "Cis3"})
-        EXPECT_EQ(message(stiff + "note = \"" + wrong + "\"\n"),
-                  "scene.toml:7: string.0.note: found \"" + std::string(wrong) + "\", " + note);
-    EXPECT_EQ(message(stiff + "note = 3\n"),
-              "scene.toml:7: string.0.note: found 3, expected a text");
-    EXPECT_EQ(message(stiff + "frequency = 0\n"),
-              "scene.toml:7: string.0.frequency: found 0, expected a positive number [Hz]");
-    EXPECT_EQ(message(stiff + "frequency = \"A\"\n"),
-              "scene.toml:7: string.0.frequency: found \"A\", expected a positive number [Hz]");
-    EXPECT_EQ(message(one + "note = \"C3\"\n"),
-              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside tension: give "
-              "one of tension, frequency and note");
-    EXPECT_EQ(message(stiff + "note = \"C3\"\nfrequency = 130.8\n"),
-              "scene.toml:7: string.0.note: found \"C3\", expected nothing beside frequency: give "
-              "one of tension, frequency and note");
+TEST(Pitch, TooLowForTheStiffnessIsAnError) {
     EXPECT_TRUE(message(stiff + "frequency = 0.1\n")
                     .starts_with("scene.toml:7: string.0.frequency: found 0.1, expected a pitch "
                                  "that a tension gives: the bending stiffness "
                                  "alone gives 0.555"));
-    EXPECT_EQ(
-        message(head + "[[string]]\nlength = -1.0\nlinear_density = 4.83e-4\nnote = \"C3\"\n"),
-        "scene.toml:4: string.0.length: found -1, expected a positive number [m]");
 }
 
 // ---- Bad input
 
 struct Bad {
     std::string text, says;
+    std::vector<std::string> overrides = {};
 };
-const std::string laws = "\"none\", \"polynomial\", \"quality_factor\", \"table\", \"per_period\"";
+// what no line of a text file can hold
+std::vector<Bad> bad_scenes() {
+    return {
+        {"name = ",
+         "scene.toml:1: not valid TOML: Error while parsing key-value pair: encountered "
+         "end-of-file"},
+        {"\xff\xfe", "scene.toml:1: not valid TOML: Encountered invalid utf-8 sequence"},
+        {"x = " + std::string(5000, '['),
+         "scene.toml:1: not valid TOML: Error while parsing value: exceeded maximum nested value "
+         "depth of 256 (TOML_MAX_NESTED_VALUES)"},
+        {std::string("a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a") +
+             ".a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a = 1",
+         "scene.toml:1: found a key with more than 64 dots, expected fewer"},
+        {std::string((1 << 20) + 1, ' '),
+         "scene.toml:1: found 1048577 bytes, expected at most 1048576"},
+        {"", "scene.toml:1: name: found nothing, expected a text"},
+        {lumped,
+         "--set duration=1\nname=2: duration: found \"1\\u000Aname=2\", expected a positive "
+         "number [s]",
+         {"duration=1\nname=2"}},
+    };
+}
 
-const std::vector<Bad> bad_scenes{
-    // no TOML
-    {"name = ",
-     "scene.toml:1: not valid TOML: Error while parsing key-value pair: encountered end-of-file"},
-    {head + "duration = 2.0\n",
-     "scene.toml:3: not valid TOML: Error while parsing key-value pair: cannot redefine existing "
-     "floating-point 'duration'"},
-    {one + "[string.initial]\nshape = \"mode\"\nshape = \"triangle\"\n",
-     "scene.toml:9: not valid TOML: Error while parsing key-value pair: cannot redefine existing "
-     "string 'shape'"},
-    {"\xff\xfe", "scene.toml:1: not valid TOML: Encountered invalid utf-8 sequence"},
-    {"x = " + std::string(5000, '['),
-     "scene.toml:1: not valid TOML: Error while parsing value: exceeded maximum nested value depth "
-     "of 256 (TOML_MAX_NESTED_VALUES)"},
-    {head + "x = [[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n",
-     "scene.toml:3: found tables or arrays nested deeper than 16"},
-    {"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
-     "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a."
-     "a = 1",
-     "scene.toml:1: found a key with more than 64 dots, expected fewer"},
-    {std::string((1 << 20) + 1, ' '),
-     "scene.toml:1: found 1048577 bytes, expected at most 1048576"},
-    // keys
-    {"", "scene.toml:1: name: found nothing, expected a text"},
-    {head, "scene.toml:1: string: found no string, expected at least one [[string]]"},
-    {head + "string = []\n",
-     "scene.toml:3: string: found no string, expected at least one [[string]]"},
-    {"druation = 1.0\n", "scene.toml:1: druation: unknown key; did you mean \"duration\"?"},
-    {head + "[[string]]\ntensoin = 33.1\n",
-     "scene.toml:4: string.0.tensoin: unknown key; did you mean \"tension\"?"},
-    {one + "[string.damping]\nlwa = \"none\"\n",
-     "scene.toml:8: string.0.damping.lwa: unknown key; did you mean \"law\"?"},
-    {one + "[string.damping]\nlaw = \"none\"\nsigma0 = 1\n",
-     "scene.toml:9: string.0.damping.sigma0: unknown key; known here: \"law\""},
-    {one + "\"a\\nb\" = 1\n",
-     "scene.toml:7: string.0.\"a\\u000Ab\": unknown key; known here: \"length\", \"material\", "
-     "\"diameter\", \"linear_density\", "
-     "\"tension\", \"frequency\", \"note\", "
-     "\"bending_stiffness\", \"axial_stiffness\", "
-     "\"damping\", "
-     "\"barrier\", \"thread\", \"initial\", \"pluck\", \"polarisation\""},
-    {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\n",
-     "scene.toml:3: string.0.tension: found nothing, expected a positive number [N]"},
-    {one + "[string.damping]\nsigma0 = 1\n",
-     "scene.toml:7: string.0.damping.law: found nothing, expected one of " + laws},
-    {one + "[string.thread]\nposition = 5e-3\n",
-     "scene.toml:7: string.0.thread.stiffness: found nothing, expected a number >= 0 [N/m]"},
-    // types
-    {"name = 3\nduration = 1.0\n", "scene.toml:1: name: found 3, expected a text"},
-    {"name = \"\"\nduration = 1.0\n", "scene.toml:1: name: found \"\", expected a text"},
-    {"name = \"s\"\nduration = \"1 s\"\n",
-     "scene.toml:2: duration: found \"1 s\", expected a positive number [s]"},
-    {"name = \"s\"\nduration = 1979-05-27\n",
-     "scene.toml:2: duration: found a date or time, expected a positive number [s]"},
-    {"name = \"s\"\nduration = true\n",
-     "scene.toml:2: duration: found true, expected a positive number [s]"},
-    {"name = \"s\"\nduration = [1]\n",
-     "scene.toml:2: duration: found an array, expected a positive number [s]"},
-    {head + "string = 3\n", "scene.toml:3: string: found 3, expected an array of tables, [[...]]"},
-    {head + "[string]\nlength = 1.0\n",
-     "scene.toml:3: string: found a table, expected an array of tables, [[...]]"},
-    {head + "string = [3]\n", "scene.toml:3: string.0: found 3, expected a table"},
-    {one + "[[string.initial]]\nshape = \"mode\"\n",
-     "scene.toml:7: string.0.initial: found an array, expected a table"},
-    {one + "thread = 5e-3\n", "scene.toml:7: string.0.thread: found 0.005, expected a table"},
-    {one + "thread = \"" + std::string(70, 'x') + "\"\n",
-     "scene.toml:7: string.0.thread: found \"" + std::string(60, 'x') +
-         "\"... (70 bytes), expected a table"},
-    // choices
-    {one + "[string.damping]\nlaw = \"polynomal\"\n",
-     "scene.toml:8: string.0.damping.law: found \"polynomal\", expected one of " + laws +
-         "; did you mean \"polynomial\"?"},
-    {one + "[string.damping]\nlaw = 3\n",
-     "scene.toml:8: string.0.damping.law: found 3, expected one of " + laws},
-    {one + "[[string.barrier]]\nshape = \"round\"\n",
-     "scene.toml:8: string.0.barrier.0.shape: found \"round\", expected one of \"lumped\", "
-     "\"profile\""},
-    {tap + "quantity = \"position\"\n",
-     "scene.toml:9: tap.0.quantity: found \"position\", expected one of \"displacement\", "
-     "\"velocity\", \"nut_force\", \"bridge_force\", "
-     "\"thread_force\", \"driving_force\""},
-    // numbers
-    {"name = \"s\"\nduration = 0.0\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = "
-     "33.1\n",
-     "scene.toml:2: duration: found 0, expected a positive number [s]"},
-    {head + "[[string]]\nlength = -1.0\nlinear_density = 1e-3\ntension = 33.1\n",
-     "scene.toml:4: string.0.length: found -1, expected a positive number [m]"},
-    {head + "[[string]]\nlength = inf\nlinear_density = 1e-3\ntension = 33.1\n",
-     "scene.toml:4: string.0.length: found inf, expected a positive number [m]"},
-    {head + "[[string]]\nlength = 1.0\nlinear_density = nan\ntension = 33.1\n",
-     "scene.toml:5: string.0.linear_density: found nan, expected a positive number [kg/m]"},
-    {head + "[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension = 0\n",
-     "scene.toml:6: string.0.tension: found 0, expected a positive number [N]"},
-    {one + "bending_stiffness = -1e-5\n",
-     "scene.toml:7: string.0.bending_stiffness: found -1e-05, expected a number >= 0 [N m^2]"},
-    {one + "[string.damping]\nlaw = \"polynomial\"\nsigma3 = -1\n",
-     "scene.toml:9: string.0.damping.sigma3: found -1, expected a number >= 0 [m^3/s]"},
-    {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 1.5\n",
-     "scene.toml:9: string.0.damping.factor: found 1.5, expected a number above 0 and at most 1"},
-    {one + "[string.damping]\nlaw = \"per_period\"\nfactor = 0.0\n",
-     "scene.toml:9: string.0.damping.factor: found 0, expected a number above 0 and at most 1"},
-    {one + "[string.damping]\nlaw = \"table\"\nfile = \"none.csv\"\n",
-     "scene.toml:9: string.0.damping.file: found \"none.csv\", which is not a file, expected a CSV "
-     "file with the columns \"frequency_hz\", "
-     "\"decay_rate_per_s\""},
-    {lumped + "exponent = 0.5\n",
-     "scene.toml:11: string.0.barrier.0.exponent: found 0.5, expected a number >= 1"},
-    {lumped + "contact_loss = -0.5\n",
-     "scene.toml:11: string.0.barrier.0.contact_loss: found -0.5, expected a number >= 0 [s/m]"},
-    {lumped + "height = nan\n",
-     "scene.toml:11: string.0.barrier.0.height: found nan, expected a finite number [m]"},
-    {one + "[string.initial]\nshape = \"mode\"\nnumber = 0\namplitude = 1e-3\n",
-     "scene.toml:9: string.0.initial.number: found 0, expected a whole number >= 1"},
-    {one + "[string.initial]\nshape = \"mode\"\nnumber = 1.5\namplitude = 1e-3\n",
-     "scene.toml:9: string.0.initial.number: found 1.5, expected a whole number >= 1"},
-    {one + "[string.initial]\nshape = \"mode\"\nnumber = 3000000000\namplitude = 1e-3\n",
-     "scene.toml:9: string.0.initial.number: found 3000000000, expected a whole number >= 1"},
-    {one + "[string.pluck]\namplitude = 1\nduration = 0\nposition = 0.5\n",
-     "scene.toml:9: string.0.pluck.duration: found 0, expected a positive number [s]"},
-    {one + "[string.pluck]\namplitude = 1\nduration = 1\nposition = 0.5\nskew = -1\n",
-     "scene.toml:11: string.0.pluck.skew: found -1, expected a number >= 0"},
-    // the string and what stands at it
-    {one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 1.5\nstiffness = 1e9\n",
-     "scene.toml:9: string.0.barrier.0.position: found 1.5, expected 0 < x < 1 [m], on the string"},
-    {one + "[[string.barrier]]\nshape = \"lumped\"\nposition = 0\nstiffness = 1e9\n",
-     "scene.toml:9: string.0.barrier.0.position: found 0, expected 0 < x < 1 [m], on the string"},
-    {lumped + "width = 0.1\n",
-     "scene.toml:11: string.0.barrier.0.width: found 0.1, expected at most 0.02 [m], so that the "
-     "footprint ends on the string"},
-    {one + "[string.thread]\nposition = 0.999\nwidth = 0.01\nstiffness = 1e5\n",
-     "scene.toml:9: string.0.thread.width: found 0.01, expected at most 0.0020000000000000018 [m], "
-     "so that the footprint ends on the "
-     "string"},
-    {one + "[string.pluck]\namplitude = 1\nduration = 1\nposition = -0.5\n",
-     "scene.toml:10: string.0.pluck.position: found -0.5, expected 0 < x < 1 [m], on the string"},
-    {one + "[string.initial]\nshape = \"triangle\"\nposition = 1.0\namplitude = 1e-3\n",
-     "scene.toml:9: string.0.initial.position: found 1, expected 0 < x < 1 [m], on the string"},
-    {one + "[string.initial]\nshape = \"triangle\"\nposition = 0.5\namplitude = 1e-3\nsmoothing = "
-           "2\n",
-     "scene.toml:11: string.0.initial.smoothing: found 2, expected at most the length of the "
-     "string, 1 [m]"},
-    {profile + "from = 0.02\nto = 0.01\n",
-     "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.02 [m]"},
-    {profile + "from = 0.01\nto = 0.01\n",
-     "scene.toml:12: string.0.barrier.0.to: found 0.01, expected a number above from, 0.01 [m]"},
-    {profile + "from = 0.9\nto = 1.1\n",
-     "scene.toml:12: string.0.barrier.0.to: found 1.1, expected 0 <= x <= 1 [m], on the string"},
-    {profile + "from = -0.1\nto = 0.1\n",
-     "scene.toml:11: string.0.barrier.0.from: found -0.1, expected 0 <= x <= 1 [m], on the string"},
-    {profile + "from = 0\nto = 0.1\nwidth = 2e-3\n",
-     "scene.toml:13: string.0.barrier.0.width: unknown key; known here: \"shape\", \"curve\", "
-     "\"from\", \"to\", \"stiffness_density\", "
-     "\"exponent\", \"contact_loss\""},
-    // taps
-    {tap + "quantity = \"nut_force\"\nstring = 1\n",
-     "scene.toml:10: tap.0.string: found 1, expected a string of the scene, 0 to 0"},
-    {tap + "quantity = \"nut_force\"\nstring = -1\n",
-     "scene.toml:10: tap.0.string: found -1, expected a whole number >= 0"},
-    {tap + "quantity = \"nut_force\"\nposition = 0.3\n",
-     "scene.toml:10: tap.0.position: found 0.3, expected no position, which only displacement and "
-     "velocity have"},
-    {tap + "quantity = \"displacement\"\nstring = 0\n",
-     "scene.toml:7: tap.0.position: found nothing, expected a finite number [m]"},
-    {tap + "quantity = \"displacement\"\nposition = 0.3\n",
-     "scene.toml:7: tap.0.string: found nothing, expected the string whose displacement is meant"},
-    {tap + "quantity = \"velocity\"\nstring = 0\nposition = 1.3\n",
-     "scene.toml:11: tap.0.position: found 1.3, expected 0 <= x <= 1 [m], on the string"},
-    {tap + "quantity = \"thread_force\"\nstring = 0\n",
-     "scene.toml:9: tap.0.quantity: found \"thread_force\" of a string without a thread, expected "
-     "a quantity that the string has"},
-    {tap + "quantity = \"bridge_force\"\n",
-     "scene.toml:9: tap.0.quantity: found \"bridge_force\" of a string without a barrier, expected "
-     "a quantity that the string has"},
-    {tap + "quantity = \"driving_force\"\n",
-     "scene.toml:9: tap.0.quantity: found \"driving_force\" of a string without a barrier or a "
-     "thread, expected a quantity that the string "
-     "has"},
-    {tap + "quantity = \"nut_force\"\n[[tap]]\nname = \"a\"\nquantity = \"nut_force\"\n",
-     "scene.toml:11: tap.1.name: found \"a\" a second time, expected a unique name"},
-    {one + "[[tap]]\nname = \"a,b\"\nquantity = \"nut_force\"\n",
-     "scene.toml:8: tap.0.name: found \"a,b\", expected letters, digits, _ . and -, neither time_s "
-     "nor energy_..."},
-    {one + "[[tap]]\nname = \"time_s\"\nquantity = \"nut_force\"\n",
-     "scene.toml:8: tap.0.name: found \"time_s\", expected letters, digits, _ . and -, neither "
-     "time_s nor energy_..."},
-    {one + "[body]\n",
-     "scene.toml:7: body: found neither bridge nor nut nor mode, expected at least one of them"},
-    {one + "[[body.mode]]\nmass = -1\nstiffness = 1\n",
-     "scene.toml:8: body.mode.0.mass: found -1, expected a positive number [kg]"},
-    {one + "[[body.mode]]\nmass = 1\nstiffness = 0\n",
-     "scene.toml:9: body.mode.0.stiffness: found 0, expected a positive number [N/m]"},
-    {one + "[[body.mode]]\nmass = 1\nstiffness = 1\ndamping = -0.5\n",
-     "scene.toml:10: body.mode.0.damping: found -0.5, expected a number >= 0 [kg/s]"},
-    {one + "[[body.mode]]\nmass = 1\n",
-     "scene.toml:7: body.mode.0.stiffness: found nothing, expected a positive number [N/m]"},
-    {one + "[[body.mode]]\nmass = 1\nstiffness = 1\nfrequency = 1\n",
-     "scene.toml:10: body.mode.0.frequency: unknown key; known here: \"mass\", \"stiffness\", "
-     "\"damping\""},
-};
+std::vector<Bad> listed_bad_scenes() {
+    const std::map<std::string, std::string> beginnings{
+        {"head", head},   {"one", one}, {"lumped", lumped}, {"profile", profile},
+        {"stiff", stiff}, {"tap", tap}, {"wire", wire}};
+    std::vector<Bad> all;
+    std::ifstream in(JVARI_BAD_SCENES);
+    bool new_one = true;
+    for (std::string line; std::getline(in, line);) {
+        if (line.empty() || line[0] == '#') continue;
+        if (line.starts_with("> ")) {
+            if (new_one) all.emplace_back();
+            all.back().says += (new_one ? "" : " ") + line.substr(2);
+            new_one = false;
+            continue;
+        }
+        new_one = true;
+        Bad& bad = all.back();
+        if (line[0] == '@') bad.text = beginnings.at(line.substr(1));
+        else if (line.starts_with("--set ")) bad.overrides.push_back(line.substr(6));
+        else bad.text += line + "\n";
+    }
+    return all;
+}
 
 TEST(BadScenes, EachSaysWhereWhatWasFoundAndWhatWasExpected) {
-    for (const Bad& bad : bad_scenes)
-        EXPECT_EQ(message(bad.text), bad.says) << bad.text.substr(0, 300);
+    const auto listed = listed_bad_scenes();
+    EXPECT_GT(listed.size(), 100u);
+    for (const auto& table : {bad_scenes(), listed})
+        for (const Bad& bad : table)
+            EXPECT_EQ(message(bad.text, bad.overrides), bad.says) << bad.text.substr(0, 300);
 }
 
 TEST(BadScenes, TheTextsTheyAreMadeFromAreGood) {
