@@ -2,7 +2,7 @@
 // a scheme.
 #pragma once
 
-#include "bench/check/check.hpp"
+#include "bench/check/promise.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/judge/candidate.hpp"
 #include "bench/judge/foreign_trace.hpp"

@@ -28,7 +28,6 @@
 
 #include "analysis/error.hpp"
 #include "bench/check/promise.hpp"
-#include "bench/check/scenes.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"

@@ -1,7 +1,7 @@
-#include "bench/check/numbers.hpp"
-
+// The numbers of a scene, changed one by one, and the scenes that have them all.
 #include <vector>
 
+#include "bench/check/promise.hpp"
 #include "scenes/schema.hpp"
 
 namespace jvari::bench::check {
@@ -76,6 +76,127 @@ std::optional<Changed> changed(const Scene& scene, int which, bool down) {
     if (change.key.empty()) return std::nullopt;
     c.key = change.key;
     return c;
+}
+
+namespace {
+std::vector<Scene> make_scenes_of_numbers() {
+    constexpr double L = 0.3;  // [m]: 437 Hz
+    String played;
+    played.length = L;
+    played.linear_density = 4.83e-4;
+    played.tension = 33.1;
+    played.bending_stiffness = 2e-3;
+    played.damping = PolynomialDamping{40, 1, 2e-4};
+    played.initial = TriangleInitial{0.1, 1e-3, 0.15};
+    const auto scene = [&](const char* name, std::vector<String> strings) {
+        Scene s;
+        s.name = name;
+        s.duration = 5e-3;
+        s.strings = std::move(strings);
+        for (int k = 0; k < static_cast<int>(s.strings.size()); ++k) {
+            const auto hear = [&](const char* what, Quantity q, double x) {
+                s.taps.push_back({what + std::to_string(k), q, k, x});
+            };
+            hear("y", Quantity::displacement, 0.11);
+            hear("v", Quantity::velocity, 0.17);
+            hear("nut", Quantity::nut_force, 0);
+            if (!s.strings[k].barriers.empty()) hear("bridge", Quantity::bridge_force, 0);
+            if (s.strings[k].thread) hear("thread", Quantity::thread_force, 0);
+            if (!s.strings[k].barriers.empty() || s.strings[k].thread)
+                hear("driving", Quantity::driving_force, 0);
+        }
+        return s;
+    };
+    std::vector<Scene> all;
+    all.push_back(scene("free", {played}));
+    {
+        String s = played;
+        s.thread = Thread{0.2, 0.08, 900, 0.2, 2e-4};
+        s.pluck = Pluck{0.5, 2e-3, 3, 5e-4, 0.13, 0.1};
+        all.push_back(scene("plucked", {s}));
+    }
+    {
+        String a = played, b = played;
+        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0},
+                      LumpedBarrier{0.2, 0.1, -4e-4, {1500}, 1, 0}};
+        b.tension = 25;
+        b.barriers = {LumpedBarrier{0.1, 0.08, -2e-4, {1200}, 1, 0}};
+        all.push_back(scene("two_strings", {a, b}));
+    }
+    {
+        String a = played;
+        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {3e4}, 1.5, 0.6},
+                      LumpedBarrier{0.2, 0.1, -4e-4, {8e4}, 1.6, 0.9}};
+        all.push_back(scene("power_law", {a}));
+    }
+    {
+        String a = played;
+        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0.6}};
+        all.push_back(scene("contact_loss", {a}));
+    }
+    {
+        String a = played, b = played, c = played;
+        a.barriers = {ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}};
+        b.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}};
+        c.barriers = {ProfileBarrier{
+            TableCurve{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}}, 0.05, 0.15, {3e4}, 1, 0}};
+        all.push_back(scene("line", {a}));
+        all.push_back(scene("parabola", {b}));
+        all.push_back(scene("table_curve", {c}));
+        for (auto one = all.end() - 3; one != all.end(); ++one) one->duration = 3e-3;
+    }
+    {
+        String a = played;
+        a.bending_stiffness = 0;
+        a.damping = NoDamping{};
+        a.barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.1, {rigid}, 1, 0}};
+        all.push_back(scene("rigid_profile", {a}));
+    }
+    {
+        String a = played, b = played, c = played;
+        a.damping = QualityFactorDamping{1e-3, 1.8e-4, 1.2, 1e-3, 0.02};
+        b.damping = PerPeriodDamping{0.8};
+        TableDamping t;
+        t.file = "measured";
+        for (int i = 1; i <= 48; ++i)
+            t.frequency_hz.push_back(430.0 * i * (1 + 1e-3 * i)),
+                t.decay_rate.push_back(30.0 + 5 * i);
+        c.damping = t;
+        c.bending_stiffness = 0;
+        all.push_back(scene("quality_factor", {a}));
+        all.push_back(scene("per_period", {b}));
+        all.push_back(scene("measured", {c}));
+    }
+    {
+        String a = played, b = played;
+        a.barriers = {LumpedBarrier{0.1, 0.1, -3e-4, {900}, 1, 0}};
+        a.bending_stiffness = b.bending_stiffness = 1e-4;
+        b.tension = 25;
+        all.push_back(scene("body", {a, b}));
+        all.back().body = Body{"", "", {{0.02, 2.5e4, 3}, {0.05, 2e5, 10}}};
+        all.back().duration = 2.5e-3;
+        all.back().taps.push_back({"support", Quantity::velocity, 0, 0});
+    }
+    {
+        String a = played;
+        a.axial_stiffness = 5e4;
+        all.push_back(scene("stretching", {a}));
+    }
+    {
+        String a = played;
+        a.bending_stiffness = 0;
+        a.damping = NoDamping{};
+        a.polarisation = Polarisation{0.3, 0.4};
+        all.push_back(scene("two_planes", {a}));
+        all.back().taps.resize(1);
+    }
+    return all;
+}
+}  // namespace
+
+const std::vector<Scene>& scenes_of_numbers() {
+    static const std::vector<Scene> scenes = make_scenes_of_numbers();
+    return scenes;
 }
 
 }  // namespace jvari::bench::check

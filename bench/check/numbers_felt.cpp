@@ -17,6 +17,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -24,9 +25,7 @@
 #include <numbers>
 #include <set>
 
-#include "bench/check/numbers.hpp"
 #include "bench/check/promise.hpp"
-#include "bench/check/scenes.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
@@ -169,24 +168,24 @@ public:
         truth_ = levels_of_truth(scene_);
         before_ = levels(scene_);
     }
-    int asked() const { return asked_; }
+    int examined() const { return examined_; }
 
     std::string wrong() {  // "": nothing
         if (before_.empty()) return "";
-        if (std::string found = compared(scene_, "as it is", truth_, before_, true); !found.empty())
-            return found;
+        if (std::string fault = compared(scene_, "as it is", truth_, before_, true); !fault.empty())
+            return fault;
         for (int which = 0;; ++which) {
             auto other = changed(scene_, which);
             if (!other) return "";
             if (!usable(other->scene)) other = changed(scene_, which, true);
             if (other->key == "duration" || !usable(other->scene) || !truth_for(d_, other->scene))
                 continue;
-            ++asked_;
-            if (std::string found =
+            ++examined_;
+            if (std::string fault =
                     compared(other->scene, other->key, levels_of_truth(other->scene),
                              levels(other->scene), false);
-                !found.empty())
-                return found;
+                !fault.empty())
+                return fault;
         }
     }
 
@@ -260,12 +259,12 @@ private:
     Scene scene_;
     std::vector<const Trace*> truth_;
     Levels before_;
-    int asked_ = 0;
+    int examined_ = 0;
 };
 }  // namespace
 
 Verdict feels_every_number(const Case& c) {
-    int asked = 0;
+    int examined = 0;
     std::set<std::string> seen;
     for (const Scene& whole : scenes_of_numbers()) {
         Scene scene = as_far_as(c.scheme, whole);
@@ -274,11 +273,11 @@ Verdict feels_every_number(const Case& c) {
         if (!seen.insert(scene_hash(scene)).second) continue;
         scene.name = whole.name;
         Felt felt(c.scheme, scene);
-        if (const std::string found = felt.wrong(); !found.empty()) return broken(found);
-        asked += felt.asked();
+        if (const std::string fault = felt.wrong(); !fault.empty()) return broken(fault);
+        examined += felt.examined();
     }
-    return asked > 0 ? kept(fmt::format("{} numbers", asked))
-                     : not_asked("no reference represents what it does");
+    return examined > 0 ? kept(fmt::format("{} numbers", examined))
+                        : not_asked("no reference represents what it does");
 }
 
 }  // namespace jvari::bench::check

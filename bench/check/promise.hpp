@@ -8,11 +8,15 @@
 // tests/contract_plugins has a scheme for each that breaks it and keeps all others.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
+#include "bench/store/system/listener.hpp"
+#include "scenes/scene.hpp"
 #include "schemes/making.hpp"
 #include "schemes/run.hpp"
 #include "schemes/scheme.hpp"
@@ -102,5 +106,69 @@ bool is_as_the_scene_says(const Descriptor&, const Scene&);
 bool is_called(const Descriptor&);
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
+
+// ---- The scenes on which promises are examined
+
+// The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1: alone and at rest, heard at its nut
+// and at 0.3 m.
+Scene string_at_rest();
+
+constexpr double contract_tap_rate = 44100;  // [Hz]
+constexpr int contract_modes = 40;
+constexpr long contract_rows = 200;
+constexpr double what_modes_leave_out = 5e-5;  // of the whole string, which a grid nears
+constexpr double what_nodes_leave_out = 1e-2;  // of a force on a profile, at any rate
+
+// the library and a few made here, each of contract_rows; read once
+const std::vector<Scene>& contract_scenes();
+
+// Scenes that need a feature and listen to the motion: two that need little else, then those above,
+// with it where they are without.
+std::vector<Scene> scenes_with(Feature);
+
+// Short and smooth scenes that have between them every number of a scene, each of a size that is
+// heard.
+const std::vector<Scene>& scenes_of_numbers();
+
+// The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds
+// the feature tells the two apart.
+std::vector<Scene> otherwise(const Scene&, Feature);
+
+// ---- The numbers of a scene, from the schema of scene files: a key that the schema gains is here by
+// itself
+
+struct Changed {
+    std::string key;  // "string.0.barrier.1.height"
+    Scene scene;
+};
+
+// The scene with its number `which` changed by a tenth, one that is 0 by a step; each column of a
+// table is one number. Nothing beyond the last.
+std::optional<Changed> changed(const Scene&, int which, bool down = false);
+
+// ---- All promises of one scheme: what `jvari check` prints, writes and returns
+
+struct Answered {
+    const Promise* promise;
+    std::string scene;  // "" where it is asked once
+    Verdict verdict;
+    double seconds;  // [s]
+};
+
+struct Checked {
+    std::string scheme, source;
+    std::vector<Answered> answers;  // in the order of promises(), then of the scenes
+    bool broken() const;
+};
+
+// `answered` is told each promise as soon as all its scenes are.
+Checked check(const Descriptor&, const store::Listener&,
+              const std::function<void(const Checked&, const Promise&)>& answered = {});
+
+std::string line_of(const Checked&, const Promise&);
+std::string conclusion_of(const Checked&);
+std::string json_of(const std::vector<Checked>&);
+// a test suite a scheme, a test case a promise and scene
+std::string junit_of(const std::vector<Checked>&);
 
 }  // namespace jvari::bench::check

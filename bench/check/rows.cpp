@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "bench/check/promise.hpp"
-#include "bench/check/scenes.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/study/judgement.hpp"
 #include "scenes/excitation.hpp"

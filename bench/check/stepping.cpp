@@ -9,7 +9,6 @@
 
 #include "bench/check/allocations.hpp"
 #include "bench/check/promise.hpp"
-#include "bench/check/scenes.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 

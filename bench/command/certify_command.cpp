@@ -72,8 +72,7 @@ std::string entries_text(const Certificate& c) {
     std::string text = t.text(Console::width());
     for (std::size_t i = 0; i < c.entries.size(); ++i)
         if (!c.entries[i].reason.empty())
-            text += wrapped(fmt::format("  {} refused: {}\n", i + 1, c.entries[i].reason),
-                            Console::width());
+            text += fmt::format("  {} refused: {}\n", i + 1, c.entries[i].reason);
     return text;
 }
 

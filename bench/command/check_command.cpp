@@ -1,5 +1,5 @@
 // jvari check: does a scheme, of this tree or of a plugin, keep what every scheme promises?
-#include "bench/check/check.hpp"
+#include "bench/check/promise.hpp"
 
 #include <fmt/core.h>
 

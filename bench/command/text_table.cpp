@@ -37,13 +37,10 @@ std::string TextTable::text(std::size_t width) const {
         left_out = columns[*last].head + (left_out.empty() ? "" : ", ") + left_out;
         kept.erase(last);
     }
-    const bool folded = total() > width;
-    std::string text, above;
+    std::string text;
     const auto line = [&](char mark, const auto& field) {
-        if (folded && field(0) != above) text += "  " + (above = field(0)) + "\n";
-        std::string fields = folded ? "   " : "";
+        std::string fields;
         for (const std::size_t k : kept) {
-            if (folded && k == 0) continue;
             const std::string padding(widths[k] - shown(field(k)), ' ');
             fields += (columns[k].left ? field(k) + padding : padding + field(k)) + "  ";
         }
@@ -56,50 +53,6 @@ std::string TextTable::text(std::size_t width) const {
         text += "Not shown, because the terminal is narrow: " + left_out +
                 ". --json and the tables of --out have them.\n";
     return text;
-}
-
-namespace {
-constexpr std::size_t least_column = 24;
-
-std::size_t last_column(const std::string& line, std::size_t width) {
-    std::size_t column = std::min(line.find_first_not_of(' '), line.size());
-    for (std::size_t gap = line.find("  ", column); gap != std::string::npos;) {
-        const std::size_t next = line.find_first_not_of(' ', gap);
-        if (next == std::string::npos || shown(line.substr(0, next)) + least_column > width) break;
-        column = shown(line.substr(0, next));
-        gap = line.find("  ", next);
-    }
-    return column;
-}
-
-std::string wrapped_line(std::string line, std::size_t width) {
-    const std::string indent(last_column(line, width), ' ');
-    std::string text;
-    while (shown(line) > width) {
-        // of the words that fit, of the first one where none does
-        std::size_t end = std::string::npos;
-        for (std::size_t at = line.find(' ', line.find_first_not_of(' ')); at != std::string::npos;
-             at = line.find(' ', at + 1)) {
-            if (end != std::string::npos && shown(line.substr(0, at)) > width) break;
-            end = at;
-        }
-        const std::size_t rest = line.find_first_not_of(' ', end);
-        if (rest == std::string::npos) break;
-        text += line.substr(0, line.find_last_not_of(' ', end) + 1) + "\n";
-        line = indent + line.substr(rest);
-    }
-    return text + line;
-}
-}  // namespace
-
-std::string wrapped(const std::string& text, std::size_t width) {
-    std::string all;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t end = std::min(text.find('\n', from), text.size());
-        all += wrapped_line(text.substr(from, end - from), width) + (end < text.size() ? "\n" : "");
-        from = end + 1;
-    }
-    return all;
 }
 
 namespace {

@@ -1,8 +1,7 @@
 // A table for the terminal: columns as wide as what stands in them.
 //
 // Where it is wider than the terminal, columns are left out, those of the highest rank first; one
-// of rank 0 stays. Where that is not enough, what the first column says stands on a line above
-// those that it is the same for.
+// of rank 0 stays.
 #pragma once
 
 #include <cstddef>
@@ -29,11 +28,6 @@ struct TextTable {
     // each line with its end; a last one says what was left out
     std::string text(std::size_t width) const;
 };
-
-// A listing: lines that are wider than the terminal go on in the next one, below where their last
-// column begins. A column begins behind two blanks or more; one that leaves less than 24 characters
-// counts as none.
-std::string wrapped(const std::string& text, std::size_t width);
 
 // ---- The table of a comparison for the terminal.
 

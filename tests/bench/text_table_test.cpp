@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -43,40 +42,6 @@ TEST(TextTable, LosesTheHighestRankFirstAndSaysWhich) {
         EXPECT_LE(longest_line(table.text(width)), width + 2) << width;
     for (std::size_t width = 1; width < 60; ++width)
         EXPECT_TRUE(says(table.text(width), "0.0069")) << width;
-}
-
-TEST(TextTable, PutsItsFirstColumnOnALineAboveWhereNothingMoreCanGo) {
-    EXPECT_EQ(table.text(25).substr(0, table.text(25).find("Not shown")),
-              "  scheme\n"
-              "      rate    cost\n"
-              "  modal_two_point\n"
-              "*    44100  0.0069\n"
-              "     88200  \u2264 0.01\n"
-              "  sitar_fdm\n"
-              "!    44100       1\n");
-}
-
-TEST(Wrapped, GoesOnBelowItsLastColumn) {
-    EXPECT_EQ(wrapped("  name   what it is and does, and for whom\n  other  short", 33),
-              "  name   what it is and does, and\n         for whom\n  other  short");
-    // too far right to go on below
-    EXPECT_EQ(wrapped("  a_name_that_is_long  what it is", 30),
-              "  a_name_that_is_long  what it\n  is");
-    EXPECT_EQ(wrapped("a \u2264 b c", 5), "a \u2264 b\nc");
-}
-
-TEST(Wrapped, LosesNoWordAtAnyWidth) {
-    const std::string text =
-        "title\n  modal_two_point  energy balance exact; represents damping\n\n  x  -> y";
-    const auto words = [](const std::string& all) {
-        std::istringstream in(all);
-        return std::vector<std::string>(std::istream_iterator<std::string>(in), {});
-    };
-    EXPECT_EQ(wrapped(text, 1000), text);
-    for (std::size_t width = 1; width < 70; ++width) {
-        EXPECT_EQ(words(wrapped(text, width)), words(text)) << width;
-        if (width > 40) { EXPECT_LE(longest_line(wrapped(text, width)), width); }
-    }
 }
 
 }  // namespace

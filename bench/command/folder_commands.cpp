@@ -1,15 +1,18 @@
-// jvari report: the page and the pictures of a folder of results.
+// The verbs on folders of results: report and diff.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
+#include "bench/diff/difference.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 
 namespace jvari::bench::command {
+
+// ---- jvari report: the page and the pictures of a folder of results.
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -46,6 +49,40 @@ Act report_verb(CLI::App& program) {
     v.flag("--playground", v.r.playground,
            "puts the page that ./play builds into the report, opened on its scene: 1.4 MB more");
     return v.does(report_command, "Example: jvari report report");
+}
+
+// ---- jvari diff: what changed between two folders of results.
+
+namespace {
+struct DiffRequest : Common {
+    std::string before, after;  // folders
+};
+
+int diff_command(DiffRequest r) {
+    const Console console(r.json, r.quiet);
+    const diff::Folder before = diff::read_folder(r.before), after = diff::read_folder(r.after);
+    const diff::Difference d = diff::difference(before, after);
+    console.print(diff::text_of(d, before, after));
+    console.print_json(diff::json_of(d, before, after));
+    return d.worse() ? exit_code::run_failed : exit_code::done;
+}
+}  // namespace
+
+Act diff_verb(CLI::App& program) {
+    Verb<DiffRequest> v(
+        program, "diff",
+        "two folders of results: what got worse, what got better, what only one has");
+    v.option("before", v.r.before, {"A"}, "a folder that compare or suite wrote")->required();
+    v.option("after", v.r.after, {"B"}, "another, of the same scene or suite")->required();
+    return v.does(diff_command,
+                  "Example: jvari diff results/smoke report\n"
+                  "\n"
+                  "Exit code 4 where something got worse: an error by more than noise and "
+                  "certificates, a certificate, a status, an outcome of a "
+                  "map,\n"
+                  "or the cost of a scheme beyond its quartiles and the drift of all; and where a "
+                  "cell of A is missing in B. Costs of two machines\n"
+                  "are not compared.");
 }
 
 }  // namespace jvari::bench::command

@@ -1,8 +1,9 @@
-// jvari judge: how wrong is a trace that any program made?
+// The verbs for a scheme of one's own that is another program: export and judge.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "bench/command/console.hpp"
 #include "bench/command/results_folder.hpp"
@@ -10,9 +11,68 @@
 #include "bench/command/verbs.hpp"
 #include "bench/judge/candidate.hpp"
 #include "bench/judge/foreign_trace.hpp"
+#include "bench/judge/problem_file.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 
 namespace jvari::bench::command {
+
+// ---- jvari export: the problem that a scheme of one's own solves, as arrays.
+
+namespace {
+struct ExportRequest : Common, compare::CompareRequest {
+    double rate = 44100;  // [Hz]
+    int modes_of_each = 0;
+    bool without_reference = false;
+};
+
+int export_command(ExportRequest r) {
+    const Console console(r.json, r.quiet);
+    r.rates = {r.rate};
+    if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
+    store::must_be_writable(r.out);
+    const judge::Exported problem = judge::exported(r);
+    std::optional<study::Truth> truth;
+    if (!r.without_reference)
+        truth = judge::reference_of(r, problem, compare::Catalogue(), console);
+    store::write_fresh(r.out, judge::problem_json(problem, truth ? &*truth : nullptr));
+    console.print(fmt::format(
+        "{} at {:.12g} Hz, {:.12g} rows a second{}", problem.scene.name, r.rate,
+        problem.settings.tap_rate,
+        truth ? "; reference: " + truth->reference.choice.name() + ", " + truth->said : ""));
+    console.print("written: " + r.out);
+    console.print_json(
+        store::indented({{"scene", problem.scene.name}, {"status", "ok"}, {"files", {r.out}}}));
+    return exit_code::done;
+}
+}  // namespace
+
+Act export_verb(CLI::App& program) {
+    Verb<ExportRequest> v(
+        program, "export",
+        "the problem as arrays, for a scheme of one's own, and the reference trace");
+    v.scene(v.r.scene);
+    v.set(v.r.set);
+    v.modes(v.r.modes_of_each);
+    v.option("--rate", v.r.rate, hertz, "steps per second of the scheme; 44100 where absent");
+    v.option("--tap-rate", v.r.tap_rate, hertz,
+             "rows per second; 44100 where the rate is a multiple of it, else the rate");
+    v.duration(v.r.duration);
+    v.option("--tap", v.r.tap, {"NAME"}, "of the scene's taps this one alone");
+    v.flag("--without-reference", v.r.without_reference, "the problem alone: no reference is run");
+    v.option("--out", v.r.out, {"FILE"}, "the file, JSON")->required();
+    return v.does(export_command,
+                  "Example: jvari export tanpura_c3_release --duration 0.05 --out problem.json\n"
+                  "\n"
+                  "The file holds frequencies, decay rates, weights of contact, thread, pluck and "
+                  "taps, and the reference trace with its\n"
+                  "uncertainty: what a script of a modal scheme or a grid begins with. "
+                  "docs/own-scheme/README.md has the unit, the shape and the\n"
+                  "equation of each field, and schemes in Python, Octave, Julia and C to copy. "
+                  "`jvari judge` says how wrong their traces are.");
+}
+
+// ---- jvari judge: how wrong is a trace that any program made?
 
 namespace {
 struct JudgeRequest : Running, compare::CompareRequest {
@@ -74,7 +134,7 @@ int judge_command(JudgeRequest r) {
     const std::string verdict = judge::verdict_of(c);
     std::vector<study::Record> own;
     std::ranges::copy_if(c.outcome.records, std::back_inserter(own),
-                         [](const study::Record& r) { return judge::is_candidate(r.cell); });
+                         [](const study::Record& one) { return judge::is_candidate(one.cell); });
     const int code = code_of(own);
     console.print(headline_text(results.cells, Console::width()) + "\n" + verdict);
     if (!r.out.empty()) console.print("written: " + r.out);

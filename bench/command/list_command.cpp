@@ -1,0 +1,308 @@
+// jvari list: what exists, and which scheme represents which scene. The text is made of the JSON.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/command/console.hpp"
+#include "bench/command/verbs.hpp"
+#include "bench/compare/catalogue.hpp"
+#include "bench/store/json.hpp"
+#include "bench/study/columns.hpp"
+#include "bench/suite/facet.hpp"
+#include "bench/suite/suite_file.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/controls.hpp"
+#include "schemes/driver/pairings.hpp"
+#include "schemes/making.hpp"
+
+namespace jvari::bench::command {
+
+namespace {
+using Json = nlohmann::ordered_json;
+using Schemes = std::vector<const Descriptor*>;
+
+struct ListRequest : Common {
+    std::string what;  // "": everything
+};
+
+// ---- The lists as JSON
+
+Json schemes_json(const Schemes& schemes) {
+    Json all = Json::array();
+    for (const Descriptor* d : schemes) {
+        Json approximates = Json::array(), options = Json::array();
+        for (const Approximation& a : d->approximates)
+            approximates.push_back({{"feature", name_of(a.feature)}, {"fact", a.fact.name}});
+        for (const Option& o : d->options) options.push_back(o.name);
+        all.push_back({{"name", d->name},
+                       {"source", d->source},
+                       {"represents", compare::names_in(d->represents)},
+                       {"approximates", approximates},
+                       {"note", d->note},
+                       {"options", options},
+                       {"control", is_control(*d)},
+                       {"limit", d->limit.name ? Json(d->limit.name) : Json()},
+                       {"balance", d->balance == Balance::exact          ? "exact"
+                                   : d->balance == Balance::to_tolerance ? "to tolerance"
+                                                                         : "none"},
+                       {"clock", d->clock == Clock::continuous ? "continuous" : "stepped"}});
+    }
+    return all;
+}
+
+Json pairings_json() {
+    Json all = Json::array();
+    for (const Pairing& p : pairings())
+        all.push_back(
+            {{"string", p.string}, {"rule", p.rule}, {"scheme", p.scheme}, {"options", p.options}});
+    return all;
+}
+
+// Schemes that have the same option share its entry.
+Json options_json(const Schemes& schemes) {
+    Json all = Json::array();
+    for (const Descriptor* d : schemes)
+        for (const Option& o : d->options) {
+            Json one{{"name", o.name},
+                     {"default", o.fallback},
+                     {"meaning", o.meaning},
+                     {"choices", Json::array()},
+                     {"schemes", Json::array()}};
+            for (const auto& word : o.words()) one["choices"].push_back(word);
+            auto same = std::ranges::find_if(all, [&one](Json listed) {
+                listed["schemes"] = Json::array();
+                return listed == one;
+            });
+            if (same == all.end()) same = all.insert(all.end(), one);
+            (*same)["schemes"].push_back(d->name);
+        }
+    return all;
+}
+
+Json quantity_json(const std::string& names, const std::string& unit, const std::string& meaning) {
+    return {{"name", names}, {"unit", unit}, {"meaning", meaning}};
+}
+
+Json facts_json() {
+    Json all = Json::array();
+    for (const FactName& f : facts::table) all.push_back(quantity_json(f.name, f.unit, f.meaning));
+    all.push_back(quantity_json("largest_over_bound", "",
+                                "largest value of a tap over what the energy of the scene can make "
+                                "of it [1]; a run beyond the root of ten has diverged"));
+    return all;
+}
+
+Json columns_json() {  // of cells.csv
+    Json all = Json::array();
+    for (const study::Column& c : study::columns()) {
+        std::string name = c.name;
+        if (name == "{m}") {
+            for (const study::Measure& m : study::measures())
+                all.push_back(quantity_json(m.column, m.unit, m.title));
+            continue;
+        }
+        for (const auto& [slot, word] : {std::pair{"{m}", "<error>"},
+                                         {"{d}", "<error>"},
+                                         {"{M}", "<error_in_model>"},
+                                         {"{w}", "<window>"},
+                                         {"{f}", "<fact>"},
+                                         {"{t}", "<tap>"}})
+            if (const auto at = name.find(slot); at != std::string::npos) name.replace(at, 3, word);
+        if (*c.meaning) all.push_back(quantity_json(name, c.unit, c.meaning));
+        else all.back()["name"] = all.back()["name"].get<std::string>() + ", " + name;
+    }
+    return all;
+}
+
+Json taps_json() {
+    constexpr std::pair<Quantity, const char*> taps[] = {
+        {Quantity::displacement, "of the string at a place, positive away from the barrier"},
+        {Quantity::velocity, "of the string at a place"},
+        {Quantity::nut_force,
+         "of the string on its end at x = length, which on a guitar is the saddle"},
+        {Quantity::bridge_force, "of the barriers on the string, the mean over a row"},
+        {Quantity::thread_force, "of the thread on the string, the mean over a row"},
+        {Quantity::driving_force,
+         "-(bridge_force + thread_force): of the string on what it touches"}};
+    Json all = Json::array();
+    for (const auto& [q, meaning] : taps)
+        all.push_back(quantity_json(name_of(q), unit_of(q), meaning));
+    return all;
+}
+
+using Scenes = std::vector<std::pair<std::string, Scene>>;  // library name, scene
+Json scenes_json(Scenes& readable) {
+    Json all = Json::array();
+    for (const std::string& name : library_scenes()) try {
+            const Scene& scene = readable.emplace_back(name, read_scene(name, {})).second;
+            Json taps = Json::array();
+            for (const Tap& tap : scene.taps)
+                taps.push_back({{"name", tap.name},
+                                {"quantity", name_of(tap.quantity)},
+                                {"unit", unit_of(tap.quantity)}});
+            all.push_back({{"name", name},
+                           {"source", scene.source},
+                           {"duration", scene.duration},
+                           {"strings", scene.strings.size()},
+                           {"needs", compare::names_in(needed_by(scene))},
+                           {"taps", taps}});
+        } catch (const std::runtime_error& e) {
+            all.push_back({{"name", name}, {"error", e.what()}});
+        }
+    return all;
+}
+
+Json matrix_json(const Scenes& scenes, const Schemes& schemes) {
+    Json all = Json::array();
+    for (const auto& [name, scene] : scenes)
+        for (const Descriptor* d : schemes) {
+            const Features missing = needed_by(scene) - d->represents;
+            all.push_back({{"scene", name},
+                           {"scheme", d->name},
+                           {"represents", missing.empty()},
+                           {"missing", compare::names_in(missing)}});
+        }
+    return all;
+}
+
+// The scenes that a scheme represents in one entry.
+Json by_scheme(const Json& matrix) {
+    Json scenes = Json::object(), all = Json::array();
+    for (const Json& m : matrix)
+        if (Json& of = scenes[m["scheme"].get<std::string>()]; m["represents"])
+            of.push_back(m["scene"]);
+    for (const auto& [scheme, names] : scenes.items())
+        all.push_back({{"scheme", scheme}, {"scenes", names}});
+    return all;
+}
+
+Json suites_json() {
+    Json all = Json::array();
+    for (const std::string& name : suite::library_suites()) try {
+            const suite::Suite suite = suite::read_suite(name);
+            all.push_back({{"name", name},
+                           {"question", suite.question},
+                           {"source", suite.source},
+                           {"sets", suite.sets.size()}});
+        } catch (const std::runtime_error& e) {
+            all.push_back({{"name", name}, {"error", e.what()}});
+        }
+    return all;
+}
+
+Json table_json(const std::vector<store::KeyWords>& keys) {
+    Json all = Json::array();
+    for (const store::KeyWords& k : keys) {
+        all.push_back({{"key", k.name},
+                       {"value", k.value},
+                       {"needed", k.needed},
+                       {"absent", k.absent},
+                       {"meaning", k.meaning}});
+        if (!k.below.empty()) all.back()["keys"] = table_json(k.below);
+    }
+    return all;
+}
+
+Json keys_json() {  // of a suite file
+    Json all = Json::object();
+    for (const suite::TableWords& t : suite::suite_keys())
+        all[t.table.empty() ? "file" : t.table] = table_json(t.keys);
+    for (const suite::Facet& f : suite::facets())
+        all["measure"].push_back({{"name", f.name}, {"meaning", f.meaning}});
+    return all;
+}
+
+// ---- The same as text
+
+std::string field_text(const std::string& key, const Json& value) {
+    if (value.is_boolean() || value.is_null()) return value == true ? key : "";
+    if (!value.is_array()) return value.is_string() ? value.get<std::string>() : value.dump();
+    return fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), ", "));
+}
+
+using Rows = std::vector<std::vector<std::string>>;
+void add_rows(Rows& rows, const Json& list, const std::string& above) {
+    for (const Json& entry : list) {
+        std::vector<std::string> row;
+        for (const auto& [key, value] : entry.items()) {
+            if (key != "keys") row.push_back((row.empty() ? above : "") + field_text(key, value));
+            if (key == "source") break;
+        }
+        rows.push_back(row);
+        if (entry.contains("keys")) add_rows(rows, entry["keys"], row.front() + ".");
+    }
+}
+
+// A line for each entry: its fields as far as `source`, in columns. What follows a source is for
+// --json. The keys of a table within a table stand below it, behind its name and a dot.
+std::string text_of(const std::string& title, const Json& list) {
+    constexpr std::size_t widest = 32;  // a longer field moves the rest of its line
+    std::string text;
+    if (list.is_object()) {
+        for (const auto& [name, inner] : list.items()) text += text_of(title + ": " + name, inner);
+        return text;
+    }
+    Rows rows;
+    add_rows(rows, list, "");
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t k = 0; k < row.size(); ++k)
+            widths[k] = std::max(widths[k], std::min(row[k].size(), widest));
+    }
+    std::string first;  // stands once above those that have the same
+    for (auto& row : rows) {
+        std::string line;
+        if (std::exchange(first, row[0]) == row[0]) row[0] = "";
+        for (std::size_t k = 0; k < row.size(); ++k)
+            line += fmt::format("  {:<{}}", row[k], widths[k]);
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return title + "\n" + (rows.empty() ? "  none\n" : text);
+}
+
+int list_command(ListRequest r) {
+    const Console console(r.json, false);  // --quiet leaves the list, which is all there is
+    const compare::Catalogue catalogue;
+    Schemes both = catalogue.schemes;
+    both.insert(both.end(), catalogue.references.begin(), catalogue.references.end());
+    Json json = Json::object();
+    Scenes scenes;
+    const auto add = [&](const char* name, const char* what, auto list) {
+        if (r.what.empty() || r.what == what) json[name] = list();
+    };
+    add("schemes", "schemes", [&] { return schemes_json(catalogue.schemes); });
+    add("pairings", "schemes", pairings_json);
+    add("references", "references", [&] { return schemes_json(catalogue.references); });
+    add("options", "options", [&] { return options_json(both); });
+    add("facts", "facts", facts_json);
+    add("scenes", "scenes", [&] { return scenes_json(scenes); });
+    add("taps", "taps", taps_json);
+    add("suites", "suites", suites_json);
+    add("keys", "keys", keys_json);
+    add("columns", "columns", columns_json);
+    add("matrix", "scenes", [&] { return matrix_json(scenes, both); });
+    std::string text;
+    for (const auto& [what, list] : json.items())
+        text += (text.empty() ? "" : "\n") +
+                (what == "matrix" ? text_of("which scheme represents which scene", by_scheme(list))
+                                  : text_of(what, list));
+    text.pop_back();
+    console.print(text);
+    console.print_json(store::indented(json));
+    return exit_code::done;
+}
+}  // namespace
+
+Act list_verb(CLI::App& program) {
+    Verb<ListRequest> v(program, "list", "what exists, and which scheme represents which scene");
+    v.option("what", v.r.what,
+             {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps",
+                                     "suites", "keys", "columns"})},
+             "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or "
+             "columns (of cells.csv); absent: all, and the matrix");
+    return v.does(list_command, "Example: jvari list schemes\n\n--json has all that is known.");
+}
+
+}  // namespace jvari::bench::command
