@@ -45,7 +45,7 @@ unseen "grids see contacts and the seam" "$(schemes 'modal|spatial|sitar')" $(fi
 unseen "sitars see contacts and the seam" "$(schemes 'modal|spatial|grid')" $(files schemes/sitar)
 above=
 # each room of bench sees itself and those after it here
-for room in command report trim check suite map diff judge compare study trust sound store; do
+for room in command report trim check suite map diff judge compare study trust store; do
     [ -z "$above" ] || unseen "bench/$room sees nothing of the rooms above it" "bench/($above)/" \
         $(files bench/$room)
     above=${above:+$above|}$room
@@ -83,8 +83,8 @@ only CLI11 'CLI/' 'bench/command/'
 only JSON 'nlohmann/' 'bench/'
 only fmt 'fmt/' 'bench/'
 only xxHash 'xxhash' 'bench/store/checksum'
-only libsndfile 'sndfile' 'bench/(store|sound)/'
-only libsamplerate 'samplerate' 'bench/sound/'
+only libsndfile 'sndfile' 'bench/(store/|command/player)'
+only libsamplerate 'samplerate' 'bench/command/player'
 only pybind11 'pybind11/' 'python/'
 # -inl: part of a file of its own folder, compiled once for each set of instructions
 forbid "no header leaks a library" \

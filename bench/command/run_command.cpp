@@ -8,13 +8,13 @@
 #include <optional>
 
 #include "bench/command/console.hpp"
+#include "bench/command/player.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/run_page.hpp"
 #include "bench/report/vega.hpp"
-#include "bench/sound/audio_file.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/trace_file.hpp"
@@ -118,9 +118,8 @@ Json json_of(const study::Summary& s) {
 }
 
 // Before a long run: that what it gives can be written. The sound of it where --out names one.
-std::optional<sound::Player> checked_output(const RunRequest& r, const Scene& scene,
-                                            double tap_rate) {
-    if (sound::is_audio(r.out)) return sound::Player(r.out, scene, tap_rate);
+std::optional<Player> checked_output(const RunRequest& r, const Scene& scene, double tap_rate) {
+    if (is_audio(r.out)) return Player(r.out, scene, tap_rate);
     if (!r.out.empty()) store::check_trace_file(r.out);
     return std::nullopt;
 }
@@ -178,9 +177,9 @@ int run_command(RunRequest r) {
     const Descriptor& d = catalogue.find(r.scheme);
     // Drawn are the scene's own taps, played those that are heard: a run of both has the former
     // first.
-    const bool played = sound::is_audio(r.out);
+    const bool played = is_audio(r.out);
     const Scene own = compare::load_scene(r.scene, r.set, r.duration),
-                heard = played ? sound::audible(own) : own;
+                heard = played ? audible(own) : own;
     const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
     Scene scene = heard;
     scene.taps.insert(scene.taps.begin(), own.taps.begin(),
@@ -189,7 +188,7 @@ int run_command(RunRequest r) {
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
     const std::optional<report::Vega> vega = vega_for(r);
-    const std::optional<sound::Player> player = checked_output(r, heard, settings.tap_rate);
+    const std::optional<Player> player = checked_output(r, heard, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
                                             scene.duration, settings.tap_rate));

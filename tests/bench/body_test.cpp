@@ -7,8 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "bench/sound/audio_file.hpp"
-#include "bench/sound/radiation.hpp"
+#include "bench/command/player.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/c3.hpp"
@@ -19,7 +18,7 @@ namespace jvari {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace bench::sound;
+using namespace bench::command;
 using namespace synthetic;
 
 struct Folder {

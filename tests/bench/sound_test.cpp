@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bench/sound/audio_file.hpp"
+#include "bench/command/player.hpp"
 #include "bench/store/base64.hpp"
 #include "tests/c3.hpp"
 #include "tests/says.hpp"
@@ -24,8 +24,8 @@ std::vector<double> sine(double amplitude, double offset, int count) {
     return signal;
 }
 
-bench::sound::Played played(const std::vector<double>& force, double rate) {
-    return bench::sound::levelled({bench::sound::without_body(force, rate)});
+bench::command::Played played(const std::vector<double>& force, double rate) {
+    return bench::command::levelled({bench::command::without_body(force, rate)});
 }
 
 // ---- What a player plays
@@ -33,7 +33,7 @@ bench::sound::Played played(const std::vector<double>& force, double rate) {
 double gain_at(double hertz) {  // of what is played, at 44.1 kHz
     std::vector<double> force;
     for (int n = 0; n < 44100; ++n) force.push_back(3 * std::sin(2 * M_PI * hertz * n / 44100));
-    const bench::sound::Played p = played(force, 44100);
+    const bench::command::Played p = played(force, 44100);
     double most = 0;
     for (int n = 22050; n < 44100; ++n) most = std::max(most, std::abs(p.channels[0][n]));
     return 20 * std::log10(most * p.full_scale / 3);  // [dB]
@@ -44,35 +44,35 @@ TEST(Played, TakesTheSteadyPartAwayAndLowersTheHighs) {
     EXPECT_NEAR(gain_at(3183), 10 * std::log10(0.5), 0.2);  // 1/(2 pi 50 us)
     EXPECT_NEAR(gain_at(300), -0.06, 0.03);
     EXPECT_LT(gain_at(15000), -10);
-    const bench::sound::Played still = played(std::vector<double>(1000, 5.0), 44100);
-    EXPECT_EQ(bench::sound::level_text(still), "silence");
+    const bench::command::Played still = played(std::vector<double>(1000, 5.0), 44100);
+    EXPECT_EQ(bench::command::level_text(still), "silence");
     EXPECT_EQ(still.channels[0], std::vector<double>(1000, 0.0));
     // on a steady 100 N, which is there from the start
-    const bench::sound::Played beside = played(sine(1, 100, 44100), 44100);
+    const bench::command::Played beside = played(sine(1, 100, 44100), 44100);
     EXPECT_NEAR(beside.full_scale, played(sine(1, 0, 44100), 44100).full_scale, 1e-9);
 }
 
 TEST(Played, StandsOneDecibelBelowFullScaleWhateverItsForce) {
-    const bench::sound::Played p = played(sine(1, 0, 4410), 44100),
-                               loud = played(sine(1e3, 0, 4410), 44100);
+    const bench::command::Played p = played(sine(1, 0, 4410), 44100),
+                                 loud = played(sine(1e3, 0, 4410), 44100);
     EXPECT_NEAR(p.peak, std::pow(10, -1 / 20.0), 1e-15);
     EXPECT_NEAR(p.rms * p.full_scale, std::sqrt(0.5), 0.02);
     EXPECT_EQ(p.clipped, 0);
     EXPECT_NEAR(loud.full_scale, 1e3 * p.full_scale, 1e-9);
     for (std::size_t n = 0; n < p.channels[0].size(); ++n)
         ASSERT_NEAR(loud.channels[0][n], p.channels[0][n], 1e-12);
-    bench::sound::Played over = p;
+    bench::command::Played over = p;
     over.clipped = 3;
-    EXPECT_TRUE(says(bench::sound::level_text(over), "3 samples clipped"));
+    EXPECT_TRUE(says(bench::command::level_text(over), "3 samples clipped"));
 }
 
 TEST(Played, ReadsBackToTheLastBit) {
-    const bench::sound::Played p = played(sine(1, 0, 4410), 48000);
+    const bench::command::Played p = played(sine(1, 0, 4410), 48000);
     const auto folder =
         std::filesystem::temp_directory_path() / ("jvari-played-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
     const auto path = folder / "x.wav";
-    bench::sound::write_audio(path, 48000, p.channels);
+    bench::command::write_audio(path, 48000, p.channels);
     SF_INFO info{};
     SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
     ASSERT_TRUE(file);
@@ -87,10 +87,10 @@ TEST(Played, ReadsBackToTheLastBit) {
 }
 
 TEST(Played, IsTheDrivingForceWhereSomethingIsDrivenElseTheForceOnTheNut) {
-    EXPECT_EQ(bench::sound::audible(c3_pluck()).taps.at(0).quantity, Quantity::driving_force);
-    EXPECT_EQ(bench::sound::audible(c3_free()).taps.at(0).quantity, Quantity::nut_force);
-    EXPECT_EQ(bench::sound::audible(c3_pluck()).taps.size(), 1u);
-    EXPECT_FALSE(bench::sound::audible(c3_pluck()).taps.at(0).string);
+    EXPECT_EQ(bench::command::audible(c3_pluck()).taps.at(0).quantity, Quantity::driving_force);
+    EXPECT_EQ(bench::command::audible(c3_free()).taps.at(0).quantity, Quantity::nut_force);
+    EXPECT_EQ(bench::command::audible(c3_pluck()).taps.size(), 1u);
+    EXPECT_FALSE(bench::command::audible(c3_pluck()).taps.at(0).string);
 }
 
 TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10

@@ -13,11 +13,10 @@
 #include <span>
 #include <string>
 #include <vector>
-
 #include "scenes/scene.hpp"
 #include "schemes/trace.hpp"
 
-namespace jvari::bench::sound {
+namespace jvari::bench::command {
 
 bool is_audio(const std::filesystem::path&);  // by its extension
 
@@ -55,4 +54,15 @@ std::string level_text(const Played&);
 void write_audio(const std::filesystem::path&, double rate,
                  const std::vector<std::vector<double>>& channels);
 
-}  // namespace jvari::bench::sound
+// ---- The body
+
+// The impulse response in a .wav of one channel, at `rate` [Hz]. A file holds h[n] = h(n T) T, so
+// that its sum is the response to a steady force at any rate. One of another rate is resampled by
+// libsamplerate, and comes later by 64 rows of its own. Throws UsageError naming `key`.
+std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key);
+
+// The body's response for each tap that it answers: the driving force, and the force on the nut, of
+// all strings. Throws UsageError.
+std::vector<std::vector<double>> body_responses(const Scene&, double rate);
+
+}  // namespace jvari::bench::command
