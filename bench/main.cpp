@@ -15,7 +15,7 @@
 
 namespace {
 int fail(bool json, int code, const char* status, const std::string& message) {
-    jvari::bench::command::tell("jvari: " + message);
+    jvari::bench::command::write_error("jvari: " + message);
     try {
         jvari::bench::command::Console(json, false)
             .print_json(jvari::bench::store::indented(
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
     if (json) command::keep_standard_output();
     std::atexit([] {
         if (ended) return;
-        command::tell(
+        command::write_error(
             "jvari: a plugin or a library called exit() before the work was done; nothing of it is "
             "to be trusted");
         _exit(command::exit_code::run_failed);

@@ -55,7 +55,7 @@ inline void add_plugin(const std::string& path) {
     all.push_back(file);
     const compare::Catalogue loaded(all);
     all_plugins() = all;
-    compare::note_slow_plugins(Ear());
+    compare::note_slow_plugins(PythonListener());
 }
 
 inline std::vector<std::string> scheme_names() {
@@ -66,7 +66,7 @@ inline std::vector<std::string> scheme_names() {
     return names;
 }
 
-struct Job {  // what a run is asked for, its scene aside
+struct Job {  // a run without its scene
     const Descriptor* scheme;
     Settings settings;
 };
@@ -85,7 +85,7 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
                                          const py::dict& options) {
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
-    compare::note_scene(scene, Ear());
+    compare::note_scene(scene, PythonListener());
     const Job job = job_of(scheme, rate, tap_rate, modes, options);
     return unlocked([&] {
         RunOptions o;
@@ -119,7 +119,7 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
                 static_cast<py::ssize_t>(taps)});
     double* to = out.mutable_data();
     unlocked([&] {
-        store::side_by_side(std::vector<double>(all.size(), 1), jobs, Ear(), "runs",
+        store::side_by_side(std::vector<double>(all.size(), 1), jobs, PythonListener(), "runs",
                             [&](std::size_t i, store::Done& done) {
                                 RunOptions o;
                                 o.progress = [&done](long n, long of) {
@@ -164,7 +164,8 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
     const compare::Catalogue catalogue(plugins());
     return rows_of(unlocked(
         [&] {
-            return compare::with_bounds(compare::cells_of(compare::compare(r, catalogue, Ear())));
+            return compare::with_bounds(
+                compare::cells_of(compare::compare(r, catalogue, PythonListener())));
         },
         [] { return std::string("nothing is kept but long runs of references"); }));
 }
@@ -174,7 +175,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
     const study::Plan plan = suite::plan_of(suite, catalogue, files);
-    for (const std::string& note : plan.notes) Ear().note(note);
+    for (const std::string& note : plan.notes) PythonListener().note(note);
     const std::filesystem::path folder = out;
     const auto below = [&folder](const char* name) {
         if (!folder.empty()) std::filesystem::create_directories(folder / name);
@@ -183,10 +184,11 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
         [&] {
-            const map::MapRun maps =
-                map::run_maps(suite.maps, catalogue,
-                              {store::program_identity(files), folder, resume, jobs}, Ear());
-            const study::Study run = study::run(plan, below("cells"), resume, jobs, Ear());
+            const map::MapRun maps = map::run_maps(
+                suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs},
+                PythonListener());
+            const study::Study run =
+                study::run(plan, below("cells"), resume, jobs, PythonListener());
             tables.emplace_back(
                 "cells",
                 compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
@@ -234,8 +236,8 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
     std::string toml;
     const bool found = unlocked(
         [&] {
-            trim::Judge judge(r, catalogue, Ear());
-            const trim::Trimmed t = trim::trimmed(judge, r, catalogue, Ear());
+            trim::Judge judge(r, catalogue, PythonListener());
+            const trim::Trimmed t = trim::trimmed(judge, r, catalogue, PythonListener());
             path = trim::path_table(t, judge);
             needs = trim::needs_table(t, judge);
             if (t.path.found) toml = trim::trimmed_toml(t, judge);

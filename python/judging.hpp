@@ -12,14 +12,14 @@
 
 namespace jvari::python {
 
-inline void know(const std::string& guest) {
+inline void add_to_plugins(const std::string& guest) {
     if (std::ranges::find(all_plugins(), guest) == all_plugins().end())
         all_plugins().push_back(guest);
 }
 
-inline double tap_rate_of(const std::vector<double>& rates, std::optional<double> asked) {
+inline double tap_rate_of(const std::vector<double>& rates, std::optional<double> wanted) {
     compare::CompareRequest r;
-    r.tap_rate = asked;
+    r.tap_rate = wanted;
     return compare::tap_rate_for(r, rates);
 }
 
@@ -36,22 +36,22 @@ inline py::object scheme_decorator(const std::string& name,
                                    const std::vector<std::string>& represents,
                                    const std::string& balance, const std::string& source,
                                    bool compiled) {
-    return py::cpp_function([=](const py::object& made_by) {
+    return py::cpp_function([=](const py::object& python_class) {
         const std::string path = "scheme " + name;
         if (!find_guest(path))
             for (const std::string& known : scheme_names())
                 if (known == name)
                     throw store::UsageError("scheme \"" + name +
                                             "\": there is a scheme of the name already");
-        know(add_class(made_by, name, represents, balance, source, compiled));
-        return made_by;
+        add_to_plugins(add_class(python_class, name, represents, balance, source, compiled));
+        return python_class;
     });
 }
 
 inline py::list check_rows_of(const std::string& scheme) {
     const compare::Catalogue catalogue(plugins());
     const Descriptor& d = catalogue.find(scheme);
-    const check::Checked checked = unlocked([&] { return check::check(d, Ear()); });
+    const check::Checked checked = unlocked([&] { return check::check(d, PythonListener()); });
     py::list rows;
     for (const check::Answered& a : checked.answers) {
         py::dict row;
@@ -146,7 +146,7 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces,
     return rows_of(unlocked([&] {
         study::Kept nowhere;
         return compare::with_bounds(
-            compare::cells_of(judge::judge(std::move(c), r, others, Ear(), nowhere)));
+            compare::cells_of(judge::judge(std::move(c), r, others, PythonListener(), nowhere)));
     }));
 }
 

@@ -61,7 +61,7 @@ inline void look_for_signals() {
     if (PyErr_Occurred() || PyErr_CheckSignals() != 0) throw Raised(py::error_already_set());
 }
 
-class Ear : public bench::store::Listener {
+class PythonListener : public bench::store::Listener {
     struct Signals : bench::store::Progress {
         void show(double, const std::string&) override { look_for_signals(); }
     };

@@ -28,7 +28,7 @@ void raise_as(const py::handle& type, const std::exception& e) {
     PyErr_SetString(type.ptr(), e.what());
 }
 
-// The types lie in the module, which outlives whoever calls it.
+// The types lie in the module, which outlives all its callers.
 void translate_exceptions(py::module_& m) {
     static const py::handle usage =
         py::exception<bench::store::UsageError>(m, "UsageError", PyExc_ValueError).release();
@@ -81,7 +81,7 @@ void add_scene(py::module_& m) {
         .def(
             "toml", [](const NamedScene& s) { return write_scene(s.scene); },
             "The scene as a file that reads back as the same.")
-        .def("__repr__", &NamedScene::said);
+        .def("__repr__", &NamedScene::repr);
     m.def(
         "scene", [](const std::string& name) { return NamedScene::of(name, {}); }, py::arg("name"),
         "A scene file, or a scene of the library. Raises SceneError.");
@@ -225,7 +225,8 @@ void add_own_schemes(py::module_& m) {
           py::arg("source") = "a scheme in Python", py::arg("compiled") = false,
           "A decorator that makes a class a scheme: __init__(self, problem), and advance(self, "
           "rows), which gives rows x taps, or that "
-          "and rows x 3 energies [J]. represents: features as `jvari list schemes` names them. "
+          "and rows x 3 energies [J]. represents: features as `jvari list schemes --json` names "
+          "them. "
           "compiled: its loop is (Numba), and its "
           "cost is compared.");
     m.def("check", &python::check_rows_of, py::arg("scheme"),

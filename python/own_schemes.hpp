@@ -1,5 +1,5 @@
 // Schemes written in Python, and what they are made from: the problem as NumPy arrays. A class is
-// made once for a problem and asked for its rows, block by block; whatever it raises ends that run
+// instantiated once for a problem and advanced block by block. What it raises ends that run
 // and stands in its row as the reason.
 #pragma once
 
@@ -49,7 +49,7 @@ inline py::object namespace_of(const jvari_problem& p) {
 
 struct PythonClass {  // of a scheme, kept for the life of the process as its guest is
     std::string name, source;
-    py::object made_by;
+    py::object python_class;
 };
 
 // The one way into the code of a scheme: with the interpreter's lock. What it raises is a failure
@@ -143,8 +143,8 @@ private:
         while (ends() && !out.stopped()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     void make() {
-        self_ = in_scheme(of_.name,
-                          [this] { return held(of_.made_by(namespace_of(problem_.arrays()))); });
+        self_ = in_scheme(
+            of_.name, [this] { return shared(of_.python_class(namespace_of(problem_.arrays()))); });
     }
     template <class Act>
     void attempt(Act act) noexcept {  // nothing more once it has failed
@@ -153,7 +153,7 @@ private:
             act();
         } catch (...) { failure_ = std::current_exception(); }
     }
-    static std::shared_ptr<py::object> held(py::object o) {  // to be let go of on any thread
+    static std::shared_ptr<py::object> shared(py::object o) {  // to be let go of on any thread
         return {new py::object(std::move(o)), [](py::object* it) {
                     const py::gil_scoped_acquire lock;
                     delete it;
@@ -205,11 +205,11 @@ inline Features features_of(const std::vector<std::string>& names) {
 }
 
 // Registers the class in place of one of the same name; returns the path that its guest has.
-inline std::string add_class(const py::object& made_by, const std::string& name,
+inline std::string add_class(const py::object& python_class, const std::string& name,
                              const std::vector<std::string>& represents, const std::string& balance,
                              const std::string& source, bool compiled) {
     // NOLINT(cppcoreguidelines-owning-memory): as its guest, to the end
-    const auto* kept = new PythonClass{name, source, made_by};
+    const auto* kept = new PythonClass{name, source, python_class};
     Descriptor d{};
     d.name = kept->name.c_str(), d.source = kept->source.c_str();
     d.represents = features_of(represents);
@@ -229,7 +229,7 @@ inline std::string add_class(const py::object& made_by, const std::string& name,
     };
     std::string text = name;
     try {
-        text += py::module_::import("inspect").attr("getsource")(made_by).cast<std::string>();
+        text += py::module_::import("inspect").attr("getsource")(python_class).cast<std::string>();
         // typed into a console: nothing is kept of it but by its name and this process
     } catch (py::error_already_set&) {
         text += std::to_string(reinterpret_cast<std::uintptr_t>(kept));

@@ -52,7 +52,7 @@ inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& opti
     return all;
 }
 
-struct NamedScene {  // a scene as it was asked for, and what that is
+struct NamedScene {  // a scene with the name and overrides that it was read by
     std::string name;
     std::vector<std::string> set;  // "key.path=value"
     Scene scene;
@@ -69,7 +69,7 @@ struct NamedScene {  // a scene as it was asked for, and what that is
         all.push_back(key + "=" + text_of(to));
         return of(name, std::move(all));
     }
-    std::string said() const {
+    std::string repr() const {
         std::string text = "jvari.scene('" + name + "')";
         for (const std::string& o : set)
             text += ".set('" + o.substr(0, o.find('=')) + "', '" + o.substr(o.find('=') + 1) + "')";
@@ -86,7 +86,7 @@ inline py::object rows_of(const bench::store::Table& t) {
 
 using Column = py::array_t<double>;
 
-// Real numbers that are all there: what would be lost of others is said by nobody.
+// Real numbers without a mask. Others are refused: a conversion would lose a part of them silently.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 inline Numbers numbers_of(const py::object& given, const std::string& what) {
     const bool masked = py::module_::import("numpy.ma").attr("isMaskedArray")(given).cast<bool>();

@@ -18,7 +18,7 @@ class Kept : public testing::Test {
 public:
     Kept(const Promise& promise, Case asked) : promise_(promise), case_(std::move(asked)) {}
     void TestBody() override {
-        const Verdict v = ask(promise_, case_);
+        const Verdict v = verdict_on(promise_, case_);
         EXPECT_FALSE(v.broken()) << case_.scheme.name << ": " << v.why;
         if (v.answer == Verdict::Answer::excused || v.answer == Verdict::Answer::not_asked)
             GTEST_SKIP() << v.why;
@@ -34,7 +34,7 @@ void register_all() {
          {schemes(), references(), std::span<const Descriptor>(schemes_of_pairings())})
         for (const Descriptor& d : table)
             for (const Promise& p : promises())
-                for (const Case& one : cases_of(d, p.asked)) {
+                for (const Case& one : cases_of(d, p.scope)) {
                     const std::string name =
                         std::string(d.name) + (one.scene.name.empty() ? "" : "__" + one.scene.name);
                     testing::RegisterTest(
@@ -58,8 +58,8 @@ TEST(Excuses, AreOfControlsThatNeedThem) {
         ASSERT_TRUE(d != schemes().end() && p != promises().end()) << e.scheme << " " << e.promise;
         EXPECT_TRUE(is_control(*d)) << e.scheme;
         EXPECT_TRUE(std::ranges::any_of(
-            cases_of(*d, p->asked),
-            [&](const Case& c) { return ask(*p, c).answer == Verdict::Answer::excused; }))
+            cases_of(*d, p->scope),
+            [&](const Case& c) { return verdict_on(*p, c).answer == Verdict::Answer::excused; }))
             << e.scheme << " keeps " << e.promise;
     }
 }

@@ -11,7 +11,7 @@
 // 5e-5 against the whole string, of which 100 modes leave out 1e-5; of a thread at a point they
 // leave out 6e-4 with the missing compliance put back, and there 1e-3 is good enough. On a profile
 // a scheme keeps the error of its nodes at any rate: 4e-3 of the force with 100 of them, so 1e-2 is
-// good enough there. The point thread is heard by its displacements alone, and on modes: no grid
+// good enough there. The point thread has displacement taps alone, and on modes: no grid
 // converges to the force of a point. Leaves out scenes that need a feature which the scheme calls
 // approximated: its limit there is not the scene.
 //
@@ -53,7 +53,7 @@ bool has(const Descriptor& d, Feature feature) {
     return (d.represents - approximated(d)).has(feature);
 }
 
-// The string of the contract, without losses, heard by every kind of tap that it has.
+// The string of the contract, without losses, with every kind of tap that it has.
 Scene string_with(const char* name, const std::optional<LumpedBarrier>& barrier,
                   const std::optional<Thread>& thread) {
     Scene scene = string_at_rest();
@@ -166,7 +166,7 @@ std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trac
                                                  : std::span<const int>(near);
     const auto errors = errors_of(d, smooth.scene, rates, truth);
     if (errors.empty()) return smooth.scene.name + ": its run fails";
-    const auto told = [&](int tap) {
+    const auto errors_of_tap = [&](int tap) {
         std::string text = fmt::format("{}: tap {} errs by", smooth.scene.name, truth.names[tap]);
         for (const auto& at_rate : errors) text += fmt::format(" {:.2g}", at_rate[tap]);
         return text + (falling ? " at 44.1 kHz x 1, 2, 4, 8"
@@ -175,30 +175,31 @@ std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trac
     };
     for (int k = 0; k < truth.taps(); ++k)
         if (!(errors.back()[k] <= none || (falling && errors[3][k] <= owed_fall * errors[0][k])))
-            return told(k);
+            return errors_of_tap(k);
     const auto worst = std::ranges::max_element(errors.back());
     const bool still_falls = falling && *worst < std::ranges::max(errors[2]);
-    return *worst <= none || still_falls ? ""
-                                         : told(static_cast<int>(worst - errors.back().begin()));
+    return *worst <= none || still_falls
+               ? ""
+               : errors_of_tap(static_cast<int>(worst - errors.back().begin()));
 }
 
-// "": it does; nothing: not to be asked
+// "": it does; nothing: cannot be examined
 std::optional<std::string> convergence_on(const Descriptor& d, const Smooth& smooth) {
     const Scene& scene = smooth.scene;
     if (!is_as_the_scene_says(d, scene)) return std::nullopt;
     for (const int times : {1, 2, 4, 8})
         if (!takes(d, scene, {times * contract_tap_rate, contract_tap_rate, claim_modes, {}}))
             return std::nullopt;
-    std::string found;
+    std::string fault;
     for (const int modes : {claim_modes, truth_modes}) {
         const auto truth = truth_of(d, scene, modes);
         if (!truth) return std::nullopt;
         const std::string to = convergence_to(
             d, smooth, *truth, modes == truth_modes ? smooth.whole : as_good_as_none);
         if (to.empty()) return to;
-        found += (found.empty() ? "" : ", and against the whole string ") + to;
+        fault += (fault.empty() ? "" : ", and against the whole string ") + to;
     }
-    return found;
+    return fault;
 }
 
 // ---- Instants.
@@ -266,16 +267,16 @@ std::string late_on(const Descriptor& d, const Scene& scene, const Settings& set
 
 Verdict converges_to_the_reference(const Case& c) {
     std::string names;
-    int asked = 0;
+    int examined = 0;
     for (const Smooth& smooth : smooth_scenes(c.scheme)) {
-        if (asked == scenes_wanted) break;
-        const auto found = convergence_on(c.scheme, smooth);
-        if (!found) continue;
-        if (!found->empty()) return broken(*found);
+        if (examined == scenes_wanted) break;
+        const auto fault = convergence_on(c.scheme, smooth);
+        if (!fault) continue;
+        if (!fault->empty()) return broken(*fault);
         names += (names.empty() ? "on " : ", ") + smooth.scene.name;
-        ++asked;
+        ++examined;
     }
-    return asked > 0 ? kept(names) : not_asked("it approximates or refuses every smooth scene");
+    return examined > 0 ? kept(names) : not_asked("it approximates or refuses every smooth scene");
 }
 
 Verdict writes_rows_at_their_instants(const Case& c) {
@@ -290,8 +291,8 @@ Verdict writes_rows_at_their_instants(const Case& c) {
             const Settings settings{
                 times * contract_tap_rate, contract_tap_rate, contract_modes, {}};
             if (!takes(d, scene, settings)) continue;
-            if (const std::string found = late_on(d, scene, settings, *truth); !found.empty())
-                return broken(found);
+            if (const std::string fault = late_on(d, scene, settings, *truth); !fault.empty())
+                return broken(fault);
             if (times == 1) names += (names.empty() ? "on " : ", ") + scene.name;
         }
     }

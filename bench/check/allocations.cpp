@@ -41,9 +41,9 @@ void* aligned_alloc(std::size_t a, std::size_t n) { return ++allocations, __libc
 void* memalign(std::size_t a, std::size_t n) { return ++allocations, __libc_memalign(a, n); }
 int posix_memalign(void** p, std::size_t a, std::size_t n) {
     if (a % sizeof(void*) != 0 || (a & (a - 1)) != 0 || a == 0) return EINVAL;
-    void* made = (++allocations, __libc_memalign(a, n));
-    if (!made) return ENOMEM;
-    *p = made;
+    void* block = (++allocations, __libc_memalign(a, n));
+    if (!block) return ENOMEM;
+    *p = block;
     return 0;
 }
 }

@@ -14,7 +14,7 @@
 namespace jvari::bench::check {
 
 namespace {
-using enum Asked;
+using enum Scope;
 constexpr Promise all[] = {
     {"NameWhatIsMissing", "refuses what it does not represent, and names what is missing",
      on_other_scenes, refusals_name_what_is_missing},
@@ -76,8 +76,8 @@ Verdict excused(const Promise& p, const Case& c, Verdict v) {
 std::span<const Promise> promises() { return all; }
 std::span<const Excuse> excuses() { return known; }
 
-Verdict kept(std::string found) { return {Verdict::Answer::kept, std::move(found)}; }
-Verdict broken(std::string found) { return {Verdict::Answer::broken, std::move(found)}; }
+Verdict kept(std::string figure) { return {Verdict::Answer::kept, std::move(figure)}; }
+Verdict broken(std::string fault) { return {Verdict::Answer::broken, std::move(fault)}; }
 Verdict not_asked(std::string why) { return {Verdict::Answer::not_asked, std::move(why)}; }
 const char* name_of(Verdict::Answer a) {
     constexpr const char* names[] = {"kept", "broken", "excused", "not asked"};
@@ -112,24 +112,25 @@ Run fresh(const Case& c, const RunOptions& options) {
     return run(*make_scheme(c.scheme, c.scene, c.settings), c.scene, c.settings, options);
 }
 
-std::vector<Case> cases_of(const Descriptor& d, Asked asked) {
-    if (asked == once || asked == once_all_others_are_kept || asked == once_all_before_are_kept)
+std::vector<Case> cases_of(const Descriptor& d, Scope scope) {
+    if (scope == once || scope == once_all_others_are_kept || scope == once_all_before_are_kept)
         return {{d, {}, {}}};
     std::vector<Case> cases;
     for (const Scene& scene : contract_scenes())
-        if (represents(d, scene) == (asked == on_represented_scenes))
+        if (represents(d, scene) == (scope == on_represented_scenes))
             cases.push_back({d, scene, settings_for(d, scene)});
     return cases;
 }
 
-Verdict ask(const Promise& p, const Case& c) {
+Verdict verdict_on(const Promise& p, const Case& c) {
     try {
-        if (p.asked == on_represented_scenes) try {
+        if (p.scope == on_represented_scenes) try {
                 make_scheme(c.scheme, c.scene, c.settings);
             } catch (const Refusal& refusal) {
-                const std::string said = refusal.what();
-                return said.size() > 20 ? not_asked("refuses it: " + said)
-                                        : broken("refuses the scene without a sentence: " + said);
+                const std::string sentence = refusal.what();
+                return sentence.size() > 20
+                           ? not_asked("refuses it: " + sentence)
+                           : broken("refuses the scene without a sentence: " + sentence);
             } catch (const BadScene& e) { return not_asked(e.what()); }
         return excused(p, c, p.of(c));
     } catch (const Refusal& refusal) {
@@ -191,15 +192,15 @@ Checked check(const Descriptor& d, const store::Listener& listener,
     double done = 0;
     std::string broken, claim_broken;  // the first promise that is, the first claim
     for (const Promise& p : promises()) {
-        const auto cases = cases_of(d, p.asked);
-        const bool last = p.asked == Asked::once_all_before_are_kept,
-                   claim = last || p.asked == Asked::once_all_others_are_kept;
+        const auto cases = cases_of(d, p.scope);
+        const bool last = p.scope == Scope::once_all_before_are_kept,
+                   claim = last || p.scope == Scope::once_all_others_are_kept;
         const std::string& rests_on = last && broken.empty() ? claim_broken : broken;
         for (const Case& one : cases) {
             progress->show(done / promises().size(), p.name);
             const auto start = std::chrono::steady_clock::now();
-            Verdict verdict =
-                claim && !rests_on.empty() ? not_asked("it rests on " + rests_on) : ask(p, one);
+            Verdict verdict = claim && !rests_on.empty() ? not_asked("it rests on " + rests_on)
+                                                         : verdict_on(p, one);
             std::string& first = claim ? claim_broken : broken;
             if (first.empty() && verdict.broken()) first = p.name;
             const double seconds =

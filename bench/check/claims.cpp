@@ -40,12 +40,12 @@ Features without(Features asked_of, const Descriptor& d, Will will_do) {
     for (int k = 0; k < feature_count; ++k) {
         const auto feature = static_cast<Feature>(1u << k);
         if (!asked_of.has(feature)) continue;
-        bool found = false;
+        bool done = false;
         for (const Scene& scene : scenes_with(feature))
             for (const Settings& settings : ways(d, scene))
-                found = found ||
-                        (takes(d, scene, settings) && will_do(Case{d, scene, settings}, feature));
-        if (!found) none = none | feature;
+                done = done ||
+                       (takes(d, scene, settings) && will_do(Case{d, scene, settings}, feature));
+        if (!done) none = none | feature;
     }
     return none;
 }
@@ -85,10 +85,10 @@ Verdict refusals_name_what_is_missing(const Case& c) {
         make_scheme(c.scheme, c.scene, c.settings);
     } catch (const Refusal& refusal) {
         const std::string missing = names_of(needed_by(c.scene) - c.scheme.represents),
-                          said = refusal.what();
-        return said.find(missing) != std::string::npos
+                          sentence = refusal.what();
+        return sentence.find(missing) != std::string::npos
                    ? kept()
-                   : broken(fmt::format("refuses without naming {}: {}", missing, said));
+                   : broken(fmt::format("refuses without naming {}: {}", missing, sentence));
     }
     return broken("does not refuse it");
 }
@@ -191,9 +191,9 @@ Verdict partials_are_its_own_relations(const Case& c) {
     bool any = false;
     for (const bool stiff : {true, false})
         for (const bool damped : {true, false})
-            if (const std::string found = worst_partial(c.scheme, ringing(stiff, damped), any);
-                !found.empty())
-                return broken(found);
+            if (const std::string fault = worst_partial(c.scheme, ringing(stiff, damped), any);
+                !fault.empty())
+                return broken(fault);
     return any ? kept()
                : not_asked("it has no relation in closed form, or no free string to hear it on");
 }

@@ -1,10 +1,10 @@
-// What every scheme owes the program: the one list of promises. `jvari check` asks them of a
-// scheme, the tests ask them of all.
+// What every scheme owes the program: the one list of promises. `jvari check` examines one scheme,
+// the tests examine all.
 //
-// A promise is asked on every scene that the scheme represents, on every scene that it does not, or
-// once. Claims in numbers rest on all others, and are asked where these are kept: so what breaks a
-// promise fails by its name. The last two rest on the claims before them as well: a scheme that
-// moves otherwise than the scene is at no instant of it, and answers no number of it.
+// A promise is examined on every scene that the scheme represents, on every scene that it does not,
+// or once. Claims in numbers rest on all other promises and are examined only where these are kept,
+// so a broken promise fails under its own name. The last two rest on the claims before them too: a
+// scheme that moves otherwise than the scene is at no instant of it, and answers no number of it.
 // tests/contract_plugins has a scheme for each that breaks it and keeps all others.
 #pragma once
 
@@ -26,22 +26,22 @@ namespace jvari::bench::check {
 struct Verdict {
     // excused: broken, as it is known of this scheme
     enum class Answer { kept, broken, excused, not_asked } answer = Answer::kept;
-    // what was found, or why it could not be asked
+    // what was measured, or why the promise could not be examined
     std::string why;
     bool broken() const { return answer == Answer::broken; }
 };
-Verdict kept(std::string found = "");
-Verdict broken(std::string found);
+Verdict kept(std::string figure = "");
+Verdict broken(std::string fault);
 Verdict not_asked(std::string why);
 const char* name_of(Verdict::Answer);  // "not asked"
 
-struct Case {  // a scheme, a scene, and settings at which it is asked
+struct Case {  // a scheme, a scene, and the settings of its run
     Descriptor scheme;
     Scene scene;
     Settings settings;
 };
 
-enum class Asked {
+enum class Scope {
     on_represented_scenes,
     on_other_scenes,
     once,
@@ -52,8 +52,8 @@ enum class Asked {
 struct Promise {
     const char* name;      // "AllocatesNothingWhileStepping"
     const char* sentence;  // what a scheme does that keeps it: "allocates nothing while stepping"
-    Asked asked;
-    Verdict (*of)(const Case&);  // of a case without a scene where it is asked once
+    Scope scope;
+    Verdict (*of)(const Case&);  // the case has no scene where the promise is examined once
 };
 std::span<const Promise> promises();  // in the order in which they are best read
 
@@ -64,11 +64,11 @@ struct Excuse {
 };
 std::span<const Excuse> excuses();
 
-std::vector<Case> cases_of(const Descriptor&, Asked);
+std::vector<Case> cases_of(const Descriptor&, Scope);
 
-// Never throws: what the scheme throws breaks the promise; a scene that it refuses for a reason of
-// its own is not asked. Who breaks what it is excused from has the answer `excused`.
-Verdict ask(const Promise&, const Case&);
+// Never throws: what the scheme throws breaks the promise. A scene that the scheme refuses for a
+// reason of its own gives `not_asked`. A known break (Excuse) gives `excused`.
+Verdict verdict_on(const Promise&, const Case&);
 
 // ---- One function for each promise, and what several of them need.
 
@@ -109,8 +109,8 @@ Run fresh(const Case&, const RunOptions&);                     // of a scheme ma
 
 // ---- The scenes on which promises are examined
 
-// The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1: alone and at rest, heard at its nut
-// and at 0.3 m.
+// The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1: alone and at rest, with taps at its
+// nut and at 0.3 m.
 Scene string_at_rest();
 
 constexpr double contract_tap_rate = 44100;  // [Hz]
@@ -122,20 +122,19 @@ constexpr double what_nodes_leave_out = 1e-2;  // of a force on a profile, at an
 // the library and a few made here, each of contract_rows; read once
 const std::vector<Scene>& contract_scenes();
 
-// Scenes that need a feature and listen to the motion: two that need little else, then those above,
-// with it where they are without.
+// Test scenes with this feature and displacement taps: two minimal strings, then every contract
+// scene, the feature added where it is missing.
 std::vector<Scene> scenes_with(Feature);
 
-// Short and smooth scenes that have between them every number of a scene, each of a size that is
-// heard.
+// Short and smooth scenes that together have every number of a scene, each large enough to change
+// the taps.
 const std::vector<Scene>& scenes_of_numbers();
 
 // The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds
 // the feature tells the two apart.
 std::vector<Scene> otherwise(const Scene&, Feature);
 
-// ---- The numbers of a scene, from the schema of scene files: a key that the schema gains is here by
-// itself
+// ---- The numbers of a scene, from the schema of scene files, which a new key of it joins
 
 struct Changed {
     std::string key;  // "string.0.barrier.1.height"
@@ -150,7 +149,7 @@ std::optional<Changed> changed(const Scene&, int which, bool down = false);
 
 struct Answered {
     const Promise* promise;
-    std::string scene;  // "" where it is asked once
+    std::string scene;  // "" where it is examined once
     Verdict verdict;
     double seconds;  // [s]
 };
@@ -161,7 +160,7 @@ struct Checked {
     bool broken() const;
 };
 
-// `answered` is told each promise as soon as all its scenes are.
+// Calls `answered` for each promise as soon as all its scenes are examined.
 Checked check(const Descriptor&, const store::Listener&,
               const std::function<void(const Checked&, const Promise&)>& answered = {});
 

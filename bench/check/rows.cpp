@@ -100,7 +100,7 @@ Verdict facts_agree_with_its_rows(const Case& c) {
     if (one.scene.taps.empty()) return not_asked("no string has one contact");
     // a reference tells the forces at the steps that it chose
     const double rounding = c.scheme.clock == Clock::stepped ? 1e-9 : 1e-6;
-    bool told = false;
+    bool reported = false;
     for (const double loss : {0.0, 0.5}) {
         for (String& s : one.scene.strings)
             for (Barrier& b : s.barriers)
@@ -112,7 +112,7 @@ Verdict facts_agree_with_its_rows(const Case& c) {
         const jvari::Run r = fresh(one, {});
         const double least = fact_of(r.facts, facts::smallest_contact_force),
                      largest = fact_of(r.facts, facts::largest_contact_force);
-        told = told || !std::isnan(largest) || !std::isnan(least);
+        reported = reported || !std::isnan(largest) || !std::isnan(least);
         for (int k = 0; k < r.trace.taps(); ++k) {
             // a force that pulls is the promise above
             const double most = std::fmax(std::abs(least), std::abs(largest));
@@ -124,7 +124,7 @@ Verdict facts_agree_with_its_rows(const Case& c) {
                                     least, largest, force));
         }
     }
-    return told ? kept() : not_asked("it says nothing of its contact forces");
+    return reported ? kept() : not_asked("it says nothing of its contact forces");
 }
 
 // ---- The energy ledger: stored[n] - stored[n-1] = supplied[n] - dissipated[n], in every row and

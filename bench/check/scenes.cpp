@@ -67,7 +67,7 @@ Scene with(Feature feature, Scene scene) {
         case Feature::profile_barrier:
             s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0});
             break;
-        // soft: a force known before the step explodes on a stiff one before the other is heard
+        // soft: a force known before the step explodes on a stiff one before the other acts
         case Feature::several_barriers:
             s.barriers.assign({bridge_at(s, 1), bridge_at(s, 3)});
             for (Barrier& b : s.barriers) std::get<LumpedBarrier>(b).stiffness.k = 1e4;
@@ -164,7 +164,7 @@ std::vector<Scene> scenes_with(Feature feature) {
     }
     std::erase_if(scenes, [feature](const Scene& s) { return !needed_by(s).has(feature); });
     for (Scene& s : scenes) {
-        s.taps.clear();  // where a string that is without the feature can be heard as well
+        s.taps.clear();  // a string without the feature may have taps as well
         for (const double x : {0.3, 0.4375})
             s.taps.push_back({"y" + std::to_string(s.taps.size()), Quantity::displacement,
                               static_cast<int>(s.strings.size()) - 1, x * s.strings.back().length});

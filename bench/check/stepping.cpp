@@ -1,4 +1,4 @@
-// How a scheme steps: without allocating, to the last row, the same whatever it is asked beside.
+// How a scheme steps: without allocating, to the last row, the same whether or not it is probed.
 #include <fmt/core.h>
 #include <algorithm>
 #include <bit>
@@ -65,9 +65,9 @@ Verdict gives_numbers(const Case& c) {
 Verdict same_bits_whatever_the_block(const Case& c) {
     const jvari::Run first = fresh(c, {.block_rows = 64});
     for (const int rows : {1, 7, 1000})
-        if (const std::string found = apart(first.trace, fresh(c, {.block_rows = rows}).trace);
-            !found.empty())
-            return broken(fmt::format("with {} rows a block: {}", rows, found));
+        if (const std::string fault = apart(first.trace, fresh(c, {.block_rows = rows}).trace);
+            !fault.empty())
+            return broken(fmt::format("with {} rows a block: {}", rows, fault));
     return kept();
 }
 
@@ -81,9 +81,9 @@ Verdict stores_the_same_probed_now_and_then(const Case& c, const Trace& probed) 
     const FlushDenormals flush;
     scheme->reset();
     for (long row = 0; row < probed.rows; ++row) {
-        const bool asked = row % each == each - 1;
-        scheme->advance({1, static_cast<int>(tap.size()), 1, tap.data(), asked ? energy : nullptr});
-        if (asked && std::bit_cast<std::uint64_t>(energy[0]) !=
+        const bool probe = row % each == each - 1;
+        scheme->advance({1, static_cast<int>(tap.size()), 1, tap.data(), probe ? energy : nullptr});
+        if (probe && std::bit_cast<std::uint64_t>(energy[0]) !=
                          std::bit_cast<std::uint64_t>(probed.energy[static_cast<std::size_t>(row)]))
             return broken(
                 fmt::format("stores {:.17g} J in row {} in place of {:.17g} J where the rows "
@@ -102,16 +102,16 @@ Verdict same_bits_with_energy_probed(const Case& c) {
         probed.trace.rows = std::min(probed.trace.rows, bare.trace.rows);
     jvari::Trace seen = bare.trace;
     if (c.scheme.balance == Balance::none) seen.rows = probed.trace.rows;
-    const std::string found = apart(seen, probed.trace);
-    return found.empty() ? stores_the_same_probed_now_and_then(c, probed.trace) : broken(found);
+    const std::string fault = apart(seen, probed.trace);
+    return fault.empty() ? stores_the_same_probed_now_and_then(c, probed.trace) : broken(fault);
 }
 
 Verdict starts_anew_after_a_reset(const Case& c) {
     const auto scheme = make_scheme(c.scheme, c.scene, c.settings);
     const jvari::Run first = run(*scheme, c.scene, c.settings, {.energy = true}),
                      again = run(*scheme, c.scene, c.settings, {.energy = true});
-    const std::string found = apart(first.trace, again.trace);
-    if (!found.empty()) return broken(found);
+    const std::string fault = apart(first.trace, again.trace);
+    if (!fault.empty()) return broken(fault);
     const auto &was = first.trace.energy, &is = again.trace.energy;
     return was.size() == is.size() &&
                    std::memcmp(was.data(), is.data(), was.size() * sizeof(double)) == 0

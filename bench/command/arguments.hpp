@@ -27,7 +27,7 @@ struct Value {  // of an option: what help calls it, and what it may be
 // text becomes the number in SI units.
 extern const Value positive, counting, counting_or_0, hertz, seconds, metres;
 
-// Does what was asked for, once the arguments are read, and returns the exit code of the program.
+// Runs a verb once its arguments are read, and returns the exit code of the program.
 // Throws UsageError, BadScene, SceneFileError (2), Refusal (3).
 using Act = std::function<int()>;
 
@@ -57,16 +57,16 @@ protected:
 
 template <class Request>
 class Verb : public Arguments {
-    const std::shared_ptr<Request> asked_ = std::make_shared<Request>();
+    const std::shared_ptr<Request> request_ = std::make_shared<Request>();
 
 public:
     Verb(CLI::App& program, const char* name, const char* about)
         : Arguments(*program.add_subcommand(name, about)) {}
-    Request& r = *asked_;  // what is asked for; an `act` gets it once the arguments are read
+    Request& r = *request_;  // the arguments; an `act` gets them once they are read
     Act does(int (*act)(Request), const char* footer) {
         common(r);
         verb_.footer(footer);
-        return [asked = asked_, act] { return act(*asked); };
+        return [request = request_, act] { return act(*request); };
     }
 };
 

@@ -21,18 +21,18 @@ struct CheckRequest : Running {
 int check_command(CheckRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
-    std::vector<const Descriptor*> asked;
-    for (const std::string& name : r.schemes) asked.push_back(&catalogue.find(name));
-    if (asked.empty())
+    std::vector<const Descriptor*> chosen;
+    for (const std::string& name : r.schemes) chosen.push_back(&catalogue.find(name));
+    if (chosen.empty())
         for (const Guest* g : guests())
-            for (const Descriptor& d : g->schemes) asked.push_back(&catalogue.find(d.name));
-    if (asked.empty())
+            for (const Descriptor& d : g->schemes) chosen.push_back(&catalogue.find(d.name));
+    if (chosen.empty())
         throw store::UsageError(
             "check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
     if (!r.junit.empty()) store::must_be_writable(r.junit);
     std::vector<check::Checked> checked;
     bool broken = false;
-    for (const Descriptor* d : asked) {
+    for (const Descriptor* d : chosen) {
         console.print(fmt::format("{}{} ({})", checked.empty() ? "" : "\n", d->name, d->source));
         checked.push_back(
             check::check(*d, console, [&](const check::Checked& c, const check::Promise& p) {

@@ -58,8 +58,8 @@ std::string harmless(std::string text) {
     return text;
 }
 
-std::string coloured(const std::string& said, int stream) {
-    std::string text = harmless(said);
+std::string coloured(const std::string& plain, int stream) {
+    std::string text = harmless(plain);
     if (!in_colour(stream)) return text;
     std::string all;
     for (std::size_t from = 0; from <= text.size();) {
@@ -100,7 +100,7 @@ public:
         last_ = now;
         const std::string line =
             harmless(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
-        if (!terminal_) return tell(line);
+        if (!terminal_) return write_error(line);
         const store::Undisturbed whole;
         if (!shown_) shown_.emplace(clear_line);
         // a line that wraps could not be renewed
@@ -135,12 +135,12 @@ void keep_standard_output() {
     dup2(STDERR_FILENO, STDOUT_FILENO);
 }
 
-void tell(const std::string& line) {
+void write_error(const std::string& line) {
     std::fputs((coloured(line, STDERR_FILENO) + "\n").c_str(), stderr);
 }
 
 void Console::note(const std::string& text) const {
-    if (!quiet_) tell(text);
+    if (!quiet_) write_error(text);
 }
 
 void Console::print(const std::string& text) const {
@@ -152,8 +152,8 @@ void Console::print_json(const std::string& text) const {
 }
 
 std::size_t Console::width() {
-    const char* asked = std::getenv("COLUMNS");
-    if (const std::size_t columns = asked ? std::strtoul(asked, nullptr, 10) : 0; columns > 0)
+    const char* wanted = std::getenv("COLUMNS");
+    if (const std::size_t columns = wanted ? std::strtoul(wanted, nullptr, 10) : 0; columns > 0)
         return columns;
     return columns_of(STDOUT_FILENO).value_or(std::numeric_limits<std::size_t>::max());
 }

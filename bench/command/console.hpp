@@ -1,4 +1,4 @@
-// What is said, and where: results on standard output, messages and progress on standard error.
+// The terminal: results on standard output, messages and progress on standard error.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ constexpr const char* status(int code) {  // as --json says it
 // writing (Unwritable) where by default it would be a signal and the end.
 void keep_standard_output();  // for print_json alone: what a plugin prints goes to standard error
 void hold_standard_streams();
-// A line to standard error. That it could not be written is nowhere to be told.
-void tell(const std::string& line);
+// A line to standard error. A failure to write it is ignored.
+void write_error(const std::string& line);
 
 class Console : public store::Listener {
 public:

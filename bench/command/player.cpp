@@ -146,8 +146,8 @@ std::vector<double> without_steady(std::span<const double> force, double rate) {
 std::vector<double> without_body(std::span<const double> force, double rate) {
     const double low = std::exp(-1 / (de_emphasis * rate));
     std::vector<double> out = without_steady(force, rate);
-    double heard = 0;
-    for (double& v : out) v = heard = low * heard + (1 - low) * v;
+    double low_passed = 0;
+    for (double& v : out) v = low_passed = low * low_passed + (1 - low) * v;
     return out;
 }
 

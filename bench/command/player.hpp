@@ -20,7 +20,7 @@ namespace jvari::bench::command {
 
 bool is_audio(const std::filesystem::path&);  // by its extension
 
-Scene audible(Scene);  // with the taps that are heard in place of its own
+Scene audible(Scene);  // with the taps that are played in place of its own
 
 // What plays a run of audible(scene) into a file, made before the run.
 class Player {

@@ -1,4 +1,4 @@
-// The program: its help, and the verb that is asked for.
+// The program: its help, and the verb of its command line.
 #include "bench/command/program.hpp"
 
 #include <fmt/core.h>
@@ -86,15 +86,15 @@ int call(int argc, const char* const* argv) {
         return exit_code::bad_usage;
     }
     const std::string verb = words.front().starts_with("-") ? "" : words.front();
-    const auto asked = std::ranges::find(names, verb);
-    if (!verb.empty() && asked == names.end())
+    const auto chosen = std::ranges::find(names, verb);
+    if (!verb.empty() && chosen == names.end())
         throw store::UsageError(store::unknown("verb", verb, names));
     try {
         std::ranges::reverse(words);  // as CLI11 takes them
         program.parse(std::move(words));
-    } catch (const CLI::Success& asked) {
+    } catch (const CLI::Success& help) {
         std::ostringstream text, nothing;
-        program.exit(asked, text, nothing);
+        program.exit(help, text, nothing);
         Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
         return exit_code::done;
     } catch (const CLI::ParseError& e) {
@@ -104,7 +104,7 @@ int call(int argc, const char* const* argv) {
         throw store::UsageError(fmt::format("{}{} (see jvari {}--help)", e.what(), behind,
                                             verb.empty() ? "" : verb + " "));
     }
-    return acts[static_cast<std::size_t>(asked - names.begin())]();
+    return acts[static_cast<std::size_t>(chosen - names.begin())]();
 }
 
 }  // namespace jvari::bench::command

@@ -26,7 +26,7 @@ constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", 
 constexpr const char* own_endings[] = {".csv", ".json", ".svg",  ".pdf",
                                        ".py",  ".html", ".toml", ".part"};
 
-std::string what_is_in(const fs::path& folder) {  // "" where that cannot be told
+std::string what_is_in(const fs::path& folder) {  // "" where that is unknown
     try {
         const auto m = store::Folder{folder}.manifest();
         if (m.contains("suite")) {

@@ -52,7 +52,7 @@ std::string dearest(const std::vector<Fact>& facts) {
 }
 
 // Without `all` only those that tell how the scene is approximated.
-std::string facts_text(const Descriptor& d, const study::Summary& s, const Scene& scene, bool all) {
+std::string facts_text(const Descriptor& d, const Scene& scene, const study::Summary& s, bool all) {
     // of one of several strings: behind the last dot
     const auto approximates = [&](const std::string& name) {
         return std::ranges::any_of(d.approximates, [&](const Approximation& a) {
@@ -67,8 +67,8 @@ std::string facts_text(const Descriptor& d, const study::Summary& s, const Scene
     return text;
 }
 
-std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summary& s,
-                     const Scene& scene) {
+std::string text_for(const RunRequest& r, const Descriptor& d, const Scene& scene,
+                     const study::Summary& s) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) {
         text += fmt::format("\n  {:<27} {}", name, value);
@@ -96,7 +96,7 @@ std::string text_for(const RunRequest& r, const Descriptor& d, const study::Summ
         line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
     if (!std::isnan(s.deepest_penetration))
         line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
-    text += facts_text(d, s, scene, r.facts);
+    text += facts_text(d, scene, s, r.facts);
     for (const study::Flag& f : study::flags_of(s)) text += "\n! " + f.sentence;
     if (const std::string untouched = compare::untouched_text(scene, s); !untouched.empty())
         text += "\n! " + untouched;
@@ -150,7 +150,7 @@ std::optional<report::Vega> vega_for(const RunRequest& r) {
     return vega;
 }
 
-void draw(const std::string& file, const Descriptor& d, const study::Summary& s, const Scene& scene,
+void draw(const std::string& file, const Descriptor& d, const Scene& scene, const study::Summary& s,
           const Trace& trace, const report::Vega& vega, const std::string& width) {
     const std::string rate =
         std::isnan(s.rate) ? "continuous time" : fmt::format("{:g} kHz", s.rate / 1000);
@@ -175,20 +175,20 @@ int run_command(RunRequest r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const Descriptor& d = catalogue.find(r.scheme);
-    // Drawn are the scene's own taps, played those that are heard: a run of both has the former
-    // first.
+    // The picture shows the scene's own taps, the sound is made of others: a run of both has the
+    // former first.
     const bool played = is_audio(r.out);
     const Scene own = compare::load_scene(r.scene, r.set, r.duration),
-                heard = played ? audible(own) : own;
+                sounding = played ? audible(own) : own;
     const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
-    Scene scene = heard;
+    Scene scene = sounding;
     scene.taps.insert(scene.taps.begin(), own.taps.begin(),
                       own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
     const std::optional<report::Vega> vega = vega_for(r);
-    const std::optional<Player> player = checked_output(r, heard, settings.tap_rate);
+    const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
                                             scene.duration, settings.tap_rate));
@@ -211,20 +211,20 @@ int run_command(RunRequest r) {
     }
     const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
-    std::string text = text_for(r, d, summary, scene);
+    std::string text = text_for(r, d, scene, summary);
     if (!r.out.empty()) {
-        std::string said;
-        if (player && drawn > 0) said = player->write(part_of(result.trace, drawn, heard));
-        else if (player) said = player->write(result.trace);
+        std::string level;
+        if (player && drawn > 0) level = player->write(part_of(result.trace, drawn, sounding));
+        else if (player) level = player->write(result.trace);
         else store::write_trace(r.out, result.trace);
         json["out"] = r.out;
-        if (!said.empty()) json["level"] = said;
-        text +=
-            fmt::format("\n  {:<28}{}{}", "written", r.out, said.empty() ? "" : "  (" + said + ")");
+        if (!level.empty()) json["level"] = level;
+        text += fmt::format("\n  {:<28}{}{}", "written", r.out,
+                            level.empty() ? "" : "  (" + level + ")");
     }
     if (vega) {
-        if (drawn > 0) draw(r.plot, d, summary, own, part_of(result.trace, 0, own), *vega, r.width);
-        else draw(r.plot, d, summary, own, result.trace, *vega, r.width);
+        if (drawn > 0) draw(r.plot, d, own, summary, part_of(result.trace, 0, own), *vega, r.width);
+        else draw(r.plot, d, own, summary, result.trace, *vega, r.width);
         json["plot"] = r.plot;
         text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
     }

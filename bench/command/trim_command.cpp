@@ -81,7 +81,7 @@ std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
     return text;
 }
 
-// The whole scene and the trimmed model, to be heard one after the other: sounds.csv, sounds/*.wav.
+// Sounds of the whole scene and of the trimmed model, for the player: sounds.csv, sounds/*.wav.
 // The whole stands as what the other is against.
 void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Judge& judge) {
     constexpr double longest = 2;  // [s]
