@@ -190,10 +190,9 @@ Value override_value(std::string_view text, const Reading& reading) {
     if (!bare) return one(text);
     const std::size_t from = std::min(text.find_first_not_of(' '), text.size());
     if (const auto x = number_of(text.substr(from, text.find_last_not_of(' ') + 1 - from))) {
-        Value v{*x, reading.place};
-        if (text.find_first_not_of("+-0123456789 ") == std::string_view::npos)
-            if (const auto n = v.whole()) v.content = *n;
-        return v;
+        const bool digits = text.find_first_not_of("+-0123456789 ") == std::string_view::npos;
+        if (const auto n = Value{*x}.whole(); n && digits) return {*n, reading.place};
+        return {*x, reading.place};
     }
     try {
         Value v = one(text);
