@@ -1,5 +1,6 @@
 #!/bin/sh
-# check.sh SCRIPT PROGRAM BUILD SOURCES ...: a script of this folder in node. Exit code 77, a skip to ctest, where the preset web has not been built.
+# check.sh SCRIPT PROGRAM BUILD SOURCES ...: a script of this folder in node. Exit code 77, a skip
+# to ctest, where the preset web has not been built.
 command -v node >/dev/null || { echo "skipped: node is missing"; exit 77; }
 [ -f "$3/jvari.wasm" ] || { echo "skipped: $3 holds no jvari.wasm (./play builds it)"; exit 77; }
 if [ "$1" = page.mjs ]; then
