@@ -1,4 +1,5 @@
-"""Numerical schemes for strings against obstacles, compared by speed and accuracy on the same scenes. SI units."""
+"""Numerical schemes for strings against obstacles, compared by speed and accuracy on the same
+scenes. SI units."""
 
 from typing import Any, Mapping, Sequence, Union
 
@@ -32,7 +33,8 @@ class Scene:
     def toml(self) -> str: ...
 
 class Run:
-    """What a run produced. run["nut"]: shape (rows,), in units["nut"]; the engine's memory, read-only."""
+    """What a run produced. run["nut"]: shape (rows,), in units["nut"]; the engine's memory,
+    read-only."""
 
     def __getitem__(self, tap: str) -> NDArray[np.float64]: ...
     def keys(self) -> list[str]: ...
@@ -70,34 +72,43 @@ class Trimmed:
 
 def scene(name: str) -> Scene: ...
 def run(
-    scene: Scene | str, scheme: str, rate: float = 44100, modes: int = 0, duration: float | None = None, tap_rate: float | None = None,
-    energy: bool = False, options: Mapping[str, _Value] = {},
+    scene: Scene | str, scheme: str, rate: float = 44100, modes: int = 0,
+    duration: float | None = None, tap_rate: float | None = None, energy: bool = False,
+    options: Mapping[str, _Value] = {},
 ) -> Run: ...
 def run_many(
-    scenes: Sequence[Scene | str], scheme: str, rate: float = 44100, modes: int = 0, duration: float | None = None,
-    tap_rate: float | None = None, options: Mapping[str, _Value] = {}, jobs: int = 0,
+    scenes: Sequence[Scene | str], scheme: str, rate: float = 44100, modes: int = 0,
+    duration: float | None = None, tap_rate: float | None = None,
+    options: Mapping[str, _Value] = {}, jobs: int = 0,
 ) -> NDArray[np.float64]: ...  # shape (run, time, tap); NaN after a failure
 def compare(
-    scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [], modes: int | Sequence[int] = 0, reference: str = "",
-    reference_modes: int = 0, controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
+    scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [],
+    modes: int | Sequence[int] = 0, reference: str = "", reference_modes: int = 0,
+    controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
     options: Mapping[str, _Value] = {}, repeats: int = 5, jobs: int = 0,
 ) -> list[_Row]: ...
 def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...
-def suite_tables(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> dict[str, list[_Row]]: ...  # "cells", "maps", "boundaries"; SI units
+def suite_tables(  # "cells", "maps", "boundaries"; SI units
+    file: str, out: str = "", resume: bool = False, jobs: int = 0,
+) -> dict[str, list[_Row]]: ...
 def trim(
-    scene: Scene | str, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any", duration: float = 0.05,
-    tap_rate: float = 44100, reference: str = "", reference_modes: int = 0, out: str = "", jobs: int = 0,
+    scene: Scene | str, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any",
+    duration: float = 0.05, tap_rate: float = 44100, reference: str = "", reference_modes: int = 0,
+    out: str = "", jobs: int = 0,
 ) -> Trimmed: ...
 def problem(
-    scene: Scene | str, rate: float = 44100, modes: int = 0, duration: float | None = None, tap_rate: float | None = None,
+    scene: Scene | str, rate: float = 44100, modes: int = 0, duration: float | None = None,
+    tap_rate: float | None = None,
 ) -> Any: ...  # its members: docs/own-scheme/README.md
 def judge(
-    scene: Scene | str, traces: Any, *, name: str = "mine", cost: float | Mapping[float, float] | None = None,
-    schemes: Sequence[str] = [], duration: float | None = None, tap_rate: float | None = None, tap: str = "", reference: str = "",
-    repeats: int = 5, jobs: int = 0,
+    scene: Scene | str, traces: Any, *, name: str = "mine",
+    cost: float | Mapping[float, float] | None = None, schemes: Sequence[str] = [],
+    duration: float | None = None, tap_rate: float | None = None, tap: str = "",
+    reference: str = "", repeats: int = 5, jobs: int = 0,
 ) -> list[_Row]: ...
 def scheme(
-    name: str, *, represents: Sequence[str] = [], balance: str = "none", source: str = "a scheme in Python", compiled: bool = False,
+    name: str, *, represents: Sequence[str] = [], balance: str = "none",
+    source: str = "a scheme in Python", compiled: bool = False,
 ) -> Any: ...  # a decorator
 def check(scheme: str) -> list[_Row]: ...
 def plugin(path: str) -> None: ...

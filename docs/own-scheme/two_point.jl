@@ -1,15 +1,19 @@
-# The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48): julia two_point.jl problem.json trace.csv
-# One contact of exponent 1 at most, and a thread. The problem has a member a line, so no JSON library is needed.
+# The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48):
+# julia two_point.jl problem.json trace.csv
+# One contact of exponent 1 at most, and a thread. The problem has a member a line, so no JSON
+# library is needed.
 using LinearAlgebra
 members = (match(r"^\"(\w+)\": (.*?),?$", line) for line in eachline(ARGS[1]))
-p = Dict(m[1] => eval(Meta.parse(m[2])) for m in members if !isnothing(m) && !(m[1] in ("name", "scene", "reference", "format", "program")))
+texts = ("name", "scene", "reference", "format", "program")
+p = Dict(m[1] => eval(Meta.parse(m[2])) for m in members if !isnothing(m) && !(m[1] in texts))
 get1(key, default) = isempty(p[key]) ? default : p[key][1]
 
 function contact(d, b, theta, k)  # F of r + b = theta F (48): the four cases of fig 4
     phi = theta * k / 2
     (k == 0 || (d <= 0 && d + b <= 0)) && return 0.0
     r = d > 0 && d * (1 - phi) + b > 0 ? (2phi * d - b) / (1 + phi) :
-        d > 0 ? (-b + sqrt(b^2 + 4phi * d^2)) / 2 : -(b - 2phi * d + sqrt(b^2 - 4phi * d * (b + d))) / (2 * (1 + phi))
+        d > 0 ? (-b + sqrt(b^2 + 4phi * d^2)) / 2 :
+        -(b - 2phi * d + sqrt(b^2 - 4phi * d * (b + d))) / (2 * (1 + phi))
     (r + b) / theta
 end
 
@@ -25,10 +29,12 @@ function run(p)
     a, b = num ./ den, -2 * expm1.(-2sigma * dt) ./ den  # (33)
     J, xi, none = 1 .+ a + b, dt^2 / (2 * p["modal_mass"]), zeros(M)
     g_b = float(get1("contact_weights", none))
-    g_c, g_e = (isempty(p[key]) ? none : float(p[key]) for key in ("thread_weights", "pluck_weights"))
+    weights(key) = isempty(p[key]) ? none : float(p[key])
+    g_c, g_e = weights("thread_weights"), weights("pluck_weights")
     e_b, e_c, e_e = (xi ./ J .* g for g in (g_b, g_c, g_e))
     k_b, h_b = get1("contact_stiffness", 0.0), get1("contact_height", 0.0)
-    k_c, h_c, phi_c = p["thread_stiffness"], p["thread_height"], p["thread_stiffness"] / 2 + p["thread_damping"] / dt
+    k_c, h_c = p["thread_stiffness"], p["thread_height"]
+    phi_c = k_c / 2 + p["thread_damping"] / dt
     inverse_c, theta_bc = 1 / (1 + phi_c * dot(g_c, e_c)), dot(g_b, e_c)
     beta_c = phi_c * theta_bc * inverse_c  # (47)
     theta = dot(g_b, e_b) - beta_c * theta_bc
@@ -36,7 +42,8 @@ function run(p)
     y, q, trace, sum_b, sum_c = float(p["start"]), none, zeros(rows, p["taps"]), 0.0, 0.0
     for row in 1:rows
         for (k, quantity) in enumerate(p["tap_quantities"])
-            trace[row, k] = quantity == "bridge_force" ? sum_b / steps : quantity == "thread_force" ? sum_c / steps :
+            trace[row, k] = quantity == "bridge_force" ? sum_b / steps :
+                            quantity == "thread_force" ? sum_c / steps :
                             quantity == "driving_force" ? -(sum_b + sum_c) / steps :
                             dot(p["tap_weights"][k], quantity == "velocity" ? 2 / dt * q : y)
         end

@@ -1,8 +1,9 @@
-"""The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48): python3 two_point.py problem.json trace.csv
+"""The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48):
+python3 two_point.py problem.json trace.csv
 
-One contact of exponent 1 at most, and a thread. `jvari export` writes the problem, `jvari judge` says how wrong the trace is. In Python,
-`jvari.scheme("mine", represents=[...])(TwoPoint)` makes it a scheme, and picture.py draws it beside others.
-"""
+One contact of exponent 1 at most, and a thread. `jvari export` writes the problem, `jvari judge`
+says how wrong the trace is. In Python, `jvari.scheme("mine", represents=[...])(TwoPoint)` makes it
+a scheme, and picture.py draws it beside others."""
 
 import json
 import sys
@@ -14,17 +15,25 @@ import numpy as np
 class TwoPoint:
     def __init__(self, p):
         if p.contacts > 1 or np.any(p.contact_exponent != 1) or np.any(p.contact_loss != 0):
-            raise NotImplementedError("this scheme takes one contact at most, of exponent 1 and without loss")
+            raise NotImplementedError(
+                "this scheme takes one contact at most, of exponent 1 and without loss")
         self.p, self.dt = p, 1 / p.sample_rate
         omega = np.sqrt((p.omega0**2 - p.sigma**2).astype(complex))
         R, E = np.exp(-p.sigma * self.dt), np.expm1(-p.sigma * self.dt)
         num, den = ((E**2 + 4 * R * f(0.5 * omega * self.dt) ** 2).real for f in (np.sin, np.cos))
         self.a, self.b = num / den, -2 * np.expm1(-2 * p.sigma * self.dt) / den  # (33)
-        self.J, self.xi, none = 1 + self.a + self.b, self.dt**2 / (2 * p.modal_mass), np.zeros(p.modes)
-        self.g_b, self.k_b, self.h_b = (p.contact_weights[0], p.contact_stiffness[0], p.contact_height[0]) if p.contacts else (none, 0, 0)
-        self.g_c, self.g_e = p.thread_weights if p.threads else none, p.pluck_weights if p.plucks else none
-        self.e_b, self.e_c, self.e_e = (self.xi / self.J * g for g in (self.g_b, self.g_c, self.g_e))
-        self.phi_c, self.theta_bc = p.thread_stiffness / 2 + p.thread_damping / self.dt, self.g_b @ self.e_c
+        self.J, self.xi = 1 + self.a + self.b, self.dt**2 / (2 * p.modal_mass)
+        none = np.zeros(p.modes)
+        self.g_b, self.k_b, self.h_b = none, 0, 0
+        if p.contacts:
+            self.g_b, self.k_b = p.contact_weights[0], p.contact_stiffness[0]
+            self.h_b = p.contact_height[0]
+        self.g_c = p.thread_weights if p.threads else none
+        self.g_e = p.pluck_weights if p.plucks else none
+        self.e_b, self.e_c, self.e_e = (self.xi / self.J * g
+                                        for g in (self.g_b, self.g_c, self.g_e))
+        self.phi_c = p.thread_stiffness / 2 + p.thread_damping / self.dt
+        self.theta_bc = self.g_b @ self.e_c
         self.inverse = 1 / (1 + self.phi_c * (self.g_c @ self.e_c))
         self.beta = self.phi_c * self.theta_bc * self.inverse  # (47)
         self.theta = self.g_b @ self.e_b - self.beta * self.theta_bc
@@ -33,13 +42,15 @@ class TwoPoint:
         self.reset()
 
     def reset(self):
-        self.y, self.q, self.n, self.forces = self.p.start.copy(), np.zeros(self.p.modes), 0, np.zeros(2)
+        self.y, self.q = self.p.start.copy(), np.zeros(self.p.modes)
+        self.n, self.forces = 0, np.zeros(2)
 
     def pluck(self, n):
         return self.p.pluck_force[n] if n < len(self.p.pluck_force) else 0.0
 
     def contact(self, d, b):
-        """Root of r + b = theta F (48), F = k mean of [penetration] from d to d - r: the four cases of fig 4; returns F."""
+        """Root of r + b = theta F (48), F = k mean of [penetration] from d to d - r: the four cases
+        of fig 4; returns F."""
         phi = 0.5 * self.theta * self.k_b
         if self.k_b == 0 or (d <= 0 and d + b <= 0):
             return 0.0
@@ -52,12 +63,15 @@ class TwoPoint:
         return (r + b) / self.theta
 
     def step(self):
-        u = 2 / self.J * (self.q - self.a * self.y) + self.e_e * (0.5 * (self.pluck(self.n) + self.pluck(self.n + 1)))  # (42)
-        v_c = (self.p.thread_stiffness * (self.p.thread_height - self.g_c @ self.y) - self.phi_c * (self.g_c @ u)) * self.inverse
+        F_e = 0.5 * (self.pluck(self.n) + self.pluck(self.n + 1))
+        u = 2 / self.J * (self.q - self.a * self.y) + self.e_e * F_e  # (42)
+        stretched = self.p.thread_height - self.g_c @ self.y
+        v_c = (self.p.thread_stiffness * stretched - self.phi_c * (self.g_c @ u)) * self.inverse
         F_b = self.contact(self.h_b - self.g_b @ self.y, -(self.g_b @ u) - self.theta_bc * v_c)
         F_c = v_c - self.beta * F_b  # (46)
         s = u + self.e_b * F_b + self.e_c * F_c  # (41)
-        self.y, self.q, self.n, self.forces = self.y + s, s - self.q, self.n + 1, self.forces + (F_b, F_c)  # (40)
+        self.y, self.q = self.y + s, s - self.q  # (40)
+        self.n, self.forces = self.n + 1, self.forces + (F_b, F_c)
         return s
 
     def advance(self, rows):
@@ -66,7 +80,8 @@ class TwoPoint:
             (F_b, F_c), self.forces = self.forces / self.p.steps_per_row, np.zeros(2)
             shape, speed = self.heard @ self.y, self.heard @ (2 / self.dt * self.q)
             forces = {"bridge_force": F_b, "thread_force": F_c, "driving_force": -F_b - F_c}
-            row[:] = [forces.get(of, (speed if of == "velocity" else shape)[k]) for k, of in enumerate(self.p.tap_quantities)]
+            row[:] = [forces.get(of, (speed if of == "velocity" else shape)[k])
+                      for k, of in enumerate(self.p.tap_quantities)]
             for _ in range(self.p.steps_per_row):
                 self.step()
         return trace
@@ -74,10 +89,12 @@ class TwoPoint:
 
 if __name__ == "__main__":
     with open(sys.argv[1]) as file:
-        p = SimpleNamespace(**{key: np.array(value) if isinstance(value, list) else value for key, value in json.load(file).items()})
+        p = SimpleNamespace(**{key: np.array(value) if isinstance(value, list) else value
+                               for key, value in json.load(file).items()})
     try:
         trace = np.column_stack((np.arange(p.rows) / p.tap_rate, TwoPoint(p).advance(p.rows)))
     except NotImplementedError as refusal:
         print(refusal)
         sys.exit(3)  # refused: no error, and nothing to be judged
-    np.savetxt(sys.argv[2], trace, "%.17g", ",", header="time_s," + ",".join(p.tap_names), comments="")
+    np.savetxt(sys.argv[2], trace, "%.17g", ",", header="time_s," + ",".join(p.tap_names),
+               comments="")

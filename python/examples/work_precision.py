@@ -16,7 +16,8 @@ scene = jvari.scene("tanpura_c3_release")
 
 # %% One run, to look at
 run = jvari.run(scene, scheme="modal_two_point", duration=0.05, energy=True)
-print(f"{run.status}: {len(run.time)} rows of {', '.join(run.keys())}; largest nut force {abs(run['nut']).max():.3g} {run.units['nut']}")
+print(f"{run.status}: {len(run.time)} rows of {', '.join(run.keys())}; largest nut force "
+      f"{abs(run['nut']).max():.3g} {run.units['nut']}")
 
 # %% Schemes and rates against the exact solution, as the suite work-precision has it
 rows = jvari.compare(
@@ -39,7 +40,8 @@ def name_of(row):
 
 for scheme in dict.fromkeys(map(name_of, rows)):
     own = [row for row in rows if name_of(row) == scheme and row["status"] == "ok"]
-    axes.loglog([row["cost_s_per_s"] for row in own], [row["error_l2_50ms"] for row in own], marker="o", label=scheme)
+    axes.loglog([row["cost_s_per_s"] for row in own], [row["error_l2_50ms"] for row in own],
+                marker="o", label=scheme)
 axes.set_xlabel("computing time per second of sound [s/s]")
 axes.set_ylabel("relative error of the nut force over 50 ms")
 axes.set_title(scene.name)

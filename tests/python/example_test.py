@@ -1,8 +1,8 @@
 """The example draws its picture, and its cells are those of the committed study.
 
-example_test.py SOURCE: one of its schemes has three cells in results/work-precision/errors.csv. They come out to the last digit where
-sources, compiler and vector instructions are those of the study, else to what rounding leaves: a reference may add in another order since.
-"""
+example_test.py SOURCE: one of its schemes has three cells in results/work-precision/errors.csv.
+They come out to the last digit where sources, compiler and vector instructions are those of the
+study, else to what rounding leaves: a reference may add in another order since."""
 
 import csv
 import importlib.util
@@ -25,11 +25,14 @@ with tempfile.TemporaryDirectory() as folder:
     sys.argv = ["work_precision.py", os.path.join(folder, "picture.svg")]
     rows = runpy.run_path(os.path.join(source, "python", "examples", "work_precision.py"))["rows"]
     drawing = xml.etree.ElementTree.parse(sys.argv[1]).getroot()
-lines = [e for e in drawing.iter() if e.get("id", "").startswith("line2d_") and len(list(e.iter("{http://www.w3.org/2000/svg}use"))) == 3]
+lines = [e for e in drawing.iter() if e.get("id", "").startswith("line2d_")
+         and len(list(e.iter("{http://www.w3.org/2000/svg}use"))) == 3]
 assert len(lines) >= 3, f"{len(lines)} lines of three points are drawn"
 
 with open(os.path.join(source, "results", "work-precision", "errors.csv")) as file:
-    study = {(row["scheme"], float(row["rate"]), int(row["modes"])): row for row in csv.DictReader(file) if row["options"] in ("", "compliance=own") and row["rate"]}
+    study = {(row["scheme"], float(row["rate"]), int(row["modes"])): row
+             for row in csv.DictReader(file) if row["options"] in ("", "compliance=own")
+             and row["rate"]}
 with open(os.path.join(source, "results", "work-precision", "manifest.json")) as file:
     made_by = json.load(file)
 here = jvari.made_by()
@@ -39,12 +42,16 @@ noise = 1e-12 if allowed else 0  # the floor is rounding itself
 
 checked = 0
 for row in rows:
-    if row["scheme"] != "modal_two_point" or row["options"] not in ("", "compliance=own") or (row["scheme"], row["rate"], row["modes"]) not in study:
+    key = (row["scheme"], row["rate"], row["modes"])
+    if (row["scheme"] != "modal_two_point" or row["options"] not in ("", "compliance=own")
+            or key not in study):
         continue
     committed = study[row["scheme"], row["rate"], row["modes"]]
-    for column in ("error_l2_10ms", "error_l2_50ms", "error_in_model_l2_10ms", "error_in_model_l2_50ms", "floor_error_l2_50ms"):
+    for column in ("error_l2_10ms", "error_l2_50ms", "error_in_model_l2_10ms",
+                   "error_in_model_l2_50ms", "floor_error_l2_50ms"):
         found, expected = row[column], float(committed[column])
-        assert abs(found - expected) <= allowed * expected + noise, f"{row['rate']} Hz: {column} is {found}, not {expected}"
+        assert abs(found - expected) <= allowed * expected + noise, (
+            f"{row['rate']} Hz: {column} is {found}, not {expected}")
     checked += 1
 assert checked == 3, f"{checked} cells"
 print(f"three cells to {allowed:g}" if allowed else "three cells to the last digit")

@@ -1,4 +1,5 @@
-"""The Python module: the same numbers as the program, its memory without a copy, refusals as exceptions, Ctrl-C.
+"""The Python module: the same numbers as the program, its memory without a copy, refusals as
+exceptions, Ctrl-C.
 
 module_test.py PROGRAM PLUGIN
 """
@@ -36,16 +37,19 @@ class Module(unittest.TestCase):
 
     def test_a_run_is_the_programs_to_the_last_bit(self):
         scene = jvari.scene("tanpura_c3_release").set("string.0.tension", 40)
-        run = jvari.run(scene, scheme="modal_two_point", rate=88200, energy=True, options={"compliance": "matched"}, **SHORT)
+        run = jvari.run(scene, scheme="modal_two_point", rate=88200, energy=True,
+                        options={"compliance": "matched"}, **SHORT)
         with tempfile.TemporaryDirectory() as folder:
             file = folder + "/a.csv"
             subprocess.run(
-                [PROGRAM, "run", "tanpura_c3_release", "--set", "string.0.tension=40", "--scheme", "modal_two_point", "--rate", "88200",
-                 "--option", "compliance=matched", "--duration", "0.01", "--energy", "--quiet", "--out", file], check=True)
+                [PROGRAM, "run", "tanpura_c3_release", "--set", "string.0.tension=40",
+                 "--scheme", "modal_two_point", "--rate", "88200", "--option", "compliance=matched",
+                 "--duration", "0.01", "--energy", "--quiet", "--out", file], check=True)
             rows = rows_of(file)
         self.assertEqual(run.status, "ok")
         self.assertEqual(len(rows), 442)
-        self.assertEqual(run.keys()[-3:], ["energy_stored_J", "energy_supplied_J", "energy_dissipated_J"])
+        self.assertEqual(run.keys()[-3:], ["energy_stored_J", "energy_supplied_J",
+                                           "energy_dissipated_J"])
         for name in run.keys():
             self.assertEqual([float(row[name]) for row in rows], list(run[name]), name)
         self.assertEqual([float(row["time_s"]) for row in rows], list(run.time))
@@ -56,9 +60,11 @@ class Module(unittest.TestCase):
 
     def test_a_run_that_blows_up_says_so_whether_its_energy_is_asked_for_or_not(self):
         scene = jvari.scene("tanpura_c3_release").set("string.0.barrier.0.stiffness", 1e8)
-        bare, probed = (jvari.run(scene, "modal_explicit_penalty", energy=energy, duration=0.004) for energy in (False, True))
+        bare, probed = (jvari.run(scene, "modal_explicit_penalty", energy=energy, duration=0.004)
+                        for energy in (False, True))
         self.assertEqual(probed.status, "diverged")
-        self.assertEqual((bare.status, bare.steps, len(bare["nut"])), (probed.status, probed.steps, len(probed["nut"])))
+        self.assertEqual((bare.status, bare.steps, len(bare["nut"])),
+                         (probed.status, probed.steps, len(probed["nut"])))
 
     def test_arrays_are_the_engines_memory_and_keep_it(self):
         run = jvari.run("tanpura_c3_release", "modal_two_point", **SHORT)
@@ -74,21 +80,26 @@ class Module(unittest.TestCase):
         self.assertTrue(np.array_equal(a, before))
 
     def test_refusals_are_exceptions_with_the_sentence(self):
-        with self.assertRaisesRegex(jvari.UsageError, 'unknown scheme or reference "modal_two_pont"; did you mean "modal_two_point"'):
+        with self.assertRaisesRegex(jvari.UsageError,
+                                    'unknown scheme or reference "modal_two_pont"; did you mean '
+                                    '"modal_two_point"'):
             jvari.run("tanpura_c3", "modal_two_pont")
         with self.assertRaisesRegex(jvari.Refusal, "sitar_waveguide|represent"):
             jvari.run("tanpura_c3", "sitar_waveguide")
         with self.assertRaisesRegex(jvari.UsageError, "option"):
             jvari.run("tanpura_c3", "modal_two_point", options={"complience": "own"})
-        with self.assertRaisesRegex(jvari.UsageError, "modal_quadratised:compliance: this run is of modal_two_point"):
-            jvari.run("tanpura_c3", "modal_two_point", options={"modal_quadratised:compliance": "own"})
+        with self.assertRaisesRegex(jvari.UsageError,
+                                    "modal_quadratised:compliance: this run is of modal_two_point"):
+            jvari.run("tanpura_c3", "modal_two_point",
+                      options={"modal_quadratised:compliance": "own"})
         with self.assertRaisesRegex(jvari.SceneError, "string.0.tension.*expected"):
             jvari.scene("tanpura_c3").set("string.0.tension", -3)
         with self.assertRaisesRegex(jvari.SceneError, "did you mean"):
             jvari.scene("tanpura_c4")
         with self.assertRaisesRegex(ValueError, "no whole multiple"):
             jvari.run("tanpura_c3", "modal_two_point", rate=48000, tap_rate=44100)
-        with self.assertRaisesRegex(jvari.SceneError, "duration: found -1 s, expected no less than a row"):
+        with self.assertRaisesRegex(jvari.SceneError,
+                                    "duration: found -1 s, expected no less than a row"):
             jvari.run("tanpura_c3", "modal_two_point", duration=-1)
         with self.assertRaisesRegex(KeyError, 'did you mean .*nut'):
             jvari.run("tanpura_c3_release", "modal_two_point", **SHORT)["nutt"]
@@ -116,9 +127,14 @@ class Module(unittest.TestCase):
                 jvari.scene("free_string").set("duration", value)
 
     def test_leaving_ends_what_a_daemon_thread_computes(self):
-        for call in ('run_many(["tanpura_c3_release"] * 20, "modal_two_point", duration=5.0, rate=176400)', 'compare("tanpura_c3_release", duration=1)'):
-            script = f"import jvari, threading, time\nthreading.Thread(target=lambda: jvari.{call}, daemon=True).start()\ntime.sleep(0.7)"
-            said = subprocess.run([sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=60)
+        for call in (
+            'run_many(["tanpura_c3_release"] * 20, "modal_two_point", duration=5.0, rate=176400)',
+            'compare("tanpura_c3_release", duration=1)'):
+            script = ("import jvari, threading, time\n"
+                      f"threading.Thread(target=lambda: jvari.{call}, daemon=True).start()\n"
+                      "time.sleep(0.7)")
+            said = subprocess.run([sys.executable, "-W", "ignore", "-c", script],
+                                  capture_output=True, text=True, timeout=60)
             self.assertEqual((said.returncode, said.stderr), (0, ""), call)
 
     def test_a_failed_run_says_so_and_keeps_its_valid_rows(self):
@@ -132,7 +148,8 @@ class Module(unittest.TestCase):
         self.assertTrue(np.isnan(many[0, len(run.time):]).all())
 
     def test_run_many_is_run_one_by_one(self):
-        scenes = [jvari.scene("tanpura_c3_release").set("string.0.tension", t) for t in (30, 33.5, 38)]
+        scenes = [jvari.scene("tanpura_c3_release").set("string.0.tension", t)
+                  for t in (30, 33.5, 38)]
         many = jvari.run_many(scenes, "modal_two_point", jobs=2, **SHORT)
         self.assertEqual(many.shape, (3, 442, len(scenes[0].taps)))
         for k, scene in enumerate(scenes):
@@ -141,10 +158,13 @@ class Module(unittest.TestCase):
                 self.assertTrue(np.array_equal(many[k, :, j], run[name]), name)
         self.assertFalse(np.array_equal(many[0], many[1]))
         with self.assertRaisesRegex(jvari.UsageError, "scene 1 lasts another time"):
-            jvari.run_many(["tanpura_c3_release", jvari.scene("tanpura_c3_release").set("duration", 2)], "modal_two_point")
+            jvari.run_many(["tanpura_c3_release",
+                            jvari.scene("tanpura_c3_release").set("duration", 2)],
+                           "modal_two_point")
         other = jvari.scene("tanpura_c3_release").set("tap.2.quantity", "thread_force")
         for change in (other, jvari.scene("tanpura_c3_release").set("tap.0.name", "other")):
-            with self.assertRaisesRegex(jvari.UsageError, "scene 1 lasts another time or has taps of other names"):
+            with self.assertRaisesRegex(jvari.UsageError,
+                                        "scene 1 lasts another time or has taps of other names"):
                 jvari.run_many(["tanpura_c3_release", change], "modal_two_point", **SHORT)
         with self.assertRaises(jvari.Refusal):
             jvari.run_many(["tanpura_c3"] * 3, "sitar_waveguide", **SHORT)
@@ -172,19 +192,30 @@ class Module(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = folder + "/long.toml"
             with open(file, "w") as f:
-                f.write(f'[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [{rate}]\nduration = 1\nrepeats = 50\nmeasure = ["errors", "cost"]\n')
+                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\n'
+                        f'rates = [{rate}]\nduration = 1\nrepeats = 50\n'
+                        'measure = ["errors", "cost"]\n')
             slow_reference, slow_map = folder + "/reference.toml", folder + "/map.toml"
             with open(slow_reference, "w") as f:
-                f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nduration = 0.2\nreference = "sundials"\nreference_modes = "cell"\n')
+                f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\n'
+                        'rates = [44100, 88200]\nduration = 0.2\nreference = "sundials"\n'
+                        'reference_modes = "cell"\n')
             with open(slow_map, "w") as f:
-                f.write('[[map]]\nname = "m"\nscene = "tanpura_c3"\nschemes = ["modal_two_point"]\nduration = 0.2\nreference = "sundials"\nx = { key = "rate", values = [44100, 48000] }\n')
+                f.write('[[map]]\nname = "m"\nscene = "tanpura_c3"\nschemes = ["modal_two_point"]\n'
+                        'duration = 0.2\nreference = "sundials"\n'
+                        'x = { key = "rate", values = [44100, 48000] }\n')
             for name, call in {
                 "run": lambda: jvari.run("tanpura_c3", "modal_two_point", rate=rate, duration=60),
-                "run_many": lambda: jvari.run_many(["tanpura_c3"] * 4, "modal_two_point", rate=rate, duration=60),
-                "compare": lambda: jvari.compare("tanpura_c3", schemes=["modal_two_point"], rates=[rate], duration=60),
-                "compare, its reference": lambda: jvari.compare("tanpura_c3", ["modal_two_point"], [44100], reference="sundials", duration=0.2),
+                "run_many": lambda: jvari.run_many(["tanpura_c3"] * 4, "modal_two_point", rate=rate,
+                                                   duration=60),
+                "compare": lambda: jvari.compare("tanpura_c3", schemes=["modal_two_point"],
+                                                 rates=[rate], duration=60),
+                "compare, its reference": lambda: jvari.compare("tanpura_c3", ["modal_two_point"],
+                                                                [44100], reference="sundials",
+                                                                duration=0.2),
                 "suite": lambda: jvari.suite(file),
-                "suite, its references": lambda: jvari.suite(slow_reference, jobs=2),  # two cells wait for one
+                # two cells wait for one
+                "suite, its references": lambda: jvari.suite(slow_reference, jobs=2),
                 "suite_tables, its maps": lambda: jvari.suite_tables(slow_map),
                 "trim": lambda: jvari.trim("tanpura_c3", "0.0001%", duration=1),
             }.items():
@@ -194,18 +225,23 @@ class Module(unittest.TestCase):
                     start = time.process_time()
                     with self.assertRaises(KeyboardInterrupt):
                         call()
-                    self.assertLess(time.process_time() - start, 6)  # of what would take twice to a hundred times as much
+                    # of what would take twice to a hundred times as much
+                    self.assertLess(time.process_time() - start, 6)
                     timer.join()
 
     def test_ctrl_c_says_what_is_kept(self):
         with tempfile.TemporaryDirectory() as folder:
             file, out = folder + "/a.toml", folder + "/out"
             with open(file, "w") as f:
-                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.01\n'
-                        '[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\nreference_modes = "cell"\n')
+                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\n'
+                        'rates = [44100]\nduration = 0.01\n'
+                        '[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\n'
+                        'rates = [44100]\nduration = 0.2\nreference = "sundials"\n'
+                        'reference_modes = "cell"\n')
 
             def interrupt():
-                while not (os.path.isdir(out + "/cells") and any(name.endswith(".json") for name in os.listdir(out + "/cells"))):
+                while not (os.path.isdir(out + "/cells")
+                           and any(name.endswith(".json") for name in os.listdir(out + "/cells"))):
                     time.sleep(0.01)
                 os.kill(os.getpid(), signal.SIGINT)
 
@@ -214,13 +250,19 @@ class Module(unittest.TestCase):
             with self.assertRaises(KeyboardInterrupt) as raised:
                 jvari.suite(file, out=out, jobs=1)
             thread.join()
-            self.assertEqual(str(raised.exception), f"interrupted: 1 of 2 cells are kept in {out}; resume=True goes on from there")
+            self.assertEqual(str(raised.exception),
+                             f"interrupted: 1 of 2 cells are kept in {out}; resume=True goes on "
+                             "from there")
             self.assertEqual(len(os.listdir(out + "/cells")), 1)
-        for call in (lambda: jvari.suite(file), lambda: jvari.compare("tanpura_c3", ["modal_two_point"], [44100], reference="sundials", duration=0.2)):
+        compared = ("tanpura_c3", ["modal_two_point"], [44100])
+        for call in (lambda: jvari.suite(file),
+                     lambda: jvari.compare(*compared, reference="sundials", duration=0.2)):
             with tempfile.TemporaryDirectory() as folder:
                 file = folder + "/a.toml"
                 with open(file, "w") as f:
-                    f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.2\nreference = "sundials"\nreference_modes = "cell"\n')
+                    f.write('[[cells]]\nscenes = ["tanpura_c3"]\nschemes = ["modal_two_point"]\n'
+                            'rates = [44100]\nduration = 0.2\nreference = "sundials"\n'
+                            'reference_modes = "cell"\n')
                 timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
                 timer.start()
                 with self.assertRaisesRegex(KeyboardInterrupt, "interrupted: nothing is kept"):
@@ -230,7 +272,8 @@ class Module(unittest.TestCase):
     def test_a_note_that_the_caller_wants_as_an_error_is_one(self):
         warnings.simplefilter("error", UserWarning)
         with self.assertRaisesRegex(UserWarning, "string"):
-            jvari.run(jvari.scene("free_string").set("string.0.initial.amplitude", 0), "modal_two_point", **SHORT)
+            jvari.run(jvari.scene("free_string").set("string.0.initial.amplitude", 0),
+                      "modal_two_point", **SHORT)
 
     def test_a_plugin_brings_its_schemes(self):
         before = set(jvari.schemes())
@@ -248,47 +291,60 @@ class Module(unittest.TestCase):
             jvari.plugin("/no/such/plugin.so")
 
     def test_a_comparison_is_the_programs_rows(self):
-        rows = jvari.compare("tanpura_c3_release", schemes=["modal_two_point", "modal_quadratised"], rates=[44100, 88200], modes=133,
+        rows = jvari.compare("tanpura_c3_release", schemes=["modal_two_point", "modal_quadratised"],
+                             rates=[44100, 88200], modes=133,
                              options={"compliance": "own"}, repeats=1, **SHORT)
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(
-                [PROGRAM, "compare", "tanpura_c3_release", "--schemes", "modal_two_point", "modal_quadratised", "--rates", "44100", "88200",
-                 "--modes", "133", "--option", "compliance=own", "--repeats", "1", "--duration", "0.01", "--quiet", "--out", folder], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
+                [PROGRAM, "compare", "tanpura_c3_release", "--schemes", "modal_two_point",
+                 "modal_quadratised", "--rates", "44100", "88200", "--modes", "133",
+                 "--option", "compliance=own", "--repeats", "1", "--duration", "0.01", "--quiet",
+                 "--out", folder], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
             kept = rows_of(folder + "/errors.csv")
         self.assertEqual(len(rows), 4)
         for row, old in zip(rows, kept):
             for column in old:
                 if column.startswith("error_"):
-                    self.assertEqual(row[column], float(old[column]) if old[column] else None, column)
+                    self.assertEqual(row[column], float(old[column]) if old[column] else None,
+                                     column)
             self.assertGreater(row["cost_s_per_s"], 0)
             self.assertIn("bound_l2_10ms", row)
-        several = jvari.compare("tanpura_c3_release", schemes=["modal_two_point"], rates=[44100], modes=[60, 80],
+        several = jvari.compare("tanpura_c3_release", schemes=["modal_two_point"], rates=[44100],
+                                modes=[60, 80],
                                 options={"compliance": ["own", "matched"]}, repeats=1, **SHORT)
         self.assertEqual([(row["options"], row["modes"]) for row in several],
-                         [("compliance=own", 60), ("compliance=own", 80), ("compliance=matched", 60), ("compliance=matched", 80)])
+                         [("compliance=own", 60), ("compliance=own", 80),
+                          ("compliance=matched", 60), ("compliance=matched", 80)])
 
     def test_a_suite_is_its_rows(self):
         with tempfile.TemporaryDirectory() as folder:
             file = folder + "/a.toml"
             with open(file, "w") as f:
-                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100, 88200]\nsearch = false\nduration = 0.01\n')
+                f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\n'
+                        'rates = [44100, 88200]\nsearch = false\nduration = 0.01\n')
             rows = jvari.suite(file, out=folder + "/out")
             self.assertEqual([row["rate"] for row in rows], [44100, 88200])
             self.assertEqual(os.listdir(folder + "/out"), ["cells"])
             self.assertEqual(len(os.listdir(folder + "/out/cells")), 2)
             self.assertEqual(jvari.suite(file, out=folder + "/out", resume=True), rows)
-            self.assertEqual(jvari.suite_tables(file, out=folder + "/out", resume=True), {"cells": rows, "maps": [], "boundaries": []})
+            self.assertEqual(jvari.suite_tables(file, out=folder + "/out", resume=True),
+                             {"cells": rows, "maps": [], "boundaries": []})
 
     def test_a_suites_maps_are_the_programs_rows(self):
         with tempfile.TemporaryDirectory() as folder:
             file, out = folder + "/a.toml", folder + "/out"
             with open(file, "w") as f:
-                f.write('[[map]]\nname = "penalty"\nscene = "tanpura_c3"\nschemes = ["modal_explicit_penalty"]\nmodes = 60\nduration = 0.02\n'
-                        'reference = "none"\ntheory = "penalty_limit"\nrefine = 5\nreproduce = false\nset = { "string.0.barrier.0.stiffness" = 4.39e6 }\n'
-                        'x = { key = "rate", from = 1e5, to = 1e6, points = 3 }\ny = { key = "string.0.tension", values = [30, 40] }\n'
-                        '[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\nrates = [44100]\nduration = 0.01\nmeasure = ["dispersion"]\n')
+                f.write('[[map]]\nname = "penalty"\nscene = "tanpura_c3"\n'
+                        'schemes = ["modal_explicit_penalty"]\nmodes = 60\nduration = 0.02\n'
+                        'reference = "none"\ntheory = "penalty_limit"\nrefine = 5\n'
+                        'reproduce = false\nset = { "string.0.barrier.0.stiffness" = 4.39e6 }\n'
+                        'x = { key = "rate", from = 1e5, to = 1e6, points = 3 }\n'
+                        'y = { key = "string.0.tension", values = [30, 40] }\n'
+                        '[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\n'
+                        'rates = [44100]\nduration = 0.01\nmeasure = ["dispersion"]\n')
             tables = jvari.suite_tables(file, out=out)
-            subprocess.run([PROGRAM, "suite", file, "--quiet", "--out", folder + "/whole"], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
+            subprocess.run([PROGRAM, "suite", file, "--quiet", "--out", folder + "/whole"],
+                           check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
             for name, length in (("maps", 6), ("boundaries", 4)):
                 rows, theirs = tables[name], rows_of(f"{folder}/whole/{name}.csv")
                 self.assertEqual(len(rows), length)
@@ -296,8 +352,10 @@ class Module(unittest.TestCase):
                     self.assertEqual(list(row), list(old))
                     for column, text in old.items():
                         number = isinstance(row[column], (int, float))
-                        self.assertEqual(row[column] if number else row[column] or "", float(text) if number else text, column)
-            self.assertLess(min(abs(row["relative_difference"] or 1) for row in tables["boundaries"]), 0.1)
+                        self.assertEqual(row[column] if number else row[column] or "",
+                                         float(text) if number else text, column)
+            self.assertLess(min(abs(row["relative_difference"] or 1)
+                                for row in tables["boundaries"]), 0.1)
             self.assertEqual(len(tables["cells"]), 1)
             self.assertEqual(tables["dispersion"][0]["scheme"], "modal_two_point")
             points = os.listdir(out + "/points")
@@ -307,7 +365,8 @@ class Module(unittest.TestCase):
             self.assertEqual(os.stat(out + "/points/" + points[0]).st_mtime_ns, at)
 
     def test_a_trim_is_its_path_and_its_needs(self):
-        trimmed = jvari.trim("free_string", "10%", scheme="modal_two_point", duration=0.01, reference="exact_linear")
+        trimmed = jvari.trim("free_string", "10%", scheme="modal_two_point", duration=0.01,
+                             reference="exact_linear")
         self.assertTrue(trimmed.found)
         self.assertLess(trimmed.path[-1]["error"], 0.1)
         self.assertLess(trimmed.path[-1]["modes"], 133)  # those of the string below 20 kHz
@@ -343,13 +402,16 @@ class Module(unittest.TestCase):
             self.assertTrue(there.__doc__, name)
             if isinstance(node, ast.ClassDef):
                 stubbed = {n.name for n in node.body if isinstance(n, functions)}
-                own = {member for member in vars(there) if not member.startswith("_") or member == "__getitem__"} if stubbed else set()
+                own = set()
+                if stubbed:
+                    own = {m for m in vars(there) if not m.startswith("_") or m == "__getitem__"}
                 self.assertEqual(stubbed, own, name)
                 for member in own:
                     self.assertTrue(getattr(there, member).__doc__, f"{name}.{member}")
             else:  # pybind11 writes the signature into the docstring
                 signature = there.__doc__.split("\n")[0]
-                self.assertEqual([argument.arg for argument in node.args.args + node.args.kwonlyargs], re.findall(r"(\w+): ", signature), name)
+                arguments = [a.arg for a in node.args.args + node.args.kwonlyargs]
+                self.assertEqual(arguments, re.findall(r"(\w+): ", signature), name)
 
 
 if __name__ == "__main__":

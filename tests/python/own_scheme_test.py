@@ -1,4 +1,5 @@
-"""Schemes written in Python: they run, are judged and are checked like any other. own_scheme_test.py"""
+"""Schemes written in Python: they run, are judged and are checked like any other.
+own_scheme_test.py"""
 
 import copy
 import importlib.util
@@ -13,11 +14,13 @@ import xml.etree.ElementTree
 import jvari
 import numpy as np
 
-TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "own-scheme")
+TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs",
+                         "own-scheme")
 sys.path.insert(0, TEMPLATES)
 from two_point import TwoPoint as Template  # noqa: E402
 
-FEATURES = ["bending stiffness", "damping", "frequency-dependent damping", "measured modes", "lumped barrier", "thread", "initial shape", "pluck"]
+FEATURES = ["bending stiffness", "damping", "frequency-dependent damping", "measured modes",
+            "lumped barrier", "thread", "initial shape", "pluck"]
 
 
 class TwoPoint(Template):
@@ -41,12 +44,14 @@ class TwoPoint(Template):
         F_e = 0.5 * (self.pluck(self.n) + self.pluck(self.n + 1))
         s = super().step()
         self.supplied += F_e * (self.g_e @ s)
-        self.lost += self.b @ (s * s) / self.xi + self.p.thread_damping / self.dt * (self.g_c @ s) ** 2
+        self.lost += self.b @ (s * s) / self.xi
+        self.lost += self.p.thread_damping / self.dt * (self.g_c @ s) ** 2
 
     def stored(self):
         modes = (self.q @ self.q + self.a @ (self.y * self.y)) / self.xi
         d_b, d_c = max(0.0, self.h_b - self.g_b @ self.y), self.p.thread_height - self.g_c @ self.y
-        return modes + 0.5 * self.k_b * d_b**2 + 0.5 * self.p.thread_stiffness * d_c**2 * self.p.threads
+        thread = 0.5 * self.p.thread_stiffness * d_c**2 * self.p.threads
+        return modes + 0.5 * self.k_b * d_b**2 + thread
 
     def advance(self, rows):
         taps, energy = np.empty((rows, self.p.taps)), np.empty((rows, 3))
@@ -59,7 +64,8 @@ class TwoPoint(Template):
 
 def registered(name, balance="exact", **faults):
     cls = type(name, (TwoPoint,), faults)
-    return jvari.scheme(name, represents=FEATURES, balance=balance, source="van Walstijn et al. 2016, eqs 33, 38-52")(cls)
+    return jvari.scheme(name, represents=FEATURES, balance=balance,
+                        source="van Walstijn et al. 2016, eqs 33, 38-52")(cls)
 
 
 def broken(name):
@@ -72,30 +78,40 @@ class OwnScheme(unittest.TestCase):
 
     def test_it_is_the_scheme_that_it_repeats(self):
         registered("python_two_point")
-        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05, energy=True) for name in ("python_two_point", "modal_two_point")}
+        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05, energy=True)
+               for name in ("python_two_point", "modal_two_point")}
         for tap in run["modal_two_point"].keys():
             own, built_in = run["python_two_point"][tap], run["modal_two_point"][tap]
-            self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in), tap)
+            self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in),
+                                 tap)
 
     def test_the_template_as_it_stands_is_a_scheme(self):
         jvari.scheme("template", represents=FEATURES)(Template)
-        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05) for name in ("template", "modal_two_point")}
+        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05)
+               for name in ("template", "modal_two_point")}
         for tap in run["modal_two_point"].keys():
             own, built_in = run["template"][tap], run["modal_two_point"][tap]
-            self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in), tap)
+            self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in),
+                                 tap)
 
-    @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "matplotlib is not installed (Debian: python3-matplotlib)")
+    @unittest.skipIf(importlib.util.find_spec("matplotlib") is None,
+                     "matplotlib is not installed (Debian: python3-matplotlib)")
     def test_ten_lines_make_the_picture(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, os.path.join(TEMPLATES, "picture.py"), folder + "/picture.svg"], check=True, env={**os.environ, "MPLBACKEND": "Agg"})
+            subprocess.run([sys.executable, os.path.join(TEMPLATES, "picture.py"),
+                            folder + "/picture.svg"], check=True,
+                           env={**os.environ, "MPLBACKEND": "Agg"})
             drawing = xml.etree.ElementTree.parse(folder + "/picture.svg").getroot()
-        points = [len(list(e.iter("{http://www.w3.org/2000/svg}use"))) for e in drawing.iter() if e.get("id", "").startswith("line2d_")]
+        points = [len(list(e.iter("{http://www.w3.org/2000/svg}use"))) for e in drawing.iter()
+                  if e.get("id", "").startswith("line2d_")]
         self.assertEqual(points.count(3), 2, "two lines of three rates")
 
     def test_it_is_compared_like_any_other_but_for_its_cost(self):
         registered("python_two_point")
-        rows = jvari.compare("tanpura_c3_release", ["python_two_point", "modal_two_point"], rates=[44100], modes=133, duration=0.01, repeats=1)
-        own, built_in = ([row for row in rows if row["scheme"] == name and "matched" not in row["options"]][0] for name in
+        rows = jvari.compare("tanpura_c3_release", ["python_two_point", "modal_two_point"],
+                             rates=[44100], modes=133, duration=0.01, repeats=1)
+        own, built_in = ([row for row in rows if row["scheme"] == name
+                          and "matched" not in row["options"]][0] for name in
                          ("python_two_point", "modal_two_point"))
         self.assertAlmostEqual(own["error_l2_10ms"], built_in["error_l2_10ms"], delta=1e-10)
         self.assertEqual(own["cost_s_per_s"], "interpreted, not compared")
@@ -108,11 +124,13 @@ class OwnScheme(unittest.TestCase):
         self.assertEqual(broken("honest_in_python"), set())
         registered("thread_turned_round", thread_sign=-1.0)
         self.assertIn("StoresNoNegativeEnergyAndDissipates", broken("thread_turned_round"))
-        unprobed = {"advance": lambda self, rows: Template.advance(self, rows), "thread_sign": -1.0}  # without energies
+        # without energies
+        unprobed = {"advance": lambda self, rows: Template.advance(self, rows), "thread_sign": -1.0}
         registered("thread_turned_round_unprobed", balance="none", **unprobed)
         self.assertEqual(broken("thread_turned_round_unprobed"), {"ConvergesToTheReference"})
         registered("loses_energy", kept=0.999)
-        self.assertTrue({"KeepsItsEnergyLedgerInEveryRow", "KeepsItsEnergyLedgerInSum"} & broken("loses_energy"))
+        ledgers = {"KeepsItsEnergyLedgerInEveryRow", "KeepsItsEnergyLedgerInSum"}
+        self.assertTrue(ledgers & broken("loses_energy"))
 
         def reset(self):
             y = getattr(self, "y", None)
@@ -131,7 +149,8 @@ class OwnScheme(unittest.TestCase):
         row = jvari.compare("free_string", ["stumbles"], rates=[44100], modes=20, duration=0.01)[0]
         self.assertEqual(row["status"], "error")
         self.assertIn("no rows today", row["reason"])
-        jvari.scheme("misshapen", represents=FEATURES)(type("Misshapen", (TwoPoint,), {"advance": lambda self, rows: np.zeros((rows, 99))}))
+        misshapen = {"advance": lambda self, rows: np.zeros((rows, 99))}
+        jvari.scheme("misshapen", represents=FEATURES)(type("Misshapen", (TwoPoint,), misshapen))
         row = jvari.compare("free_string", ["misshapen"], rates=[44100], modes=20, duration=0.01)[0]
         self.assertIn("another shape", row["reason"])
 
@@ -144,7 +163,8 @@ class OwnScheme(unittest.TestCase):
                     self.dofs = dofs
 
             jvari.scheme(name, represents=FEATURES)(Misstates)
-            row = jvari.compare("free_string", [name], rates=[44100], modes=20, duration=0.01, repeats=1)[0]
+            row = jvari.compare("free_string", [name], rates=[44100], modes=20, duration=0.01,
+                                repeats=1)[0]
             self.assertEqual(row["status"], "error")
             self.assertIn("dofs: found " + repr(dofs), row["reason"])
             with self.assertRaisesRegex(Exception, "dofs: found"):
@@ -160,9 +180,14 @@ class OwnScheme(unittest.TestCase):
                 jvari.scheme("ends", represents=FEATURES)(type("Ends", (TwoPoint,), {where: ends}))
                 with tempfile.TemporaryDirectory() as folder:
                     with open(folder + "/a.toml", "w") as f:
-                        f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["ends"]\nrates = [44100]\nmodes = 20\nreference_modes = 20\nduration = 0.01\n')
-                    for call in (lambda: jvari.run("free_string", "ends", duration=0.01), lambda: jvari.run_many(["free_string"], "ends", duration=0.01),
-                                 lambda: jvari.compare("free_string", ["ends"], rates=[44100], modes=20, duration=0.01), lambda: jvari.suite(folder + "/a.toml")):
+                        f.write('[[cells]]\nscenes = ["free_string"]\nschemes = ["ends"]\n'
+                                'rates = [44100]\nmodes = 20\nreference_modes = 20\n'
+                                'duration = 0.01\n')
+                    for call in (lambda: jvari.run("free_string", "ends", duration=0.01),
+                                 lambda: jvari.run_many(["free_string"], "ends", duration=0.01),
+                                 lambda: jvari.compare("free_string", ["ends"], rates=[44100],
+                                                       modes=20, duration=0.01),
+                                 lambda: jvari.suite(folder + "/a.toml")):
                         self.assertRaises(error, call)
         self.assertEqual(jvari.run("free_string", "modal_two_point", duration=0.01).status, "ok")
 
@@ -177,7 +202,8 @@ class OwnScheme(unittest.TestCase):
 
     def test_rows_are_real_numbers(self):
         for rows in (np.ma.ones((1, 1)), np.ones((1, 1)) * 1j, [["a"]]):
-            jvari.scheme("unreal", represents=FEATURES)(type("Unreal", (TwoPoint,), {"advance": lambda self, _, rows=rows: rows}))
+            unreal = {"advance": lambda self, _, rows=rows: rows}
+            jvari.scheme("unreal", represents=FEATURES)(type("Unreal", (TwoPoint,), unreal))
             with self.assertRaisesRegex(RuntimeError, "expected real numbers"):
                 jvari.run("free_string", "unreal", duration=0.01)
             with self.assertRaisesRegex(TypeError, "expected real numbers"):
@@ -198,22 +224,26 @@ class Judge(unittest.TestCase):
         self.taps = {tap: self.run[tap] for tap in self.scene.taps}
 
     def test_a_trace_is_judged_as_the_scheme_that_made_it(self):
-        rows = jvari.judge(self.scene, self.taps, name="again", cost=0.5, schemes=["modal_two_point"], duration=0.01, repeats=1)
+        rows = jvari.judge(self.scene, self.taps, name="again", cost=0.5,
+                           schemes=["modal_two_point"], duration=0.01, repeats=1)
         own, built_in = rows
         self.assertEqual((own["scheme"], own["options"]), ("again", "cost=as_reported"))
         self.assertEqual(own["error_l2_10ms"], built_in["error_l2_10ms"])
         self.assertAlmostEqual(own["cost_s_per_s"], 0.5)
-        as_array = jvari.judge(self.scene, np.column_stack(list(self.taps.values())), duration=0.01)[0]
+        as_array = jvari.judge(self.scene, np.column_stack(list(self.taps.values())),
+                               duration=0.01)[0]
         self.assertEqual(as_array["error_l2_10ms"], own["error_l2_10ms"])
 
     def test_a_planted_error_is_told_at_its_right_size(self):
         free = jvari.run("free_string", "exact_linear", modes=2000, duration=0.02)
         taps = {tap: 1.001 * free[tap] for tap in jvari.scene("free_string").taps}
-        self.assertAlmostEqual(jvari.judge("free_string", taps, duration=0.02)[0]["error_l2_10ms"], 1e-3, delta=1e-5)
+        self.assertAlmostEqual(jvari.judge("free_string", taps, duration=0.02)[0]["error_l2_10ms"],
+                               1e-3, delta=1e-5)
 
     def test_what_is_no_trace_is_refused(self):
         with self.assertRaisesRegex(jvari.UsageError, "tap bridge is missing"):
-            jvari.judge(self.scene, {tap: v for tap, v in self.taps.items() if tap != "bridge"}, duration=0.01)
+            jvari.judge(self.scene, {tap: v for tap, v in self.taps.items() if tap != "bridge"},
+                        duration=0.01)
         with self.assertRaisesRegex(jvari.UsageError, "has 442 rows, the scene has 222"):
             jvari.judge(self.scene, self.taps, duration=0.005)
         with self.assertRaisesRegex(jvari.UsageError, "rows x 4 taps"):
@@ -230,25 +260,30 @@ class Judge(unittest.TestCase):
         for count in (3, 10):
             before = megabytes()
             for _ in range(count):
-                jvari.judge("free_string", trace, duration=0.5, repeats=1, reference="modal_two_point")
+                jvari.judge("free_string", trace, duration=0.5, repeats=1,
+                            reference="modal_two_point")
         self.assertLess(megabytes() - before, 0.5 * count * trace.nbytes / 1e6)
 
 
 class Problem(unittest.TestCase):
     def test_it_has_the_arrays_of_the_scene(self):
         p = jvari.problem("tanpura_c3_release", rate=88200, modes=50, duration=0.01)
-        self.assertEqual((p.modes, p.contacts, p.threads, p.rows, p.steps_per_row), (50, 1, 1, 442, 2))
+        self.assertEqual((p.modes, p.contacts, p.threads, p.rows, p.steps_per_row),
+                         (50, 1, 1, 442, 2))
         self.assertEqual(p.contact_weights.shape, (1, 50))
         self.assertEqual(p.tap_weights.shape, (4, 50))
         np.testing.assert_allclose(p.beta, np.arange(1, 51) * np.pi / p.length, rtol=1e-14)
-        omega = np.sqrt((p.tension * p.beta**2 + p.bending_stiffness * p.beta**4) / p.linear_density)
+        omega = np.sqrt((p.tension * p.beta**2
+                         + p.bending_stiffness * p.beta**4) / p.linear_density)
         np.testing.assert_allclose(p.omega0, omega, rtol=1e-12)
         # The string of all modes yields more than that of fifty, and as much in both directions.
         own = (p.contact_weights[0] ** 2 / (p.modal_mass * p.omega0**2)).sum()
         self.assertGreater(p.compliance[0, 0], own)
         np.testing.assert_allclose(p.compliance, p.compliance.T, rtol=1e-12)
         many = jvari.problem("tanpura_c3_release", rate=4e6, modes=20000, duration=0.01)
-        np.testing.assert_allclose((many.contact_weights[0] ** 2 / (many.modal_mass * many.omega0**2)).sum(), p.compliance[0, 0], rtol=1e-4)
+        np.testing.assert_allclose(
+            (many.contact_weights[0] ** 2 / (many.modal_mass * many.omega0**2)).sum(),
+            p.compliance[0, 0], rtol=1e-4)
 
     def test_what_arrays_do_not_hold_is_refused(self):
         with self.assertRaisesRegex(jvari.Refusal, "several strings"):
