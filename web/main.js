@@ -171,8 +171,8 @@ const shows = {
     fill_handles();
     by_id("about").textContent =
       `${scene.name}: ` +
-      `${scene.string.length > 1 ? `the first of ${scene.string.length} strings, ` : ""}${scene.string[0].pitch.toFixed(1)} ` +
-      `Hz (${scene.string[0].note}). ${scene.source}.`;
+      (scene.string.length > 1 ? `the first of ${scene.string.length} strings, ` : "") +
+      `${scene.string[0].pitch.toFixed(1)} Hz (${scene.string[0].note}). ${scene.source}.`;
   },
   motion({picture}) {
     shown.motion = picture;
@@ -268,7 +268,9 @@ function show_run() {
       [
         "reference",
         `${v.reference}, ${v.modes} modes, ` +
-          `${Number.isFinite(v.uncertainty) ? `known to ${percent(v.uncertainty)}` : "its uncertainty is not known"}`,
+          (Number.isFinite(v.uncertainty)
+            ? `known to ${percent(v.uncertainty)}`
+            : "its uncertainty is not known"),
       ],
     );
   if (Number.isFinite(motion.residual))

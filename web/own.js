@@ -4,35 +4,43 @@ const own_limit = 2000; // [ms]
 // p holds the string as arrays; return one array of p.rows numbers for each tap.
 const own_example = `
 // This is the modal two-point scheme with one contact, van Walstijn et al. 2016, eqs 33-48.
-const dt = 1 / p.sample_rate, M = p.modes, g = p.contact_weights[0], c = p.threads ? p.thread_weights : g.map(() => 0);
+const dt = 1 / p.sample_rate, M = p.modes, g = p.contact_weights[0];
+const c = p.threads ? p.thread_weights : g.map(() => 0);
 const a = [], xi = [], y = [...p.start], q = y.map(() => 0), taps = p.tap_names.map(() => []);
 for (let i = 0; i < M; ++i) {
-  const w = Math.sqrt(p.omega0[i] ** 2 - p.sigma[i] ** 2), R = Math.exp(-p.sigma[i] * dt), C = Math.cos(w * dt);
-  const den = 1 + 2 * R * C + R * R;
+  const w = Math.sqrt(p.omega0[i] ** 2 - p.sigma[i] ** 2), R = Math.exp(-p.sigma[i] * dt);
+  const C = Math.cos(w * dt), den = 1 + 2 * R * C + R * R;
   a.push({a: (1 - 2 * R * C + R * R) / den, b: 2 * (1 - R * R) / den});
   xi.push(dt * dt / (2 * p.modal_mass) / (1 + a[i].a + a[i].b));
 }
 const dot = (u, v) => { let sum = 0; for (let i = 0; i < M; ++i) sum += u[i] * v[i]; return sum; };
+const at = (u, v) => dot(u.map((x, i) => x * xi[i]), v);
 const k = p.contact_stiffness[0], kc = p.thread_stiffness / 2 + p.thread_damping / dt;
-const at = (u, v) => { let sum = 0; for (let i = 0; i < M; ++i) sum += u[i] * xi[i] * v[i]; return sum; };
 const bb = at(g, g), bc = at(g, c), cc = at(c, c), theta = bb - bc * bc * kc / (1 + kc * cc);
 const V = h => h > 0 ? 0.5 * k * h * h : 0;
 let Fb = 0, Fc = 0;
 for (let row = 0; row < p.rows; ++row) {
-  p.tap_names.forEach((name, t) => taps[t].push(p.tap_quantities[t] === "bridge_force" ? Fb : p.tap_quantities[t] === "thread_force" ? Fc : dot(p.tap_weights[t], y)));
+  const force = {bridge_force: Fb, thread_force: Fc};
+  taps.forEach((tap, t) => tap.push(force[p.tap_quantities[t]] ?? dot(p.tap_weights[t], y)));
   Fb = Fc = 0;
   for (let step = 0; step < p.steps_per_row; ++step) {
     const s = y.map((_, i) => 2 * (q[i] - a[i].a * y[i]) / (1 + a[i].a + a[i].b));
-    const vc = (p.thread_stiffness * (p.thread_height - dot(c, y)) - kc * dot(c, s)) / (1 + kc * cc);
+    const vc = (p.thread_stiffness * (p.thread_height - dot(c, y)) - kc * dot(c, s)) /
+               (1 + kc * cc);
     const d = p.contact_height[0] - dot(g, y), free = dot(g, s) + bc * vc;
     // F = (V(d - r) - V(d))/-r, r = free + theta F
     let lo = 0, hi = k * (Math.abs(d) + Math.abs(free)) + 1;
     for (let n = 0; n < 60; ++n) {
-      const F = (lo + hi) / 2, r = free + theta * F, mean = Math.abs(r) < 1e-18 ? k * Math.max(0, d) : (V(d) - V(d - r)) / r;
+      const F = (lo + hi) / 2, r = free + theta * F;
+      const mean = Math.abs(r) < 1e-18 ? k * Math.max(0, d) : (V(d) - V(d - r)) / r;
       if (mean > F) lo = F; else hi = F;
     }
     const F = (lo + hi) / 2, H = vc - kc * bc * F / (1 + kc * cc);
-    for (let i = 0; i < M; ++i) { s[i] += xi[i] * (g[i] * F + c[i] * H); y[i] += s[i]; q[i] = s[i] - q[i]; }
+    for (let i = 0; i < M; ++i) {
+      s[i] += xi[i] * (g[i] * F + c[i] * H);
+      y[i] += s[i];
+      q[i] = s[i] - q[i];
+    }
     Fb += F / p.steps_per_row, Fc += H / p.steps_per_row;
   }
 }
@@ -41,11 +49,16 @@ return taps;
 
 // The text as a worker's own script; what it says comes back as a message, what it throws as an
 // error.
+const own_prelude = 10; // lines of the script above the text
 function own_worker(text) {
   const script = `"use strict"; onmessage = ({data: p}) => {
         const began = performance.now(), taps = scheme(p), took = (performance.now() - began) / 1e3;
-        if (!Array.isArray(taps) || taps.length !== p.taps) throw new Error("it has to return an array for each of the " + p.taps + " taps");
-        postMessage({taps: taps.map((t, k) => { if (t?.length !== p.rows) throw new Error("the array of tap " + p.tap_names[k] + " has " + t?.length + " rows, expected " + p.rows); return Float64Array.from(t); }), took});
+        const fail = text => { throw new Error(text); };
+        if (!Array.isArray(taps) || taps.length !== p.taps)
+          fail("it has to return an array for each of the " + p.taps + " taps");
+        const rows = (t, k) => t?.length === p.rows ? Float64Array.from(t) :
+          fail("tap " + p.tap_names[k] + " has " + t?.length + " rows, expected " + p.rows);
+        postMessage({taps: taps.map(rows), took});
     };\nfunction scheme(p) {\n${text}\n}`;
   const url = URL.createObjectURL(new Blob([script], {type: "text/javascript"})),
     worker = new Worker(url);
@@ -78,21 +91,21 @@ function run_own(text, problem) {
     worker.onerror = e => {
       e.preventDefault();
       clearTimeout(late);
-      reject(new Error(`line ${Math.max(1, e.lineno - 6)}: ${e.message}`));
+      reject(new Error(`line ${Math.max(1, e.lineno - own_prelude)}: ${e.message}`));
     };
     worker.postMessage(problem);
   }).finally(free);
 }
 
 async function judge_own() {
-  const said = document.getElementById("own_said"),
+  const answer = document.getElementById("own_said"),
     text = document.getElementById("own_text").value;
   if (!shown.reference) {
-    said.textContent = "It needs a reference solution, and there is none yet.";
+    answer.textContent = "It needs a reference solution, and there is none yet.";
     return;
   }
   chart.own = [];
-  said.textContent = "It runs.";
+  answer.textContent = "It runs.";
   for (const rate of chart_rates.slice(0, 2)) {
     try {
       const problem = await ask("problem", {
@@ -120,7 +133,7 @@ async function judge_own() {
         outcome: Number.isFinite(error) ? "ok" : "diverged",
         cost: took / run_seconds(),
       });
-      said.textContent =
+      answer.textContent =
         chart.own.map(p => `${p.rate / 1e3} kHz: ${percent(p.error)} error`).join("; ") +
         ". The built-in modal_two_point has " +
         (chart.points
@@ -130,7 +143,7 @@ async function judge_own() {
           .join(" and ") || "no point here") +
         ".";
     } catch (error) {
-      said.textContent = `At ${rate / 1e3} kHz: ${error.message}.`;
+      answer.textContent = `At ${rate / 1e3} kHz: ${error.message}.`;
       break;
     }
   }

@@ -88,208 +88,494 @@ function make_folders() {
 }
 
 // In the page. What a chart shows: the marks of its SVG, or the pixels of its canvas.
-const helpers = `
-    const outline = e => [e.getAttribute("d"), e.getAttribute("transform"), e.getAttribute("stroke"), e.getAttribute("fill"), e.getAttribute("opacity"), e.textContent].join();
-    const picture = chart => chart.querySelector("canvas")?.toDataURL() ?? [...chart.querySelectorAll("svg.marks path, svg.marks text")].map(outline).sort().join("|");
-    const marks = chart => {
-        const svg = chart.querySelector("svg.marks");
-        if (svg) return svg.querySelectorAll(".mark-symbol path, .mark-line path, .mark-area path, .mark-rect path, .mark-text text").length;
-        const canvas = chart.querySelector("canvas");
-        if (!canvas) return 0;
-        const colours = new Set(new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer));
-        return colours.size > 8 ? colours.size : 0;
-    };
-`;
+const helpers = `const outline = e =>
+    [
+      e.getAttribute("d"),
+      e.getAttribute("transform"),
+      e.getAttribute("stroke"),
+      e.getAttribute("fill"),
+      e.getAttribute("opacity"),
+      e.textContent,
+    ].join();
+  const picture = chart =>
+    chart.querySelector("canvas")?.toDataURL() ??
+    [...chart.querySelectorAll("svg.marks path, svg.marks text")].map(outline).sort().join("|");
+  const marks = chart => {
+    const svg = chart.querySelector("svg.marks");
+    if (svg)
+      return svg.querySelectorAll(
+        ".mark-symbol path, .mark-line path, .mark-area path, .mark-rect path, .mark-text text",
+      ).length;
+    const canvas = chart.querySelector("canvas");
+    if (!canvas) return 0;
+    const colours = new Set(
+      new Uint32Array(
+        canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer,
+      ),
+    );
+    return colours.size > 8 ? colours.size : 0;
+  };`;
 
 const in_page = {
   drawn:
     `(() => {${helpers} return [...document.querySelectorAll(".chart")].map(c => ({name: ` +
     `c.getAttribute("aria-label"), marks: marks(c)})); })()`,
-  menus: `(async () => {${helpers}
-        const dead = [];
-        for (const select of document.querySelectorAll(".menus[data-chart] select")) {
-            const chart = document.getElementById(select.closest(".menus").dataset.chart), before = picture(chart);
-            select.selectedIndex = [...select.options].findLastIndex(option => !option.disabled);
-            await select.onchange();
-            if (picture(chart) === before || !marks(chart)) dead.push(select.closest("label").textContent.slice(0, 30) + " of " + chart.getAttribute("aria-label"));
-            select.selectedIndex = 0;
-            await select.onchange();
-            if (picture(chart) !== before) dead.push(select.closest("label").textContent.slice(0, 30) + " does not go back");
-        }
-        return {menus: document.querySelectorAll(".menus[data-chart] select").length, dead};
+  menus: `(async () => {
+      ${helpers};
+      const dead = [];
+      for (const select of document.querySelectorAll(".menus[data-chart] select")) {
+        const chart = document.getElementById(select.closest(".menus").dataset.chart),
+          before = picture(chart);
+        select.selectedIndex = [...select.options].findLastIndex(option => !option.disabled);
+        await select.onchange();
+        if (picture(chart) === before || !marks(chart))
+          dead.push(
+            select.closest("label").textContent.slice(0, 30) +
+              " of " +
+              chart.getAttribute("aria-label"),
+          );
+        select.selectedIndex = 0;
+        await select.onchange();
+        if (picture(chart) !== before)
+          dead.push(select.closest("label").textContent.slice(0, 30) + " does not go back");
+      }
+      return {menus: document.querySelectorAll(".menus[data-chart] select").length, dead};
     })()`,
   // The player: it sounds, another key is heard in the middle of the sound and at once, nothing
   // but the scene's own sounds is offered.
   sound: `(async () => {
-        const press = key => document.body.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true})), wait = ms => new Promise(resolve => setTimeout(resolve, ms));
-        const heard = () => player.playing?.filter(p => p.gain.gain.value === 1).map(p => player.shown.indexOf(p.sound)) ?? [];
-        press(" ");
-        for (let k = 0; k < 200 && !(player.playing && player.context.currentTime > player.started + 0.005); ++k) await wait(2);
-        const first = heard(), from = performance.now();
-        press("2");
-        const took = performance.now() - from, second = heard(), goes_on = player.playing !== null;
-        for (let k = 0; k < 100 && player.playing; ++k) await wait(20);
-        const rms = player.shown.map(s => s.buffer.getChannelData(0)).map(x => Math.sqrt(x.reduce((sum, v) => sum + v * v, 0) / x.length));
-        const blind = document.querySelector("#player input");
-        blind.checked = true;
-        blind.onchange();
-        const hidden = player.buttons.every(b => !/modal|finite|reference/.test(b.textContent));
-        blind.checked = false;
-        blind.onchange();
-        return {first, second, took, goes_on, loudness: Math.max(...rms) / Math.min(...rms), ended: player.playing === null, hidden, listen: document.querySelectorAll(".listen").length,
-                found: report.verdicts.find(v => v.scene === scene_shown()).answers.filter(a => player.sounds.some(s => s.name === a.scheme && s.detail === a.rate && s.problem === scene_shown())).length, shown: player.shown.length, length: player.shown.map(s => s.buffer?.duration)};
+      const press = key =>
+          document.body.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true})),
+        wait = ms => new Promise(resolve => setTimeout(resolve, ms));
+      const heard = () =>
+        player.playing
+          ?.filter(p => p.gain.gain.value === 1)
+          .map(p => player.shown.indexOf(p.sound)) ?? [];
+      press(" ");
+      for (
+        let k = 0;
+        k < 200 && !(player.playing && player.context.currentTime > player.started + 0.005);
+        ++k
+      )
+        await wait(2);
+      const first = heard(),
+        from = performance.now();
+      press("2");
+      const took = performance.now() - from,
+        second = heard(),
+        goes_on = player.playing !== null;
+      for (let k = 0; k < 100 && player.playing; ++k) await wait(20);
+      const rms = player.shown
+        .map(s => s.buffer.getChannelData(0))
+        .map(x => Math.sqrt(x.reduce((sum, v) => sum + v * v, 0) / x.length));
+      const blind = document.querySelector("#player input");
+      blind.checked = true;
+      blind.onchange();
+      const hidden = player.buttons.every(b => !/modal|finite|reference/.test(b.textContent));
+      blind.checked = false;
+      blind.onchange();
+      return {
+        first,
+        second,
+        took,
+        goes_on,
+        loudness: Math.max(...rms) / Math.min(...rms),
+        ended: player.playing === null,
+        hidden,
+        listen: document.querySelectorAll(".listen").length,
+        found: report.verdicts
+          .find(v => v.scene === scene_shown())
+          .answers.filter(a =>
+            player.sounds.some(
+              s => s.name === a.scheme && s.detail === a.rate && s.problem === scene_shown(),
+            ),
+          ).length,
+        shown: player.shown.length,
+        length: player.shown.map(s => s.buffer?.duration),
+      };
     })()`,
   table: `(async () => {
-        const table = [...document.querySelectorAll("#cells table")].at(-1), heading = name => [...table.querySelectorAll("th")].find(th => th.textContent.startsWith(name));
-        const column = () => { const k = [...table.querySelectorAll("th")].indexOf(heading("rate")); return [...table.querySelectorAll("tbody tr")].map(tr => Number(tr.cells[k].textContent)); };
-        return {button: document.activeElement === heading("rate").querySelector("button"), sort: heading("rate").getAttribute("aria-sort"), column: column()};
+      const table = [...document.querySelectorAll("#cells table")].at(-1),
+        heading = name =>
+          [...table.querySelectorAll("th")].find(th => th.textContent.startsWith(name));
+      const column = () => {
+        const k = [...table.querySelectorAll("th")].indexOf(heading("rate"));
+        return [...table.querySelectorAll("tbody tr")].map(tr => Number(tr.cells[k].textContent));
+      };
+      return {
+        button: document.activeElement === heading("rate").querySelector("button"),
+        sort: heading("rate").getAttribute("aria-sort"),
+        column: column(),
+      };
     })()`,
   // The first chart's axes after each zoom button, and after the wheel with Ctrl.
   zoom: `(async () => {
-        const chart = document.querySelector("#work-precision .chart"), buttons = [...document.querySelectorAll("#work-precision .zoom button")];
-        const ticks = () => [...chart.querySelectorAll(".role-axis-label text")].map(t => t.textContent + t.getAttribute("transform")).sort().join("|");
-        const changed = async (act, wanted) => {  // what the axes say then
-            const before = ticks();
-            act();
-            for (let k = 0; k < 60 && (wanted === undefined ? ticks() === before : ticks() !== wanted); ++k) await new Promise(resolve => setTimeout(resolve, 50));
-            return ticks();
-        };
-        const seen = [ticks()];
-        for (const [k, button] of buttons.entries()) seen.push(await changed(() => button.click(), k === 2 ? seen[0] : undefined));
-        const plot = chart.querySelector("svg"), at = plot.getBoundingClientRect();
-        // what a mouse would turn its wheel over
-        const under = document.elementFromPoint(at.left + 300, at.top + 150);
-        const wheel = await changed(() => under.dispatchEvent(new WheelEvent("wheel", {deltaY: -240, ctrlKey: true, bubbles: true, cancelable: true, clientX: at.left + 300, clientY: at.top + 150})));
-        await changed(() => buttons.at(-1).click(), seen[0]);
-        return {buttons: buttons.length, zoomed: seen[1] !== seen[0], out: seen[2] !== seen[1], whole: seen[3] === seen[0], wheel: wheel !== seen[0], back: ticks() === seen[0], named: document.querySelectorAll("#work-precision .zoom button[aria-label]").length};
+      const chart = document.querySelector("#work-precision .chart"),
+        buttons = [...document.querySelectorAll("#work-precision .zoom button")];
+      const ticks = () =>
+        [...chart.querySelectorAll(".role-axis-label text")]
+          .map(t => t.textContent + t.getAttribute("transform"))
+          .sort()
+          .join("|");
+      const changed = async (act, wanted) => {
+        // what the axes say then
+        const before = ticks();
+        act();
+        for (
+          let k = 0;
+          k < 60 && (wanted === undefined ? ticks() === before : ticks() !== wanted);
+          ++k
+        )
+          await new Promise(resolve => setTimeout(resolve, 50));
+        return ticks();
+      };
+      const seen = [ticks()];
+      for (const [k, button] of buttons.entries())
+        seen.push(await changed(() => button.click(), k === 2 ? seen[0] : undefined));
+      const plot = chart.querySelector("svg"),
+        at = plot.getBoundingClientRect();
+      // what a mouse would turn its wheel over
+      const under = document.elementFromPoint(at.left + 300, at.top + 150);
+      const wheel = await changed(() =>
+        under.dispatchEvent(
+          new WheelEvent("wheel", {
+            deltaY: -240,
+            ctrlKey: true,
+            bubbles: true,
+            cancelable: true,
+            clientX: at.left + 300,
+            clientY: at.top + 150,
+          }),
+        ),
+      );
+      await changed(() => buttons.at(-1).click(), seen[0]);
+      return {
+        buttons: buttons.length,
+        zoomed: seen[1] !== seen[0],
+        out: seen[2] !== seen[1],
+        whole: seen[3] === seen[0],
+        wheel: wheel !== seen[0],
+        back: ticks() === seen[0],
+        named: document.querySelectorAll("#work-precision .zoom button[aria-label]").length,
+      };
     })()`,
   width: "document.documentElement.scrollWidth",
   // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that
   // failed, and whether the error is one that the scene has.
-  scenes: `(async () => {${helpers}
-        // Parts of the page that show another scene than the menu says.
-        const behind = name => name === null ? [] : [
-            ...[...document.querySelectorAll(".chart")].filter(c => c.dataset.scene !== name && !c.closest("section, details").textContent.includes("No runs of " + name)).map(c => c.getAttribute("aria-label") + " shows " + c.dataset.scene),
-            ...(document.querySelector("h1").textContent === report.verdicts.find(v => v.scene === name)?.finding ? [] : ["the title"]),
-            ...([...document.querySelectorAll("#verdict .card strong")].map(e => e.textContent).join() === report.verdicts.find(v => v.scene === name)?.answers.map(a => spoken(a.scheme)).join() ? [] : ["the answers"]),
-            ...(typeof player === "undefined" || !player.sounds.some(s => s.problem === name) || player.shown.every(s => s.problem === name) ? [] : ["the player"]),
-            ...(!drawn_sounds().some(s => s.problem === name) || [...document.querySelectorAll("#sounds .menus select option")].every(o => !o.value || !drawn_sounds().some(s => s.problem !== name && spoken(s.name) + ", " + s.detail === o.value) || drawn_sounds().some(s => s.problem === name && spoken(s.name) + ", " + s.detail === o.value)) ? [] : ["the menu of traces"])];
-        const select = document.getElementById("scene"), told = [], every = document.querySelector("#work-precision .every");
-        if (every) { every.checked = true; await every.onchange(); }
-        for (const name of select ? [...select.options].map(o => o.value) : [null]) {
-            if (name !== null) {
-                select.value = name;
-                await select.onchange();
-            }
-            const data = report.sections.find(s => s.id === "work-precision")?.charts[0], chart = document.querySelector("#work-precision .chart");
-            // it has other charts alone
-            if (!chart || (name !== null && !data.scenes.includes(name))) continue;
-            const scene = name ?? data.scenes[0], rows = of_scene(cells(), scene).filter(c => c.line), menus = data.menus(scene).filter(menu => menu.choices.length > 1);
-            const chosen = key => { const k = menus.findIndex(menu => menu.key === key); return k < 0 ? undefined : menus[k].choices[document.querySelectorAll("#work-precision .menus select")[k].selectedIndex][0]; };
-            const offers = errors_in(of_scene(cells(), scene)).map(e => e.column), error = (chosen("measure_field") ?? offers[0]) + (chosen("tap_field") ? "_" + chosen("tap_field") : "");
-            const cost = c => number(c.cost_s_per_s);
-            told.push({name, offered: offers.includes(error),
-                       empty: [...document.querySelectorAll(".chart")].filter(c => !marks(c)).map(c => c.getAttribute("aria-label")),
-                       crosses: [...chart.querySelectorAll("svg.marks text")].filter(t => t.textContent === "\u2715").length,
-                       failed: rows.filter(c => !["ok", "refused"].includes(c.status) && cost(c) > 0).length,
-                       points: chart.querySelectorAll(".mark-symbol.role-mark path[opacity='1']").length,
-                       drawable: rows.filter(c => c.status === "ok" && error_of(c, error) > 0 && cost(c) > 0).length,
-                       behind: behind(name),
-                       title: document.querySelector("h1").textContent, verdict: document.querySelectorAll("#verdict .card").length,
-                       heard: typeof player === "undefined" || player.shown.every(s => name === null || s.problem === name || !player.sounds.some(o => o.problem === name))});
+  scenes: `(async () => {
+      ${helpers};
+      // Parts of the page that show another scene than the menu says.
+      const behind = name =>
+        name === null
+          ? []
+          : [
+              ...[...document.querySelectorAll(".chart")]
+                .filter(
+                  c =>
+                    c.dataset.scene !== name &&
+                    !c.closest("section, details").textContent.includes("No runs of " + name),
+                )
+                .map(c => c.getAttribute("aria-label") + " shows " + c.dataset.scene),
+              ...(document.querySelector("h1").textContent ===
+              report.verdicts.find(v => v.scene === name)?.finding
+                ? []
+                : ["the title"]),
+              ...([...document.querySelectorAll("#verdict .card strong")]
+                .map(e => e.textContent)
+                .join() ===
+              report.verdicts
+                .find(v => v.scene === name)
+                ?.answers.map(a => spoken(a.scheme))
+                .join()
+                ? []
+                : ["the answers"]),
+              ...(typeof player === "undefined" ||
+              !player.sounds.some(s => s.problem === name) ||
+              player.shown.every(s => s.problem === name)
+                ? []
+                : ["the player"]),
+              ...(!drawn_sounds().some(s => s.problem === name) ||
+              [...document.querySelectorAll("#sounds .menus select option")].every(
+                o =>
+                  !o.value ||
+                  !drawn_sounds().some(
+                    s => s.problem !== name && spoken(s.name) + ", " + s.detail === o.value,
+                  ) ||
+                  drawn_sounds().some(
+                    s => s.problem === name && spoken(s.name) + ", " + s.detail === o.value,
+                  ),
+              )
+                ? []
+                : ["the menu of traces"]),
+            ];
+      const select = document.getElementById("scene"),
+        told = [],
+        every = document.querySelector("#work-precision .every");
+      if (every) {
+        every.checked = true;
+        await every.onchange();
+      }
+      for (const name of select ? [...select.options].map(o => o.value) : [null]) {
+        if (name !== null) {
+          select.value = name;
+          await select.onchange();
         }
-        if (every) every.checked = false;
-        if (select) { select.selectedIndex = 0; await select.onchange(); }
-        else await every?.onchange();
-        return told;
+        const data = report.sections.find(s => s.id === "work-precision")?.charts[0],
+          chart = document.querySelector("#work-precision .chart");
+        // it has other charts alone
+        if (!chart || (name !== null && !data.scenes.includes(name))) continue;
+        const scene = name ?? data.scenes[0],
+          rows = of_scene(cells(), scene).filter(c => c.line),
+          menus = data.menus(scene).filter(menu => menu.choices.length > 1);
+        const chosen = key => {
+          const k = menus.findIndex(menu => menu.key === key);
+          return k < 0
+            ? undefined
+            : menus[k].choices[
+                document.querySelectorAll("#work-precision .menus select")[k].selectedIndex
+              ][0];
+        };
+        const offers = errors_in(of_scene(cells(), scene)).map(e => e.column),
+          error =
+            (chosen("measure_field") ?? offers[0]) +
+            (chosen("tap_field") ? "_" + chosen("tap_field") : "");
+        const cost = c => number(c.cost_s_per_s);
+        told.push({
+          name,
+          offered: offers.includes(error),
+          empty: [...document.querySelectorAll(".chart")]
+            .filter(c => !marks(c))
+            .map(c => c.getAttribute("aria-label")),
+          crosses: [...chart.querySelectorAll("svg.marks text")].filter(
+            t => t.textContent === "\\u2715",
+          ).length,
+          failed: rows.filter(c => !["ok", "refused"].includes(c.status) && cost(c) > 0).length,
+          points: chart.querySelectorAll(".mark-symbol.role-mark path[opacity='1']").length,
+          drawable: rows.filter(c => c.status === "ok" && error_of(c, error) > 0 && cost(c) > 0)
+            .length,
+          behind: behind(name),
+          title: document.querySelector("h1").textContent,
+          verdict: document.querySelectorAll("#verdict .card").length,
+          heard:
+            typeof player === "undefined" ||
+            player.shown.every(
+              s =>
+                name === null || s.problem === name || !player.sounds.some(o => o.problem === name),
+            ),
+        });
+      }
+      if (every) every.checked = false;
+      if (select) {
+        select.selectedIndex = 0;
+        await select.onchange();
+      } else await every?.onchange();
+      return told;
     })()`,
   // The first chart as it is first seen: its names, in the legend and beside the lines.
   names: `(() => {
-        const chart = document.querySelector("#work-precision .chart"), box = e => e.getBoundingClientRect();
-        const legend = [...document.querySelectorAll("#work-precision .legend button")].map(t => t.textContent);
-        const samples = [...document.querySelectorAll("#work-precision .legend svg")].filter(s => s.querySelector("line") && s.querySelector("path"));
-        const labels = [...chart.querySelectorAll(".mark-text.role-mark text")].filter(t => legend.includes(t.textContent));
-        const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-        const outline = new Set([...chart.querySelectorAll(".mark-symbol.role-mark path, .mark-text.role-mark text")].map(p => p.getAttribute("fill") + p.getAttribute("stroke")));
-        const drawn = name => { const colour = document.querySelector('#work-precision .legend button[data-series="' + CSS.escape(name) + '"] path').getAttribute("fill"); return [...outline].some(o => o.includes(colour)); };
-        const series = [...document.querySelectorAll("#work-precision .legend button")].map(b => b.dataset.series);
-        return {legend, samples: samples.length, labels: labels.length, idle: series.filter(name => !drawn(name)), overlaps: labels.flatMap((a, k) => labels.slice(k + 1).filter(b => overlap(box(a), box(b))).map(b => a.textContent + " and " + b.textContent))};
+      const chart = document.querySelector("#work-precision .chart"),
+        box = e => e.getBoundingClientRect();
+      const legend = [...document.querySelectorAll("#work-precision .legend button")].map(
+        t => t.textContent,
+      );
+      const samples = [...document.querySelectorAll("#work-precision .legend svg")].filter(
+        s => s.querySelector("line") && s.querySelector("path"),
+      );
+      const labels = [...chart.querySelectorAll(".mark-text.role-mark text")].filter(t =>
+        legend.includes(t.textContent),
+      );
+      const overlap = (a, b) =>
+        a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+      const outline = new Set(
+        [...chart.querySelectorAll(".mark-symbol.role-mark path, .mark-text.role-mark text")].map(
+          p => p.getAttribute("fill") + p.getAttribute("stroke"),
+        ),
+      );
+      const drawn = name => {
+        const colour = document
+          .querySelector(
+            '#work-precision .legend button[data-series="' + CSS.escape(name) + '"] path',
+          )
+          .getAttribute("fill");
+        return [...outline].some(o => o.includes(colour));
+      };
+      const series = [...document.querySelectorAll("#work-precision .legend button")].map(
+        b => b.dataset.series,
+      );
+      return {
+        legend,
+        samples: samples.length,
+        labels: labels.length,
+        idle: series.filter(name => !drawn(name)),
+        overlaps: labels.flatMap((a, k) =>
+          labels
+            .slice(k + 1)
+            .filter(b => overlap(box(a), box(b)))
+            .map(b => a.textContent + " and " + b.textContent),
+        ),
+      };
     })()`,
   fold: `(() => {
-        scrollTo(0, 0);
-        const bottom = e => e.getBoundingClientRect().bottom, plot = document.querySelector("#work-precision .chart .mark-group.role-frame .background") ?? document.querySelector("#work-precision .chart svg");
-        return {title: bottom(document.querySelector("h1")), chart: bottom(plot), answers: bottom([...document.querySelectorAll("#verdict .card")].at(-1)), screens: document.documentElement.scrollHeight / innerHeight};
+      scrollTo(0, 0);
+      const bottom = e => e.getBoundingClientRect().bottom,
+        plot =
+          document.querySelector("#work-precision .chart .mark-group.role-frame .background") ??
+          document.querySelector("#work-precision .chart svg");
+      return {
+        title: bottom(document.querySelector("h1")),
+        chart: bottom(plot),
+        answers: bottom([...document.querySelectorAll("#verdict .card")].at(-1)),
+        screens: document.documentElement.scrollHeight / innerHeight,
+      };
     })()`,
   // Rows of a table that look like one before them are left out: half of all processor time went
   // into their contrasts.
   axe: `(() => {
-        for (const table of document.querySelectorAll("table")) {
-            const seen = new Map();
-            for (const row of table.tBodies[0].rows) {
-                seen.set(row.className, (seen.get(row.className) ?? 0) + 1);
-                row.toggleAttribute("data-like-others", seen.get(row.className) > 2);
-            }
+      for (const table of document.querySelectorAll("table")) {
+        const seen = new Map();
+        for (const row of table.tBodies[0].rows) {
+          seen.set(row.className, (seen.get(row.className) ?? 0) + 1);
+          row.toggleAttribute("data-like-others", seen.get(row.className) > 2);
         }
-        return axe.run({exclude: [["[data-like-others]"]]}, {resultTypes: ["violations"]})
-            .then(r => r.violations.filter(v => v.impact === "serious" || v.impact === "critical").map(v => v.id + ": " + v.nodes.slice(0, 3).map(n => n.target.join(" ") + " " + n.failureSummary.slice(0, 160)).join(" | ")));
+      }
+      return axe.run({exclude: [["[data-like-others]"]]}, {resultTypes: ["violations"]}).then(r =>
+        r.violations
+          .filter(v => v.impact === "serious" || v.impact === "critical")
+          .map(
+            v =>
+              v.id +
+              ": " +
+              v.nodes
+                .slice(0, 3)
+                .map(n => n.target.join(" ") + " " + n.failureSummary.slice(0, 160))
+                .join(" | "),
+          ),
+      );
     })()`,
   // How well the edges of the front are seen, and the texts of the charts that are fainter than
   // 4.5 : 1 on the page, as they are blended with it. A cross is a mark.
   faint: `(() => {
-        const numbers = colour => colour.match(/[\\d.]+/g).map(Number), linear = c => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
-        const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
-        const paper = numbers(getComputedStyle(document.body).backgroundColor).slice(0, 3), faint = [];
-        const contrast_of = (colour, ground = paper) => { const [a, b] = [light(colour), light(ground)]; return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05); };
-        const edges = [...document.querySelectorAll("#work-precision .chart .mark-line.role-mark path[stroke-width='10']")];
-        const front = edges.map(e => { const s = getComputedStyle(e), a = s.opacity * s.strokeOpacity; return contrast_of(numbers(s.stroke).map((c, k) => a * c + (1 - a) * paper[k])); });
-        for (const text of document.querySelectorAll(".chart svg.marks text")) {
-            const style = getComputedStyle(text), [r, g, b, a = 1] = numbers(style.fill);
-            let opacity = a * style.fillOpacity;
-            for (let e = text; e.tagName !== "svg"; e = e.parentElement) opacity *= getComputedStyle(e).opacity;
-            if (opacity === 0 || text.textContent.trim() === "" || text.textContent === "\u2715") continue;
-            const tiles = [...text.closest(".chart").querySelectorAll(".mark-rect.role-mark path")], on = text.closest("#overview") && text.closest(".mark-text.role-mark");
-            const ground = on ? numbers(tiles[[...on.querySelectorAll("text")].indexOf(text)].getAttribute("fill")) : paper;
-            const contrast = contrast_of([r, g, b].map((c, k) => opacity * c + (1 - opacity) * ground[k]), ground);
-            if (contrast < 4.5) faint.push(text.textContent + " at " + contrast.toFixed(2));
-        }
-        return {texts: document.querySelectorAll(".chart svg.marks text").length, faint, front: front.length ? Math.min(...front) : 0};
+      const numbers = colour => colour.match(/[\\d.]+/g).map(Number),
+        linear = c => ((c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+      const light = ([r, g, b]) => 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+      const paper = numbers(getComputedStyle(document.body).backgroundColor).slice(0, 3),
+        faint = [];
+      const contrast_of = (colour, ground = paper) => {
+        const [a, b] = [light(colour), light(ground)];
+        return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+      };
+      const edges = [
+        ...document.querySelectorAll(
+          "#work-precision .chart .mark-line.role-mark path[stroke-width='10']",
+        ),
+      ];
+      const front = edges.map(e => {
+        const s = getComputedStyle(e),
+          a = s.opacity * s.strokeOpacity;
+        return contrast_of(numbers(s.stroke).map((c, k) => a * c + (1 - a) * paper[k]));
+      });
+      for (const text of document.querySelectorAll(".chart svg.marks text")) {
+        const style = getComputedStyle(text),
+          [r, g, b, a = 1] = numbers(style.fill);
+        let opacity = a * style.fillOpacity;
+        for (let e = text; e.tagName !== "svg"; e = e.parentElement)
+          opacity *= getComputedStyle(e).opacity;
+        if (opacity === 0 || text.textContent.trim() === "" || text.textContent === "\\u2715")
+          continue;
+        const tiles = [...text.closest(".chart").querySelectorAll(".mark-rect.role-mark path")],
+          on = text.closest("#overview") && text.closest(".mark-text.role-mark");
+        const ground = on
+          ? numbers(tiles[[...on.querySelectorAll("text")].indexOf(text)].getAttribute("fill"))
+          : paper;
+        const contrast = contrast_of(
+          [r, g, b].map((c, k) => opacity * c + (1 - opacity) * ground[k]),
+          ground,
+        );
+        if (contrast < 4.5) faint.push(text.textContent + " at " + contrast.toFixed(2));
+      }
+      return {
+        texts: document.querySelectorAll(".chart svg.marks text").length,
+        faint,
+        front: front.length ? Math.min(...front) : 0,
+      };
     })()`,
   // The table of cells: what the filter leaves, and what the button saves.
   filter: `(async () => {
-        const section = document.getElementById("cells"), table = report.sections.find(s => s.id === "cells").table, search = section.querySelector("input[type=search]");
-        [...section.querySelectorAll("button")].find(b => b.textContent === "all rows" && !b.hidden)?.click();
-        const rows = () => section.querySelectorAll("tbody tr").length, all = rows(), schemes = table.rows.map(row => row[table.columns.indexOf("scheme")]);
-        const one = schemes.at(-1);
-        search.value = one;
-        search.dispatchEvent(new Event("input"));
-        const left = rows(), right = [...section.querySelectorAll("tbody tr")].every(tr => tr.textContent.includes(one));
-        search.value = "";
-        search.dispatchEvent(new Event("input"));
-        let saved = null;
-        const make = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
-        URL.createObjectURL = blob => { saved = blob; return make.call(URL, blob); };
-        HTMLAnchorElement.prototype.click = () => {};
-        [...section.querySelectorAll("button")].find(b => b.textContent === "CSV").click();
-        URL.createObjectURL = make;
-        HTMLAnchorElement.prototype.click = click;
-        const text = saved ? await saved.text() : "";
-        return {left, right, expected: schemes.filter(name => name.includes(one)).length, all, again: rows(),
-                header: text.split("\\n")[0] === table.columns.join(","), saved: text.trim().split("\\n").length - 1, rows: table.rows.length};
+      const section = document.getElementById("cells"),
+        table = report.sections.find(s => s.id === "cells").table,
+        search = section.querySelector("input[type=search]");
+      [...section.querySelectorAll("button")]
+        .find(b => b.textContent === "all rows" && !b.hidden)
+        ?.click();
+      const rows = () => section.querySelectorAll("tbody tr").length,
+        all = rows(),
+        schemes = table.rows.map(row => row[table.columns.indexOf("scheme")]);
+      const one = schemes.at(-1);
+      search.value = one;
+      search.dispatchEvent(new Event("input"));
+      const left = rows(),
+        right = [...section.querySelectorAll("tbody tr")].every(tr => tr.textContent.includes(one));
+      search.value = "";
+      search.dispatchEvent(new Event("input"));
+      let saved = null;
+      const make = URL.createObjectURL,
+        click = HTMLAnchorElement.prototype.click;
+      URL.createObjectURL = blob => {
+        saved = blob;
+        return make.call(URL, blob);
+      };
+      HTMLAnchorElement.prototype.click = () => {};
+      [...section.querySelectorAll("button")].find(b => b.textContent === "CSV").click();
+      URL.createObjectURL = make;
+      HTMLAnchorElement.prototype.click = click;
+      const text = saved ? await saved.text() : "";
+      return {
+        left,
+        right,
+        expected: schemes.filter(name => name.includes(one)).length,
+        all,
+        again: rows(),
+        header: text.split("\\n")[0] === table.columns.join(","),
+        saved: text.trim().split("\\n").length - 1,
+        rows: table.rows.length,
+      };
     })()`,
   // On a phone: the first row of the cells, each number with its name before it.
   card: `(() => {
-        const fields = [...document.querySelector("#cells tbody tr").cells].filter(td => getComputedStyle(td).display !== "none");
-        const named = fields.every(td => getComputedStyle(td, "::before").content.length > 2 && td.getBoundingClientRect().right <= 390);
-        return {named, numbers: fields.filter(td => td.textContent !== "" && !Number.isNaN(Number(td.textContent))).length, stacked: new Set(fields.map(td => td.getBoundingClientRect().top)).size === fields.length};
+      const fields = [...document.querySelector("#cells tbody tr").cells].filter(
+        td => getComputedStyle(td).display !== "none",
+      );
+      const named = fields.every(
+        td =>
+          getComputedStyle(td, "::before").content.length > 2 &&
+          td.getBoundingClientRect().right <= 390,
+      );
+      return {
+        named,
+        numbers: fields.filter(td => td.textContent !== "" && !Number.isNaN(Number(td.textContent)))
+          .length,
+        stacked: new Set(fields.map(td => td.getBoundingClientRect().top)).size === fields.length,
+      };
     })()`,
   // Maps: a tile for each run of the scheme that is shown, side by side without a gap, and a unit
   // on each axis that has one.
-  tiles: `(() => [...document.querySelectorAll("#maps .chart")].map(chart => {
-        const boxes = [...chart.querySelectorAll(".mark-rect.role-mark path")].map(p => p.getBBox ? p.getBoundingClientRect() : null);
-        const lefts = [...new Set(boxes.map(b => Math.round(b.left)))].sort((a, b) => a - b), widths = new Map(boxes.map(b => [Math.round(b.left), b.width]));
-        return {name: chart.getAttribute("aria-label"), tiles: boxes.length, gap: Math.max(0, ...lefts.slice(1).map((left, k) => Math.abs(left - lefts[k] - widths.get(lefts[k])))),
-                text: [...chart.querySelectorAll("svg.marks text")].map(t => t.textContent).join(" ")};
-    }))()`,
+  tiles: `(() =>
+      [...document.querySelectorAll("#maps .chart")].map(chart => {
+        const boxes = [...chart.querySelectorAll(".mark-rect.role-mark path")].map(p =>
+          p.getBBox ? p.getBoundingClientRect() : null,
+        );
+        const lefts = [...new Set(boxes.map(b => Math.round(b.left)))].sort((a, b) => a - b),
+          widths = new Map(boxes.map(b => [Math.round(b.left), b.width]));
+        return {
+          name: chart.getAttribute("aria-label"),
+          tiles: boxes.length,
+          gap: Math.max(
+            0,
+            ...lefts.slice(1).map((left, k) => Math.abs(left - lefts[k] - widths.get(lefts[k]))),
+          ),
+          text: [...chart.querySelectorAll("svg.marks text")].map(t => t.textContent).join(" "),
+        };
+      }))()`,
   menu_lengths:
     `[...document.querySelectorAll(".menus select")].map(s => ` +
     `[s.closest("label").firstChild.textContent.trim(), s.options.length])`,
@@ -297,79 +583,180 @@ const in_page = {
   // points of all three how far the third is from being the second less the first, in pixels, and
   // how high it is.
   lines: `(async () => {
-        const chart = document.querySelector("#sounds .chart"), scenes = document.getElementById("scene"), told = [];
-        for (const name of scenes ? [...scenes.options].map(o => o.value) : [null]) {
-            if (name !== null && !report.sections.find(s => s.id === "sounds").charts[0].scenes.includes(name)) continue;
-            if (name !== null) { scenes.value = name; await scenes.onchange(); }
-            const names = [...chart.querySelectorAll(".role-legend-label text")].map(t => t.textContent);
-            const colours = [...chart.querySelectorAll(".role-legend-symbol path")].map(p => p.getAttribute("stroke"));
-            const paths = colours.map(colour => [...chart.querySelectorAll(".mark-line.role-mark path")].find(p => p.getAttribute("stroke") === colour));
-            const [reference, scheme, difference] = paths.map(p => (p?.getAttribute("d") ?? "").split(/[ML]/).filter(Boolean).map(point => Number(point.split(",")[1])));
-            const zero = difference.map((y, k) => y - scheme[k] + reference[k]), span = ys => Math.max(...ys) - Math.min(...ys);
-            told.push({name, names: names.join(), colours: new Set(colours).size, points: [reference, scheme, difference].map(ys => ys.length), open: span(zero), height: span(difference)});
+      const chart = document.querySelector("#sounds .chart"),
+        scenes = document.getElementById("scene"),
+        told = [];
+      for (const name of scenes ? [...scenes.options].map(o => o.value) : [null]) {
+        if (
+          name !== null &&
+          !report.sections.find(s => s.id === "sounds").charts[0].scenes.includes(name)
+        )
+          continue;
+        if (name !== null) {
+          scenes.value = name;
+          await scenes.onchange();
         }
-        if (scenes) { scenes.selectedIndex = 0; await scenes.onchange(); }
-        return told;
+        const names = [...chart.querySelectorAll(".role-legend-label text")].map(
+          t => t.textContent,
+        );
+        const colours = [...chart.querySelectorAll(".role-legend-symbol path")].map(p =>
+          p.getAttribute("stroke"),
+        );
+        const paths = colours.map(colour =>
+          [...chart.querySelectorAll(".mark-line.role-mark path")].find(
+            p => p.getAttribute("stroke") === colour,
+          ),
+        );
+        const [reference, scheme, difference] = paths.map(p =>
+          (p?.getAttribute("d") ?? "")
+            .split(/[ML]/)
+            .filter(Boolean)
+            .map(point => Number(point.split(",")[1])),
+        );
+        const zero = difference.map((y, k) => y - scheme[k] + reference[k]),
+          span = ys => Math.max(...ys) - Math.min(...ys);
+        told.push({
+          name,
+          names: names.join(),
+          colours: new Set(colours).size,
+          points: [reference, scheme, difference].map(ys => ys.length),
+          open: span(zero),
+          height: span(difference),
+        });
+      }
+      if (scenes) {
+        scenes.selectedIndex = 0;
+        await scenes.onchange();
+      }
+      return told;
     })()`,
   // Spectrograms as they are seen: of each panel which part is not background, and which is warm
   // or cold, beside what its tiles cover.
   panels: `(async () => {
-        const section = document.getElementById("spectrograms");
-        const data = report.sections.find(s => s.id === "spectrograms").charts[0], seen = {level: [], difference: []}, menu = document.getElementById("scene");
-        let chart, expected = 0;
-        const [steps, warmth] = [vega.scheme("purpleorange"), l => { const [r, , b] = steps((l + 24) / 48).match(/\\d+/g).map(Number); return r - b; }];
-        const covered = (panel, of) => {
-            if (!panel.encoding) return 0;  // a run that has none
-            const {x, y} = panel.encoding, whole = (x.scale.domain[1] - x.scale.domain[0]) * (y.scale.domain[1] - y.scale.domain[0]);
-            return panel.data.values.filter(v => of(v.l)).reduce((sum, v) => sum + (v.b - v.a) * (v.g - v.f), 0) / whole;
-        };
-        for (const scene of data.scenes)
-          for (const [shown, ground] of [["level", [0x44, 0x01, 0x54]], ["difference", [0xf7, 0xf7, 0xf7]]]) {
-            if (menu) { menu.value = scene; await menu.onchange(); }
-            const select = [...section.querySelectorAll(".menus select")].at(-1);
-            select.selectedIndex = shown === "level" ? 0 : 1;
-            await select.onchange();
-            chart = data.spec({scene: scene_shown(), shown_field: shown}, false).spec.concat;
-            const canvas = section.querySelector("canvas"), {width, height} = canvas, pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data, at = (x, y) => 4 * (y * width + x);
-            const boxes = [], wide = chart[0].width, taken = (x, y) => boxes.some(b => x >= b.x - 2 && x < b.x + wide + 2 && y >= b.y && y < b.y + 204);
-            for (let y = 0; y + 196 < height; ++y)
-                for (let x = 0, from = 0; x <= width; ++x) {
-                    if (x < width && pixels[at(x, y) + 3] === 255) continue;
-                    if (x - from >= wide - 2 && x - from <= wide + 2 && pixels[at(from + 5, y + 190) + 3] === 255 && !taken(from + 5, y)) boxes.push({x: from, y});
-                    from = x + 1;
+      const section = document.getElementById("spectrograms");
+      const data = report.sections.find(s => s.id === "spectrograms").charts[0],
+        seen = {level: [], difference: []},
+        menu = document.getElementById("scene");
+      let chart,
+        expected = 0;
+      const [steps, warmth] = [
+        vega.scheme("purpleorange"),
+        l => {
+          const [r, , b] = steps((l + 24) / 48)
+            .match(/\\d+/g)
+            .map(Number);
+          return r - b;
+        },
+      ];
+      const covered = (panel, of) => {
+        if (!panel.encoding) return 0; // a run that has none
+        const {x, y} = panel.encoding,
+          whole = (x.scale.domain[1] - x.scale.domain[0]) * (y.scale.domain[1] - y.scale.domain[0]);
+        return (
+          panel.data.values
+            .filter(v => of(v.l))
+            .reduce((sum, v) => sum + (v.b - v.a) * (v.g - v.f), 0) / whole
+        );
+      };
+      for (const scene of data.scenes)
+        for (const [shown, ground] of [
+          ["level", [0x44, 0x01, 0x54]],
+          ["difference", [0xf7, 0xf7, 0xf7]],
+        ]) {
+          if (menu) {
+            menu.value = scene;
+            await menu.onchange();
+          }
+          const select = [...section.querySelectorAll(".menus select")].at(-1);
+          select.selectedIndex = shown === "level" ? 0 : 1;
+          await select.onchange();
+          chart = data.spec({scene: scene_shown(), shown_field: shown}, false).spec.concat;
+          const canvas = section.querySelector("canvas"),
+            {width, height} = canvas,
+            pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data,
+            at = (x, y) => 4 * (y * width + x);
+          const boxes = [],
+            wide = chart[0].width,
+            taken = (x, y) =>
+              boxes.some(b => x >= b.x - 2 && x < b.x + wide + 2 && y >= b.y && y < b.y + 204);
+          for (let y = 0; y + 196 < height; ++y)
+            for (let x = 0, from = 0; x <= width; ++x) {
+              if (x < width && pixels[at(x, y) + 3] === 255) continue;
+              if (
+                x - from >= wide - 2 &&
+                x - from <= wide + 2 &&
+                pixels[at(from + 5, y + 190) + 3] === 255 &&
+                !taken(from + 5, y)
+              )
+                boxes.push({x: from, y});
+              from = x + 1;
+            }
+          expected += shown === "level" ? chart.length : 0;
+          seen[shown].push(
+            ...boxes.map((box, k) => {
+              const count = {all: 0, painted: 0, warm: 0, cold: 0};
+              for (let y = box.y + 3; y < box.y + 197; ++y)
+                for (let x = box.x + 3; x < box.x + wide - 3; ++x) {
+                  const [r, g, b] = pixels.subarray(at(x, y), at(x, y) + 3);
+                  ++count.all;
+                  count.painted += r !== ground[0] || g !== ground[1] || b !== ground[2];
+                  count.warm += r > b + 4;
+                  count.cold += b > r + 4;
                 }
-            expected += shown === "level" ? chart.length : 0;
-            seen[shown].push(...boxes.map((box, k) => {
-                const count = {all: 0, painted: 0, warm: 0, cold: 0};
-                for (let y = box.y + 3; y < box.y + 197; ++y)
-                    for (let x = box.x + 3; x < box.x + wide - 3; ++x) {
-                        const [r, g, b] = pixels.subarray(at(x, y), at(x, y) + 3);
-                        ++count.all;
-                        count.painted += r !== ground[0] || g !== ground[1] || b !== ground[2];
-                        count.warm += r > b + 4;
-                        count.cold += b > r + 4;
-                    }
-                const part = n => n / count.all, panel = chart[k];
-                return {name: [panel.title.text].flat().join(" "), painted: part(count.painted), tiles: covered(panel, () => true),
-                        warm: part(count.warm), louder: covered(panel, l => l > 0 && warmth(l) > 4), cold: part(count.cold), quieter: covered(panel, l => l < 0 && warmth(l) < -4)};
-            }));
+              const part = n => n / count.all,
+                panel = chart[k];
+              return {
+                name: [panel.title.text].flat().join(" "),
+                painted: part(count.painted),
+                tiles: covered(panel, () => true),
+                warm: part(count.warm),
+                louder: covered(panel, l => l > 0 && warmth(l) > 4),
+                cold: part(count.cold),
+                quieter: covered(panel, l => l < 0 && warmth(l) < -4),
+              };
+            }),
+          );
         }
-        const select = [...section.querySelectorAll(".menus select")].at(-1);
-        select.selectedIndex = 0;
-        await select.onchange();
-        if (menu) { menu.selectedIndex = 0; await menu.onchange(); }
-        return {expected, ...seen};
+      const select = [...section.querySelectorAll(".menus select")].at(-1);
+      select.selectedIndex = 0;
+      await select.onchange();
+      if (menu) {
+        menu.selectedIndex = 0;
+        await menu.onchange();
+      }
+      return {expected, ...seen};
     })()`,
   // The look of each name in the legends of the page's charts, then of the pictures beside it.
   looks: files => `(() => {
-        const look = (where, root) => [...root.querySelectorAll(".role-legend-entry")].flatMap(entry => {
-            const symbols = [...entry.querySelectorAll(".role-legend-symbol path")], labels = [...entry.querySelectorAll(".role-legend-label text")];
-            return labels.map((label, k) => ({where, name: label.textContent, look: [symbols[k]?.getAttribute("d"), symbols[k]?.getAttribute("fill"), symbols[k]?.getAttribute("stroke")].join(" ")}));
+      const look = (where, root) =>
+        [...root.querySelectorAll(".role-legend-entry")].flatMap(entry => {
+          const symbols = [...entry.querySelectorAll(".role-legend-symbol path")],
+            labels = [...entry.querySelectorAll(".role-legend-label text")];
+          return labels.map((label, k) => ({
+            where,
+            name: label.textContent,
+            look: [
+              symbols[k]?.getAttribute("d"),
+              symbols[k]?.getAttribute("fill"),
+              symbols[k]?.getAttribute("stroke"),
+            ].join(" "),
+          }));
         });
-        const pictures = ${JSON.stringify(files)};
-        const samples = [...document.querySelectorAll(".legend button")].map(b => ({where: "the page, " + b.closest("section, details").id, name: b.textContent,
-            look: [b.querySelector("path").getAttribute("d"), b.querySelector("path").getAttribute("fill")].join(" ")}));
-        return [...samples, ...pictures.flatMap(([name, text]) => look(name, new DOMParser().parseFromString(text, "image/svg+xml")))];
+      const pictures = ${JSON.stringify(files)};
+      const samples = [...document.querySelectorAll(".legend button")].map(b => ({
+        where: "the page, " + b.closest("section, details").id,
+        name: b.textContent,
+        look: [
+          b.querySelector("path").getAttribute("d"),
+          b.querySelector("path").getAttribute("fill"),
+        ].join(" "),
+      }));
+      return [
+        ...samples,
+        ...pictures.flatMap(([name, text]) =>
+          look(name, new DOMParser().parseFromString(text, "image/svg+xml")),
+        ),
+      ];
     })()`,
 };
 const known = /^(modal|finite_difference|sitar)_/;

@@ -238,8 +238,10 @@ test("noise floor and certificate are of the scene and the error that is shown",
 test("a band is of the reference of all points or not there", () => {
   const bands = second => {
     const of = of_cells(
-      "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
-        `1,a,modal_quadratised,,44100,10,ok,,0.1,0.002,1,1,1\n2,a,exact_contact,,,10,ok,,0.0007,${second},1,1,1\n`,
+      "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms," +
+        "cost_s_per_s,cost_lower,cost_upper\n" +
+        "1,a,modal_quadratised,,44100,10,ok,,0.1,0.002,1,1,1\n" +
+        `2,a,exact_contact,,,10,ok,,0.0007,${second},1,1,1\n`,
     );
     return of("bands_of(cells(), 'error_l2_50ms')").certificate;
   };
@@ -262,7 +264,8 @@ test("the cheapest that reaches an accuracy is named where some reach it and som
 });
 
 const sample_head =
-  "scheme,rate,modes,status,error_l2_50ms,third_octave_db,cost_s_per_s,cost_lower,cost_upper,ns_per_step,dofs,below_floor,reason";
+  "scheme,rate,modes,status,error_l2_50ms,third_octave_db,cost_s_per_s,cost_lower,cost_upper," +
+  "ns_per_step,dofs,below_floor,reason";
 const sample_rows = [
   "a,44100,133,ok,1e-2,3,0.01,0.009,0.011,100,266,,",
   "a,88200,133,ok,1e-3,2,0.02,0.019,0.021,100,266,,",
@@ -283,7 +286,7 @@ function sample({
     manifest,
   );
 }
-test("every cell that ran is drawn once, at its cost and error, with the quartiles of its cost", () => {
+test("every cell that ran is drawn once, at its cost, its quartiles and its error", () => {
   const of = sample(),
     all = of("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')");
   assert.equal(all.length, 4);
@@ -366,9 +369,11 @@ test("errors are offered only where there is a finite value, and the headline co
 });
 test("of modes and rates the best of each scheme are one line", () => {
   const row = (cell, modes, rate, status, error, cost) =>
-    `${cell},a,modal_quadratised,compliance=own,${rate},${modes},${status},,${error},0,${cost},${cost},${cost}\n`;
+    `${cell},a,modal_quadratised,compliance=own,${rate},${modes},${status},,${error},0,` +
+    `${cost},${cost},${cost}\n`;
   const of = of_cells(
-    "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms,cost_s_per_s,cost_lower,cost_upper\n" +
+    "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms," +
+      "cost_s_per_s,cost_lower,cost_upper\n" +
       row(1, 10, 44100, "ok", 0.1, 1) +
       row(2, 10, 88200, "ok", 0.08, 2) +
       row(3, 20, 88200, "ok", 0.02, 1.9) /* beats the second */ +
@@ -393,7 +398,7 @@ test("the legend has what is drawn and nothing else", () => {
 });
 
 // ---- The verdict
-test("errors of a plucked string are said to be of what follows the pluck: title, card and axis", () => {
+test("errors of a plucked string begin after the pluck: title, card and axis say so", () => {
   for (const [from, said] of [
     ["0", false],
     ["0.05", true],
@@ -470,9 +475,11 @@ test("what is swept has a chart of error along it", () => {
 });
 test("error falls along modes in one line for each scheme", () => {
   const of = of_cells(
-    "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n1,a,modal_quadratised,,88200,10,ok,,0.1\n2,a,modal_quadratised,,88200,20,ok,,0.01\n" +
+    "cell,scene,scheme,options,rate,modes,status,flags,error_l2_50ms\n" +
+      "1,a,modal_quadratised,,88200,10,ok,,0.1\n2,a,modal_quadratised,,88200,20,ok,,0.01\n" +
       // a grid: its nodes go with the rate
-      "3,a,finite_difference_theta,,88200,155,ok,,0.1\n4,a,finite_difference_theta,,176400,225,ok,,0.05\n",
+      "3,a,finite_difference_theta,,88200,155,ok,,0.1\n" +
+      "4,a,finite_difference_theta,,176400,225,ok,,0.05\n",
   );
   const {charts} = section(of, "sweep"),
     {spec} = charts[0].spec(first(charts[0]), false);
@@ -582,11 +589,10 @@ test("maps hold their boundaries and theory, and their tiles meet half-way", () 
 });
 test("steps to a trimmed scene have the look of their schemes", () => {
   const path =
-    "step,change,scheme,options,modes,rate,error,certificate,within,cost_s_per_s,measure,target\n0,whole,modal_two_point,,,88200,0.03,0.001,no,0.2,L2 " +
-    "error,0.01\n" +
-    "1,less,modal_two_point,compliance=matched,20,44100,0.009,0.001,yes,0.1,L2 " +
-    "error,0.01\n2,least,finite_difference_theta,,,44100,0.009,0.001,yes,0.05,L2 " +
-    "error,0.01\n";
+    "step,change,scheme,options,modes,rate,error,certificate,within,cost_s_per_s,measure,target\n" +
+    "0,whole,modal_two_point,,,88200,0.03,0.001,no,0.2,L2 error,0.01\n" +
+    "1,less,modal_two_point,compliance=matched,20,44100,0.009,0.001,yes,0.1,L2 error,0.01\n" +
+    "2,least,finite_difference_theta,,,44100,0.009,0.001,yes,0.05,L2 error,0.01\n";
   const of = on(report(folder_of([], {"manifest.json": '{"suite": "trim a"}', "path.csv": path}))),
     names = ["modal_two_point", "modal_two_point compliance=matched", "finite_difference_theta"],
     looks = of("looks_of")(names);
@@ -830,7 +836,8 @@ test("a trace is drawn from where its reference is liveliest, with the differenc
     ),
     own = truth.map(x => x + 7);
   const csv =
-    "problem,series,scheme,rate,tap,quantity,file,reference_file\ns,reference,reference,,nut,nut_force,r.wav,\ns,a,a,44100,nut,nut_force,a.wav,r.wav\n";
+    "problem,series,scheme,rate,tap,quantity,file,reference_file\n" +
+    "s,reference,reference,,nut,nut_force,r.wav,\ns,a,a,44100,nut,nut_force,a.wav,r.wav\n";
   const of = on({
     title: "t",
     schemes: registry,

@@ -23,21 +23,24 @@ function jvari(...words) {
 // In the page: a file as a player has it, and as its decoder does. Samples come back as 24 bit
 // integers, channel after channel.
 const heard = base64 => `(async () => {
-    const bytes = Uint8Array.from(atob("${base64}"), c => c.charCodeAt(0)), audio = new Audio(URL.createObjectURL(new Blob([bytes], {type: "audio/wav"})));
+    const bytes = Uint8Array.from(atob("${base64}"), c => c.charCodeAt(0)),
+      audio = new Audio(URL.createObjectURL(new Blob([bytes], {type: "audio/wav"})));
     const played = await new Promise(resolve => {
-        audio.onended = () => resolve(audio.duration);
-        audio.onerror = () => resolve("it does not play: " + audio.error.message);
-        audio.play().catch(error => resolve("it does not play: " + error.message));
-        setTimeout(() => resolve("it has not ended after 20 s"), 20000);
+      audio.onended = () => resolve(audio.duration);
+      audio.onerror = () => resolve("it does not play: " + audio.error.message);
+      audio.play().catch(error => resolve("it does not play: " + error.message));
+      setTimeout(() => resolve("it has not ended after 20 s"), 20000);
     });
     try {
-        const sound = await new OfflineAudioContext(1, 1, ${rate}).decodeAudioData(bytes.buffer);
-        const channels = [...Array(sound.numberOfChannels).keys()].map(k => Array.from(sound.getChannelData(k), x => Math.round(x * 2 ** 23)));
-        return {played, rate: sound.sampleRate, channels};
+      const sound = await new OfflineAudioContext(1, 1, ${rate}).decodeAudioData(bytes.buffer);
+      const channels = [...Array(sound.numberOfChannels).keys()].map(k =>
+        Array.from(sound.getChannelData(k), x => Math.round(x * 2 ** 23)),
+      );
+      return {played, rate: sound.sampleRate, channels};
     } catch (error) {
-        return {played, refused: error.message};
+      return {played, refused: error.message};
     }
-})()`;
+  })()`;
 
 // What is wrong with what was heard of a file, as libsndfile lays it out: PCM of 24 bit in the
 // chunk "data".

@@ -229,7 +229,8 @@ for (const c of cells) {
   )
     continue;
   console.log(
-    `FAILED: ${c.scheme} at ${c.rate} Hz: ${run.verdict}, third octaves ${octaves} dB apart; the program: ${c.status} ${c.flags}, ${there} dB`,
+    `FAILED: ${c.scheme} at ${c.rate} Hz: ${run.verdict}, third octaves ${octaves} dB apart; ` +
+      `the program: ${c.status} ${c.flags}, ${there} dB`,
     ++failures,
   );
 }

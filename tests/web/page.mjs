@@ -205,7 +205,7 @@ const parts = {
       );
     }
 
-    const made = (scheme, cost, spread, error) => ({
+    const point = (scheme, cost, spread, error) => ({
       scheme,
       compliance: "own",
       rate: 44100,
@@ -216,10 +216,14 @@ const parts = {
       lower: cost - spread,
       upper: cost + spread,
     });
-    const v = await see(
-      `verdict(${JSON.stringify([made("modal_two_point", 2, 0.2, 0.05), made("modal_quadratised", 2.3, 0.2, 0.04), made("modal_spatial_newton", 3, 0.2, 0.05), made("sitar_fdm", 1, 0.2, 0.095), made("modal_explicit_penalty", 0.5, 0.2, 0.01)])}, ` +
-        "0.1)",
-    );
+    const points = [
+      point("modal_two_point", 2, 0.2, 0.05),
+      point("modal_quadratised", 2.3, 0.2, 0.04),
+      point("modal_spatial_newton", 3, 0.2, 0.05),
+      point("sitar_fdm", 1, 0.2, 0.095),
+      point("modal_explicit_penalty", 0.5, 0.2, 0.01),
+    ];
+    const v = await see(`verdict(${JSON.stringify(points)}, 0.1)`);
     expect(
       v.best.scheme === "modal_quadratised" &&
         String(v.ties.map(p => p.scheme)) === "modal_two_point" &&
@@ -250,9 +254,9 @@ const parts = {
       );
       const found = await see(`verdict(chart.points, ${target})`),
         c = told.cheapest.find(c => c.measure === "error_l2_50ms" && c.target === target);
+      const here = [found.best, ...found.ties].map(p => `${p.scheme} at ${p.rate / 1e3} kHz`);
       console.log(
-        `  within ${100 * target} %: ` +
-          `${[found.best, ...found.ties].map(p => `${p.scheme} at ${p.rate / 1e3} kHz`).join(", a tie with ")} ` +
+        `  within ${100 * target} %: ${here.join(", a tie with ")} ` +
           `here; ${c.run}${c.ties && `, a tie with ${c.ties}`} in jvari compare`,
       );
       const cost_of = scheme =>
@@ -473,23 +477,41 @@ const parts = {
     // It ends its function early and takes the worker over, so that it has time to wait for
     // what it asked.
     const text = `return []; }
+            const answer = (of, event) => new Promise((resolve, reject) => {
+              of["on" + event] = resolve;
+              of.onerror = reject;
+            });
+            const late = ms => new Promise((_, reject) => setTimeout(reject, ms));
             const attempts = {
                 fetch: () => fetch("http://${at}/fetch", {mode: "no-cors"}),
-                XMLHttpRequest: () => new Promise((got, no) => { const x = new XMLHttpRequest(); x.onload = got; x.onerror = no; x.open("GET", "http://${at}/xhr"); x.send(); }),
-                WebSocket: () => new Promise((got, no) => { const s = new WebSocket("ws://${at}/socket"); s.onopen = got; s.onerror = no; }),
-                EventSource: () => new Promise((got, no) => { const s = new EventSource("http://${at}/events"); s.onopen = got; s.onerror = no; }),
+                XMLHttpRequest: () => {
+                  const x = new XMLHttpRequest();
+                  x.open("GET", "http://${at}/xhr");
+                  x.send();
+                  return answer(x, "load");
+                },
+                WebSocket: () => answer(new WebSocket("ws://${at}/socket"), "open"),
+                EventSource: () => answer(new EventSource("http://${at}/events"), "open"),
                 importScripts: () => importScripts("http://${at}/script.js"),
                 import: () => import("http://${at}/module.js"),
-                Worker: () => new Promise((got, no) => { const w = new Worker("http://${at}/worker.js"); w.onmessage = got; w.onerror = no; }),
-                nested: () => new Promise((got, no) => { const w = new Worker(URL.createObjectURL(new Blob(["fetch('http://${at}/nested', {mode: 'no-cors'}).then(() => postMessage(1), () => { throw new Error('no'); })"]))); w.onmessage = got; w.onerror = no; setTimeout(no, 500); }),
+                Worker: () => answer(new Worker("http://${at}/worker.js"), "message"),
+                nested: () => {
+                  const script = "fetch('http://${at}/nested', {mode: 'no-cors'})" +
+                    ".then(() => postMessage(1), () => { throw new Error('no'); })";
+                  const url = URL.createObjectURL(new Blob([script]));
+                  return Promise.race([answer(new Worker(url), "message"), late(500)]);
+                },
                 sendBeacon: () => navigator.sendBeacon("http://${at}/beacon", "x"),
                 FontFace: () => new FontFace("x", "url(http://${at}/font.woff)").load(),
                 caches: () => caches.open("x").then(c => c.add("http://${at}/cached")),
                 WebTransport: () => new WebTransport("https://${at}/transport").ready
             };
             onmessage = async () => {
-                const told = await Promise.all(Object.entries(attempts).map(([name, attempt]) => Promise.race([(async () => attempt())(), new Promise((_, no) => setTimeout(no, 1000))]).then(() => name + " got through", () => name + " refused")));
-                setTimeout(() => { throw new Error(told.join(", ")); });
+                const answers = Object.entries(attempts).map(([name, attempt]) =>
+                  Promise.race([(async () => attempt())(), late(1000)]).then(
+                    () => name + " got through", () => name + " refused"));
+                const all = await Promise.all(answers);
+                setTimeout(() => { throw new Error(all.join(", ")); });
             };
             function rest() {`;
     // they alone would refuse

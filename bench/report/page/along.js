@@ -304,8 +304,9 @@ function sweep_section() {
   const keys = [...swept_keys(), "modes"],
     charts = keys.map(key => sweep_chart(key, keys)).filter(Boolean);
   const notes = [
-    `${keys.length > 1 ? "Each value of a scene's key is a scene of its own, with a reference of its own. " : ""}Hollow ` +
-      "points are not to be trusted.",
+    (keys.length > 1
+      ? "Each value of a scene's key is a scene of its own, with a reference of its own. "
+      : "") + "Hollow points are not to be trusted.",
   ];
   return charts.length ? {id: "sweep", heading: "Error along what is swept", notes, charts} : null;
 }

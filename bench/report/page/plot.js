@@ -45,9 +45,10 @@ function plot_program() {
       .replaceAll("true", "True")
       .replaceAll("false", "False");
   return `#!/usr/bin/env python3
-"""Draws error against cost of this folder with matplotlib: python3 plot.py [OUT.pdf [SCENE [WIDTH_MM]]]
+"""Draws error against cost of this folder: python3 plot.py [OUT.pdf [SCENE [WIDTH_MM]]]
 
-A line is (name, colour, marker, dash, rows of the table). Errors that are only bounded stand at their upper bound, as in work_precision.svg."""
+A line is (name, colour, marker, dash, rows of the table). Errors that are only bounded stand at
+their upper bound, as in work_precision.svg."""
 import csv
 import pathlib
 import sys
@@ -61,11 +62,13 @@ SCENES = {
 ${scenes
   .map(
     ([scene, column, title, bands, bounds, lines]) =>
-      `    ${python(scene)}: (${python(column)}, ${python(title)}, ${python([bands.floor, bands.certificate])}, {${Object.entries(
-        bounds,
-      )
+      `    ${python(scene)}: (` +
+      [column, title, [bands.floor, bands.certificate]].map(python).join(", ") +
+      ", {" +
+      Object.entries(bounds)
         .map(([n, y]) => `${n}: ${y}`)
-        .join(", ")}}, [\n${lines.map(line => `        ${python(line)},\n`).join("")}    ]),\n`,
+        .join(", ") +
+      `}, [\n${lines.map(line => `        ${python(line)},\n`).join("")}    ]),\n`,
   )
   .join("")}}
 
@@ -74,7 +77,9 @@ table = folder / "cells.csv"
 if table.exists():
     cells = list(csv.DictReader(open(table, newline="")))
 else:  # a record keeps errors and costs apart
-    cells = [a | b for a, b in zip(*(csv.DictReader(open(folder / name, newline="")) for name in ("errors.csv", "cost.csv")))]
+    names = ("errors.csv", "cost.csv")
+    tables = [csv.DictReader(open(folder / name, newline="")) for name in names]
+    cells = [errors | costs for errors, costs in zip(*tables)]
 out = sys.argv[1] if len(sys.argv) > 1 else str(folder / "work_precision.pdf")
 scene = sys.argv[2] if len(sys.argv) > 2 else next(iter(SCENES))
 width = float(sys.argv[3]) / 25.4 if len(sys.argv) > 3 else 7
@@ -84,11 +89,14 @@ figure, axes = pyplot.subplots(figsize=(width, 0.65 * width), layout="constraine
 for name, colour, marker, dash, rows in lines:
     cost = [float(cells[row]["cost_s_per_s"]) for row in rows]
     error = [bounds.get(row) or float(cells[row][column]) for row in rows]
-    spread = [[c - float(cells[row]["cost_lower"]) for c, row in zip(cost, rows)], [float(cells[row]["cost_upper"]) - c for c, row in zip(cost, rows)]]
-    axes.errorbar(cost, error, xerr=spread, color=colour, marker=marker, markersize=4, linewidth=1.2, linestyle=(0, dash if dash[1] else []), label=name)
-axes.set(xscale="log", yscale="log", xlabel="computing time for one second of sound, one core [s]", ylabel=title, title=scene)
+    spread = [[c - float(cells[row]["cost_lower"]) for c, row in zip(cost, rows)],
+              [float(cells[row]["cost_upper"]) - c for c, row in zip(cost, rows)]]
+    axes.errorbar(cost, error, xerr=spread, color=colour, marker=marker, markersize=4,
+                  linewidth=1.2, linestyle=(0, dash if dash[1] else []), label=name)
+axes.set(xscale="log", yscale="log", ylabel=title, title=scene,
+         xlabel="computing time for one second of sound, one core [s]")
 low, high = axes.get_ylim()
-for level, name, colour in ((certificate, "the reference is certain to here", "#56b4e9"), (floor, "noise floor", "#888888")):
+for level, colour in ((certificate, "#56b4e9"), (floor, "#888888")):
     if level and level > low:
         axes.axhspan(low, level, color=colour, alpha=0.16, linewidth=0)
 axes.axvline(1, color="#888888", linewidth=0.8)

@@ -435,8 +435,11 @@ function spectrogram_section() {
         ]
       : [];
   const notes = [
-    "Decibels below the maximum of all panels; the reference comes " +
-      `first.${differences ? " A difference is that of the levels, where either lies above the background: orange is louder than the reference." : ""}`,
+    "Decibels below the maximum of all panels; the reference comes first." +
+      (differences
+        ? " A difference is that of the levels, where either lies above the background: " +
+          "orange is louder than the reference."
+        : ""),
   ];
   if (all.some(p => !p.reference))
     notes.push("Where a scene has no reference here, the suite kept no sound of it.");

@@ -3,10 +3,8 @@
 // judged every cell; here it is put in words.
 function wanted(c, rows) {
   if (c.measure === "third_octave_db") return `third octaves within ${c.goal}${after_pluck(rows)}`;
-  return (
-    `waveform within ${c.goal}, ` +
-    `${{error_l2_50ms: "first 50 ms", error_l2_10ms: "first 10 ms"}[c.measure] ?? "whole run"}${after_pluck(rows)}`
-  );
+  const window = {error_l2_50ms: "first 50 ms", error_l2_10ms: "first 10 ms"}[c.measure];
+  return `waveform within ${c.goal}, ${window ?? "whole run"}${after_pluck(rows)}`;
 }
 // A row of the cheapest: its error as it is quoted, with the uncertainty of the reference where
 // that is more than a tenth of it.
@@ -85,9 +83,10 @@ function reference_text(s, rows) {
   )?.[0];
   if (!name) return "";
   return (
-    `Reference: ${name}${Number.isNaN(modes) ? "" : ` with ${modes} modes`}. Its ` +
-    "uncertainty is " +
-    `${Number.isNaN(certificate) ? "unknown" : `${error_text(certificate, s.headline)} in the first error of the table`}.` +
+    `Reference: ${name}${Number.isNaN(modes) ? "" : ` with ${modes} modes`}. Its uncertainty is ` +
+    (Number.isNaN(certificate)
+      ? "unknown."
+      : `${error_text(certificate, s.headline)} in the first error of the table.`) +
     (beyond ? ` W${beyond.slice(1)}.` : "") +
     (Number.isNaN(horizon)
       ? ""
@@ -115,21 +114,23 @@ function runs_text(rows) {
     refused = count(c => c.status === "refused");
   const flagged = count(c => c.status === "ok" && !c.trusted),
     failed = rows.length - ok - left - refused;
+  const some = (n, text) => (n ? `, ${n} ${text}` : "");
   return (
-    `${ok === rows.length ? `All ${ok}` : `${ok} of ${rows.length}`} runs ` +
-    `succeeded${flagged ? `, ${flagged} of them with a flag against them` : ""}${failed ? `, ${failed} failed` : ""}` +
-    `${left ? `, ${left} left out, because a cheaper one does as well` : ""}${refused ? `, ${refused} were refused` : ""}.`
+    `${ok === rows.length ? `All ${ok}` : `${ok} of ${rows.length}`} runs succeeded` +
+    some(flagged, "of them with a flag against them") +
+    some(failed, "failed") +
+    some(left, "left out, because a cheaper one does as well") +
+    `${some(refused, "were refused")}.`
   );
 }
 function machine_text(s) {
   const {cpu, load, cores} = page.manifest ?? {},
     spread = number(s.spread);
   if (!cpu || Number.isNaN(spread)) return "";
+  const busy = load !== undefined && cores !== undefined;
   return (
-    "Timed on " +
-    `${cpu}${load !== undefined && cores !== undefined ? `, ${cores} cores, at a load of ${digits(load, 2)}` : ""}; ` +
-    `the costs scatter by \u00b1${(100 * spread).toFixed(0)} % between their quartiles ` +
-    "(median)."
+    `Timed on ${cpu}${busy ? `, ${cores} cores, at a load of ${digits(load, 2)}` : ""}; ` +
+    `the costs scatter by \u00b1${(100 * spread).toFixed(0)} % between their quartiles (median).`
   );
 }
 function verdicts() {
