@@ -1,12 +1,15 @@
 # Writes OUT with what this build is made of, from SOURCE; leaves OUT alone where nothing changed.
 #   JVARI_COMMIT        git describe, "unknown" outside git: for people
-#   JVARI_RUN_SOURCES   a hash of all that the numbers of a run depend on: scenes, schemes, references
-#   JVARI_CELL_SOURCES  the same with what measures them: analysis, and every room of bench but those of text and the benchmarks
+#   JVARI_RUN_SOURCES   a hash of all that the numbers of a run depend on: scenes, schemes,
+#                       references
+#   JVARI_CELL_SOURCES  the same with what measures them: analysis, and every room of bench but
+#                       those of text and the benchmarks
 set(commit "unknown")
 find_program(git_program git)
 if(git_program)
     execute_process(COMMAND ${git_program} -C ${SOURCE} describe --always --dirty --abbrev=12
-        OUTPUT_VARIABLE described ERROR_QUIET RESULT_VARIABLE failed OUTPUT_STRIP_TRAILING_WHITESPACE)
+        OUTPUT_VARIABLE described ERROR_QUIET RESULT_VARIABLE failed
+            OUTPUT_STRIP_TRAILING_WHITESPACE)
     if(NOT failed AND described)
         set(commit "${described}")
     endif()
@@ -14,7 +17,8 @@ endif()
 function(hash_folders OUTPUT)
     set(all "")
     foreach(folder ${ARGN})
-        file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp ${SOURCE}/${folder}/*.def)
+        file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.hpp
+            ${SOURCE}/${folder}/*.cpp ${SOURCE}/${folder}/*.def)
         list(SORT files)
         foreach(file ${files})
             file(SHA256 ${SOURCE}/${file} hash)
@@ -27,9 +31,12 @@ function(hash_folders OUTPUT)
 endfunction()
 hash_folders(run_sources scenes schemes reference)
 file(GLOB rooms RELATIVE ${SOURCE} ${SOURCE}/bench/*)
-list(FILTER rooms EXCLUDE REGEX "^bench/(report|command|kernels)$")  # no number that is kept is made there
+# no number that is kept is made there
+list(FILTER rooms EXCLUDE REGEX "^bench/(report|command|kernels)$")
 hash_folders(cell_sources scenes schemes reference analysis ${rooms})
-set(text "#define JVARI_COMMIT \"${commit}\"\n#define JVARI_RUN_SOURCES \"${run_sources}\"\n#define JVARI_CELL_SOURCES \"${cell_sources}\"\n")
+string(CONCAT text "#define JVARI_COMMIT \"${commit}\"\n"
+    "#define JVARI_RUN_SOURCES \"${run_sources}\"\n"
+    "#define JVARI_CELL_SOURCES \"${cell_sources}\"\n")
 set(old "")
 if(EXISTS ${OUT})
     file(READ ${OUT} old)
