@@ -40,31 +40,40 @@ constexpr Template templates[] = {{"guitar", "guitar_over_fret"},
 constexpr const char* what_else = R"(
 # ---- What a scene can say
 #
-# SI units throughout. x runs along the string from 0 to `length`; its displacement y is positive away from the barrier, so what pushes or plucks it
-# towards the barrier is negative. A barrier below the string at rest has a negative `height`. A string with neither `initial` nor `pluck` is silent.
+# SI units throughout. x runs along the string from 0 to `length`. Its displacement y is positive
+# away from the barrier, so what pushes or plucks it towards the barrier is negative. A barrier
+# below the string at rest has a negative `height`. A string with neither `initial` nor `pluck` is
+# silent.
 #
-# The barrier pushes with stiffness * penetration^exponent. A lumped one acts at one place (over `width`), a profile along `from` to `to`:
-#   shape = "profile", curve = "flat" (height 0), "line" (coefficient x), "parabola" (-coefficient x^2) or "table" (a file)
+# The barrier pushes with stiffness * penetration^exponent. A lumped one acts at one place (over
+# `width`), a profile along `from` to `to`:
+#   shape = "profile", curve = "flat" (height 0), "line" (coefficient x),
+#                              "parabola" (-coefficient x^2) or "table" (a file)
 #
-# A string's mass and stiffness are `linear_density` and `bending_stiffness`, or `material` and `diameter` of a plain wire: "steel", "nickel",
-# "brass", "bronze", "phosphor bronze", "nylon", "fluorocarbon", "gut". Its pitch is a `tension`, a `frequency` or a `note` ("E2").
+# A string's mass and stiffness are `linear_density` and `bending_stiffness`, or `material` and
+# `diameter` of a plain wire: "steel", "nickel", "brass", "bronze", "phosphor bronze", "nylon",
+# "fluorocarbon", "gut". Its pitch is a `tension`, a `frequency` or a `note` ("E2").
 #
 # Losses: the amplitude of a mode falls as exp(-sigma t). Its wavenumber is b, its frequency f [Hz].
 #   law = "none"            sigma = 0
 #   law = "polynomial"      sigma = sigma0 + sigma1 b + sigma3 b^3
-#   law = "quality_factor"  sigma = pi f / Q, 1/Q = the sum of the losses by air, viscoelasticity and heat
-#   law = "per_period"      sigma = -f1 ln(factor), f1 the frequency of the first mode: the same for all modes
+#   law = "quality_factor"  sigma = pi f / Q, 1/Q = the losses by air, viscoelasticity and heat
+#   law = "per_period"      sigma = -f1 ln(factor), f1 the frequency of the first mode: all alike
 #   law = "table"           sigma and f of each mode from a file
 #
-# Taps: what is recorded and compared. `string` counts from 0; a force without it is the sum over strings.
+# Taps: what is recorded and compared. `string` counts from 0; a force without it is the sum over
+# strings.
 #   quantity = "displacement", "velocity"   of the string at `position`
-#   quantity = "nut_force"      of the string on its end at x = length, whatever that is on your instrument: errors are of the first such tap
-#   quantity = "bridge_force"   of the barriers on the string, the mean over the time between two rows
+#   quantity = "nut_force"      of the string on its end at x = length, whatever that is on your
+#                               instrument: errors are of the first such tap
+#   quantity = "bridge_force"   of the barriers on the string, the mean between two rows
 #   quantity = "thread_force"   of the thread on the string, the same
 #   quantity = "driving_force"  -(bridge_force + thread_force)
 #
-# Start: [string.initial] is a shape at rest that is let go, [string.pluck] the force of a finger or hammer.
-#   shape = "mode" (number, amplitude) or "triangle" (position, amplitude, smoothing: 0 is a sharp corner)
+# Start: [string.initial] is a shape at rest that is let go, [string.pluck] the force of a finger or
+# hammer.
+#   shape = "mode" (number, amplitude)
+#   shape = "triangle" (position, amplitude, smoothing: 0 is a sharp corner)
 #
 # Try it:   jvari run @FILE@ --scheme modal_two_point --out @NAME@.wav
 # Compare:  jvari compare @FILE@ --duration 0.1 --out @NAME@-report
