@@ -170,7 +170,8 @@ while [ -z "$held" ]; do
     done
 done
 for p in $all; do [ $p = $held ] || others="$others $p"; done
-until [ "$(grep -l "waiting for process $held on .*, which \(runs free_string\|makes all/references\)" err1 err2 err3 | wc -l)" = 2 ]; do
+waits="waiting for process $held on .*, which \(runs free_string\|makes all/references\)"
+until [ "$(grep -l "$waits" err1 err2 err3 | wc -l)" = 2 ]; do
     for p in $others; do kill -0 $p || exit 8; done; sleep 0.1
 done
 [ ! -e "$cell" ] || exit 7

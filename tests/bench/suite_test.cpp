@@ -465,7 +465,7 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
         schemes = ["modal_two_point"]
         reference = "slow"
         rates = [44100]
-        modes = 4                        # of a scheme that is done long before, under sanitizers too
+        modes = 4  # of a scheme that is done long before, under sanitizers too
         duration = 1.0
         time_limit_s = 0.5
         measure = ["errors"]
