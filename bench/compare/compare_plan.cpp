@@ -20,10 +20,8 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr int oversampling =
-    // of a scheme that stands in as reference: beyond every cell, and the coarsest of three rates
-    // is the highest cell's
-    4;
+// A stand-in reference runs at 1, 2 and 4 times the highest compared rate.
+constexpr int oversampling = 4;
 
 // The rates of each have rows in common.
 std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {

@@ -1,4 +1,4 @@
-// What is tried of a scheme: its forms, each a set of options, and its numbers of modes.
+// Expands a request into the option sets and the numbers of modes to run.
 //
 // A request names some of it. The rest is sought (CompareRequest::search), because the cheapest
 // scheme may take more modes than those below 20 kHz, or matched compliance:

@@ -124,9 +124,9 @@ private:
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
     std::vector<double> a_, b_;  // in units of the window
-    // Of the last point; where that is a node the smallest that counts for nothing, 0 where there
-    // is no mode. What other points weigh and forces gain is in units of these, in the window's
-    // units; base_gain_: what the last point's own force gains.
+    // base_: scale of each mode, the weight of the last point (a tiny value at its nodes, 0 where
+    // there is no mode). Other weights and the gains of forces are stored relative to it, in the
+    // window's units; base_gain_: the gain of the last point's own force.
     std::vector<double> base_, over_base_, weights_, gains_, base_moments_;
     double base_gain_ = 0;
     std::vector<double> slower_;  // reach^-n

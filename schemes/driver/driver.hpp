@@ -123,7 +123,7 @@ public:
     }
 
 private:
-    // A string that stretches yields otherwise in every step.
+    // With tension modulation Theta changes in every step.
     static constexpr bool stretches = requires(const String s) { s.theta(); };
     const StringPoints& points() const { return string_->points(); }
 
@@ -218,8 +218,8 @@ std::unique_ptr<Scheme> driven_as_told(std::unique_ptr<String> string, const Set
     return made;
 }
 
-// The scheme of a string and a rule, which reads its options. Where the barriers do not give way,
-// by the rule that is the limit of it.
+// The scheme of a string and a rule, which reads its options. Rigid barriers use the rule's limit,
+// Rule::Rigid.
 template <ObstacleRule Rule, StringStep String>
 std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme,
                                const Settings& settings) {
