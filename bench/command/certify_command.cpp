@@ -13,9 +13,9 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/listener.hpp"
-#include "bench/store/system/side_by_side.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
@@ -196,7 +196,7 @@ int certify_command(CertifyRequest r) {
     bool cached = false;
     std::error_code error;
     // another process may be making the same
-    const auto lock = store::lock_once_free(path, "makes " + path.string(), console);
+    const auto lock = store::lock_of(path, "makes " + path.string(), console);
     if (fs::exists(path, error)) {
         std::string why;
         if (auto found = trust::read_certificate(path, why)) {

@@ -98,13 +98,11 @@ std::string kept_text(const study::Plan& plan, const fs::path& folder) {
 }
 
 void note_missing_locks(const fs::path& folder, const Console& console) {
-    try {
-        if (store::FileLock(folder / "cells" / "any", "begins").held()) return;
+    const store::FileLock lock(folder / "cells" / "any", "begins", false);
+    if (!lock.held() && !lock.elsewhere())
         console.note(folder.string() +
                      ": no file can be locked here. Processes that share this folder would each "
                      "run every cell: start only one");
-    } catch (const store::Busy&) {  // another begins, and has one
-    }
 }
 
 int suite_command(SuiteRequest r) {

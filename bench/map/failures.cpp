@@ -11,6 +11,7 @@
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "scenes/reduction.hpp"
 #include "scenes/scene_file.hpp"
@@ -64,21 +65,22 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalog
         std::vector<double>(all.size(), 1), request.jobs, listener, "failures",
         [&](std::size_t i, store::Done& done) {
             Reproducer& r = all[i];
-            Trials trials(catalogue);  // nobody else's: a minimisation waits for nothing
+            Trials trials(catalogue);  // its own: a minimisation waits for no other
             const std::string address = trials.plan_of(r.trial).jobs.front().id +
                                         name_of(r.expected.verdict) + request.program;
             const fs::path folder = request.folder.empty()
                                         ? fs::path()
                                         : request.folder / "points" / store::hash_of(address);
             const store::FileLock lock(
-                folder, "minimises how " + std::string(r.trial.scheme->name) + " fails");
+                folder, "minimises how " + std::string(r.trial.scheme->name) + " fails",
+                done.may_wait());
+            if (lock.elsewhere()) return done.postpone();
             if (request.resume && read_back(folder, catalogue, r)) return;
             const study::Verdict wanted = r.expected.verdict;
-            r.trial = minimised(r.trial, [&](const Trial& t) {
-                return trials(t, done).judgement.verdict == wanted;
-            });
+            r.trial = minimised(
+                r.trial, [&](const Trial& t) { return trials(t).judgement.verdict == wanted; });
             r.trial.scene.name += "_minimised";
-            r.expected = trials(r.trial, done).judgement;
+            r.expected = trials(r.trial).judgement;
             if (folder.empty()) return;
             write_failures(folder, {r});
         });

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "bench/store/checksum.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
@@ -113,9 +115,12 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
     for (const PointPlace& p : places) trial_at(p);
     Trials trials(catalogue, request);
     std::vector<Tried> tried(places.size());
-    store::side_by_side(
-        std::vector<double>(places.size(), 1), request.jobs, listener, "points",
-        [&](std::size_t i, store::Done& done) { tried[i] = trials(trial_at(places[i]), done); });
+    store::side_by_side(std::vector<double>(places.size(), 1), request.jobs, listener, "points",
+                        [&](std::size_t i, store::Done& done) {
+                            if (auto t = trials(trial_at(places[i]), done.may_wait()))
+                                tried[i] = std::move(*t);
+                            else done.postpone();
+                        });
 
     std::vector<std::size_t> changes;  // between this point and the next
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
@@ -135,14 +140,21 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
             const study::Verdict at_low = tried[changes[i]].judgement.verdict,
                                  at_high = tried[changes[i] + 1].judgement.verdict;
             const MapAxis& axis = low.map->x;
-            asked[i] = 0;  // it may have been begun before, and have met a point that was busy
+            std::filesystem::path file;  // none: its name is that of the lock
+            if (!request.folder.empty())
+                file = request.folder / "points" /
+                       store::hash_of(trials.plan_of(trial_at(low)).jobs.front().id +
+                                      trials.plan_of(trial_at(high)).jobs.front().id);
+            const store::FileLock lock(file, "finds a boundary of " + low.map->name,
+                                       done.may_wait());
+            if (lock.elsewhere()) return done.postpone();
             const Bracket b =
                 bisect({store::number_of(low.x), store::number_of(high.x), at_low, at_high},
                        low.map->refine, axis.whole, [&](double x) {
                            PointPlace at = low;
                            at.x = axis_text(axis, x);
                            ++asked[i];
-                           return trials(trial_at(at), done).judgement.verdict;
+                           return trials(trial_at(at)).judgement.verdict;
                        });
             result.boundaries[i] = {low.map,
                                     low.scheme,

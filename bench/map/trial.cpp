@@ -6,6 +6,7 @@
 #include "bench/compare/compare.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "reference/certificate.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
@@ -109,14 +110,15 @@ study::Plan Trials::plan_of(const Trial& t) const {
     return plan;
 }
 
-Tried Trials::operator()(const Trial& t, const store::Done& done) {
+std::optional<Tried> Trials::operator()(const Trial& t, bool wait) {
     const study::Plan plan = plan_of(t);
     const study::Job& job = plan.jobs.front();
     if (job.judged) references_.hold(*job.point);
-    const study::Record r =
-        study::record_of(job, references_, keep_, done, [&done](long, long) { done.look(); });
-    const double error = worst_nut(r.cell.errors, job.point->scene);
-    return {r, error, study::judge(r.cell, error)};
+    const auto r = study::record_of(
+        job, references_, keep_, [](long, long) { store::throw_if_cancelled(); }, wait);
+    if (!r) return {};
+    const double error = worst_nut(r->cell.errors, job.point->scene);
+    return Tried{*r, error, study::judge(r->cell, error)};
 }
 
 }  // namespace jvari::bench::map

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,9 @@ class Trials {
 public:
     explicit Trials(const compare::Catalogue&, const MapRequest& = {"{}", {}, false, 0});
 
-    // Throws Busy where another process or thread has it.
-    Tried operator()(const Trial&, const store::Done& = {});
+    // Where another process or thread runs it: what that comes to, or nothing unless `wait`.
+    std::optional<Tried> operator()(const Trial&, bool wait);
+    Tried operator()(const Trial& t) { return *(*this)(t, true); }
     study::Plan plan_of(const Trial&) const;  // of one job
     int ran() const { return keep_.ran; }
 

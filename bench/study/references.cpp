@@ -1,10 +1,10 @@
 #include "bench/study/references.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <mutex>
+#include <optional>
 
-#include "bench/store/system/file_lock.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {
@@ -14,24 +14,17 @@ public:
     template <class Make>
     void make(double from, Make run) {
         if (made_) return;
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (!lock) throw store::Busy{"another thread, which runs a reference"};
+        std::optional<store::Wait> wait(std::in_place);
+        const std::lock_guard lock(mutex_);
+        wait.reset();
         if (made_) return;
         try {
             truth_ = std::make_unique<Truth>(run());
             const Run& moved = truth_->reference.moved;
             if (moved.trace.rows > 0)
                 floor_ = errors_of(moved.trace, truth_->reference.run.trace, {}, from);
-        } catch (const store::Busy& busy) {
-            busy_ = busy;
-            again_ = Clock::now() + std::chrono::milliseconds(500);
-            throw;
         } catch (const std::exception& e) { refused_ = e.what(); }
         made_ = true;
-    }
-    void look() {
-        const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (lock && Clock::now() < again_) throw store::Busy(busy_);
     }
     void hold() { ++needed_by_; }
     void release() {
@@ -44,13 +37,10 @@ public:
     const std::string& refused() const { return refused_; }
 
 private:
-    using Clock = std::chrono::steady_clock;
     std::mutex mutex_;  // of what follows, until it is made
     std::unique_ptr<Truth> truth_;
     Errors floor_;
     std::string refused_;
-    store::Busy busy_;
-    Clock::time_point again_{};
     std::atomic<bool> made_ = false;
     std::atomic<int> needed_by_ = 0;
 };
@@ -100,7 +90,6 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
             truth.refused()};
 }
 
-void References::look(const Point& p) { each_of(p, &Shared::look); }
 void References::hold(const Point& p) { each_of(p, &Shared::hold); }
 void References::release(const Point& p) { each_of(p, &Shared::release); }
 

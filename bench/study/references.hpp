@@ -24,12 +24,9 @@ public:
         std::string refused{};             // why there is no truth
         Against against() const;           // empty where there is no truth
     };
-    // Runs what is not there yet, on so many threads. Whoever meets a reference while another
-    // thread or process runs it throws Busy, and its job is run later.
+    // Runs what is not there yet, on so many threads; waits for what another thread or process
+    // runs.
     Of make(const Point&, int jobs, const store::Listener&);
-    // Throws Busy where `make` did so a moment ago: then its job need not be taken. That spares a
-    // network file system thousands of locks.
-    void look(const Point&);
     void hold(const Point&);     // one more needs it
     void release(const Point&);  // one that needed it is done
 

@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <random>
 
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/cost.hpp"
@@ -16,11 +19,8 @@ namespace jvari::bench::study {
 namespace {
 namespace fs = std::filesystem;
 
-Record run_job(const Job& job, References& references, const store::Done& done,
-               const ProgressOf& progress) {
+Record run_job(const Job& job, const References::Of& known, const ProgressOf& progress) {
     const Point& point = *job.point;
-    References::Of known;
-    if (job.judged) known = references.make(point, 1, store::PartOf(done));
     Record r{job.cell, {}, {}, {}};
     Cell& cell = r.cell;
     const Trace* truth = known.truth ? &known.truth->reference.run.trace : nullptr;
@@ -55,8 +55,27 @@ std::optional<Record> kept_record(const Job& job, const Kept& keep) {
     return read_record(keep.folder / (job.id + ".json"), job.identity, job.cell);
 }
 
-// Of the jobs that are not there: run here, or read back where another process has run them
-// meanwhile.
+// The jobs that are not there, in an order in which few wait for a reference: each thread begins
+// with a point of its own, and each process that shares the folder with as many points of its own.
+std::vector<std::size_t> spread(const Plan& plan, const std::vector<std::size_t>& missing,
+                                std::size_t threads, bool shared) {
+    std::map<const Point*, std::pair<std::size_t, std::size_t>> points;  // number, jobs so far
+    std::vector<std::array<std::size_t, 4>> order;
+    for (const std::size_t i : missing) {
+        auto& [number, jobs] =
+            points.try_emplace(plan.jobs[i].point, points.size(), 0).first->second;
+        order.push_back({number, jobs++, number, i});
+    }
+    const std::size_t first = shared ? std::random_device()() % points.size() : 0;
+    for (auto& [turn, job, number, i] : order)
+        turn = (number + points.size() - first) % points.size() / threads;
+    std::ranges::sort(order);
+    std::vector<std::size_t> all;
+    for (const auto& place : order) all.push_back(place.back());
+    return all;
+}
+
+// Run here, or read back where another process has run them meanwhile.
 void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, References& references,
                  Kept& keep, int threads, const store::Listener& listener, Study& into) {
     std::vector<double> sizes;
@@ -68,11 +87,13 @@ void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, Refe
         sizes, threads, listener, "errors",
         [&](std::size_t k, store::Done& done) {
             const Job& job = plan.jobs[missing[k]];
-            if (job.judged) references.look(*job.point);
-            into.records[missing[k]] =
-                record_of(job, references, keep, done, [&done](long rows, long of) {
-                    done = static_cast<double>(rows) / static_cast<double>(of);
-                });
+            const auto progress = [&done](long rows, long of) {
+                done = static_cast<double>(rows) / static_cast<double>(of);
+            };
+            std::optional<Record> record =
+                record_of(job, references, keep, progress, done.may_wait());
+            if (!record) return done.postpone();
+            into.records[missing[k]] = std::move(*record);
             if (job.judged) references.release(*job.point);
         },
         [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
@@ -104,9 +125,8 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
             into.records[i].cell.ran())
             timed.push_back(i);
     if (timed.empty()) return;
-    const auto lock =
-        store::lock_once_free(keep.folder.empty() ? keep.folder : keep.folder / "clock",
-                              "times the cells of this folder", listener);
+    const auto lock = store::lock_of(keep.folder.empty() ? keep.folder : keep.folder / "clock",
+                                     "times the cells of this folder", listener);
     std::map<int, store::Rows> sets;  // of what has no cost
     const std::string here = store::stamp_now().name;
     std::string elsewhere;
@@ -133,15 +153,18 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
 }
 }  // namespace
 
-Record record_of(const Job& job, References& references, Kept& keep, const store::Done& done,
-                 const ProgressOf& progress) {
+std::optional<Record> record_of(const Job& job, References& references, Kept& keep,
+                                const ProgressOf& progress, bool wait) {
     std::optional<Record> record = kept_record(job, keep);
     if (!record) {
+        References::Of known;  // before the lock: who holds that waits for nothing
+        if (job.judged) known = references.make(*job.point, 1, store::Listener());
         const fs::path file = keep.folder.empty() ? fs::path() : keep.folder / (job.id + ".json");
-        const store::FileLock lock(file, "runs " + what_of(job));
+        const store::FileLock lock(file, "runs " + what_of(job), wait);
+        if (lock.elsewhere()) return {};
         record = kept_record(job, keep);
         if (!record) {
-            record = run_job(job, references, done, progress);
+            record = run_job(job, known, progress);
             ++keep.ran;
             const bool given_up =
                 record->cell.failure == "past_time_limit" && job.patience < job.point->time_limit;
@@ -151,7 +174,7 @@ Record record_of(const Job& job, References& references, Kept& keep, const store
         }
     }
     ++keep.kept;
-    return std::move(*record);
+    return record;
 }
 
 Study run(const Plan& plan, References& references, Kept& keep, int threads,
@@ -167,7 +190,12 @@ Study run(const Plan& plan, References& references, Kept& keep, int threads,
     }
     keep.of = static_cast<int>(plan.jobs.size());
     keep.kept = keep.of - static_cast<int>(missing.size());
-    if (!missing.empty()) run_missing(plan, missing, references, keep, threads, listener, result);
+    if (!missing.empty()) {
+        const auto at_once = static_cast<std::size_t>(store::threads_of(threads));
+        const bool shared = keep.resume && !keep.folder.empty();
+        run_missing(plan, spread(plan, missing, at_once, shared), references, keep, threads,
+                    listener, result);
+    }
     result.ran = keep.ran;
     result.read_back = keep.of - result.ran;
     time_sets(plan, keep, result, listener);

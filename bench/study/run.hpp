@@ -3,17 +3,18 @@
 //
 // A job's file appears when the job is finished, so a study that is stopped at any moment loses the
 // jobs under way and no other. Any number of processes, on any number of machines, may share a
-// folder: each runs the next job that nobody has, under the lock of its file. Each of them comes to
-// the same records, for it waits for what the others have under way, and runs that itself where
-// they die.
+// folder: each runs the next job that nobody has, under the lock of its file. In the end it waits
+// for those that others have under way, and runs them itself where the others die. So each comes to
+// the same records.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/store/system/side_by_side.hpp"
+#include "bench/store/system/listener.hpp"
 #include "bench/study/references.hpp"
 
 namespace jvari::bench::study {
@@ -27,9 +28,10 @@ struct Kept {                        // where records and clocks lie
     std::atomic<int> ran = 0;           // by this process
 };
 
-// One job: read back where it lies there, else run under the lock of its file and kept. Throws Busy
-// where another process or thread has it, or runs its reference.
-Record record_of(const Job&, References&, Kept&, const store::Done&, const ProgressOf&);
+// One job: read back where it lies there, else run under the lock of its file and kept. Where
+// another process or thread runs it: what that comes to, or nothing unless `wait`.
+std::optional<Record> record_of(const Job&, References&, Kept&, const ProgressOf&,
+                                bool wait = true);
 
 struct Study {
     std::vector<Record> records;  // of each job of the plan

@@ -3,9 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare_plan.hpp"
@@ -206,13 +204,8 @@ Verdict Judge::verdict(const Model& m, int start, double limit) {
     study::Job& job = plan.jobs.front();
     if (const auto known = verdicts_.find(job.id); known != verdicts_.end()) return known->second;
     job.patience = limit;
-    std::optional<study::Record> made;
-    while (!made) try {
-            made = study::record_of(job, references_, keep_, store::Done(), [](long, long) {});
-        } catch (const store::Busy&) {  // another process judges it
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-    const study::Cell& cell = made->cell;
+    const study::Record record = *study::record_of(job, references_, keep_, [](long, long) {});
+    const study::Cell& cell = record.cell;
     if (cell.failure == "past_time_limit") return {"slow", store::nan, limit};
     // what is left is no model of this scheme
     if (!cell.ran()) return verdicts_[job.id] = {"refused"};

@@ -30,9 +30,9 @@ std::optional<Run> read_run(const std::filesystem::path&,
 
 constexpr double worth_keeping = 0.5;  // [s] of stepping
 
-// The run that is kept there, else what `make` gives, which is kept from then on. Throws
-// store::Busy where another process or thread is making it. A folder that cannot be written to
-// keeps nothing, and nowhere is a run kept of less than `least` [s].
+// The run that is kept there, else what `make` gives, which is kept from then on; waits for another
+// process or thread that makes it. A folder that cannot be written to keeps nothing, and nowhere is
+// a run kept of less than `least` [s].
 Run kept_run(const std::filesystem::path& folder, const std::string& key,
              const std::function<Run()>& make, double least = worth_keeping);
 

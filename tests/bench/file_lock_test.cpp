@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/system/side_by_side.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/references.hpp"
 #include "tests/command_line.hpp"
@@ -18,7 +17,6 @@
 namespace jvari::test {
 namespace {
 
-using bench::store::Busy;
 using bench::store::FileLock;
 
 void append(const std::string& path, const std::string& text) {
@@ -52,12 +50,7 @@ TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
     for (int k = 0; k < 6; ++k) {
         children.push_back(fork());
         if (children.back() != 0) continue;
-        long rows = 0;
-        bench::store::side_by_side(
-            {1}, 1, bench::store::Listener(), "", [&](std::size_t, bench::store::Done&) {
-                rows = bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows;
-            });
-        _exit(rows > 100 ? 0 : 1);
+        _exit(bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows > 100 ? 0 : 1);
     }
     for (const pid_t child : children) {
         int status = 0;
@@ -76,13 +69,28 @@ TEST(FileLock, SaysWhoHoldsItAndWhatForAndGoesWithItsHolder) {
         EXPECT_TRUE(lock.held());
         char host[256] = "";
         gethostname(host, sizeof host - 1);
-        try {
-            const FileLock second(scratch / "a", "makes it");  // in one process, too
-            ADD_FAILURE();
-        } catch (const Busy& busy) {
-            EXPECT_EQ(busy.who,
-                      "process " + std::to_string(getpid()) + " on " + host + ", which makes it");
-        }
+        // in one process, too
+        const FileLock second(scratch / "a", "makes it", false);
+        EXPECT_TRUE(second.elsewhere());
+        EXPECT_FALSE(second.held());
+        struct Ear : bench::store::Listener {
+            mutable std::string last;
+            struct Line : bench::store::Progress {
+                std::string& last;
+                explicit Line(std::string& to) : last(to) {}
+                void show(double, const std::string& what) override {
+                    last = what;
+                    throw std::runtime_error("enough");
+                }
+            };
+            std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+                return std::make_unique<Line>(last);
+            }
+        } ear;
+        // who waits may be told to end
+        EXPECT_THROW(bench::store::lock_of(scratch / "a", "makes it", ear), std::runtime_error);
+        EXPECT_EQ(ear.last, "0 of 1, waiting for process " + std::to_string(getpid()) + " on " +
+                                host + ", which makes it");
         EXPECT_TRUE(FileLock(scratch / "b", "").held());
     }
     EXPECT_EQ(scratch.files(), 0);
@@ -110,13 +118,10 @@ TEST(FileLock, IsNeverHeldByTwoHoweverOftenItIsRemoved) {
     for (int k = 0; k < 4; ++k) {
         children.push_back(fork());
         if (children.back() != 0) continue;
-        for (int n = 0; n < 250;) try {
+        for (int n = 0; n < 250; ++n) try {
                 const FileLock lock(scratch / "count", "counts");
                 const int so_far = std::stoi(content(scratch / "count"));
                 std::ofstream(scratch / "count") << so_far + 1;
-                ++n;
-            } catch (const Busy&) {
-                usleep(100);
             } catch (const std::exception&) {  // another has just emptied it
                 _exit(1);
             }

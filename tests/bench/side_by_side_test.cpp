@@ -1,4 +1,4 @@
-// Things side by side: each once, as many at a time as asked for, and failures as if they had gone
+// Tasks side by side: each once, as many at a time as asked for, and failures as if they had gone
 // one by one.
 #include "bench/store/system/side_by_side.hpp"
 #include "tests/says.hpp"
@@ -113,49 +113,54 @@ TEST(SideBySide, WhatTheListenerThrowsEndsThePartsOfThoseThatRunAndWhoWaitsForTh
             return std::make_unique<Weary>();
         }
     };
-    std::once_flag once;  // of the two things one makes the parts of both
+    std::once_flag once;  // of the two tasks one makes the parts of both
     std::atomic<int> to_the_end = 0;
     const auto part = [&](std::size_t, bench::store::Done& done) {
         for (int k = 0; k < 3000; ++k) wait(10), done = k / 3000.0;
         ++to_the_end;
     };
-    const auto thing = [&](std::size_t, bench::store::Done& done) {
-        std::call_once(once, [&] {
-            bench::store::side_by_side({1, 1}, 2, bench::store::PartOf(done), "", part);
-        });
+    const auto whole = [&](std::size_t, bench::store::Done&) {
+        std::call_once(once, [&] { bench::store::side_by_side({1, 1}, 2, quiet, "", part); });
         ++to_the_end;
     };
-    EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, Ear(), "", thing), std::runtime_error);
+    EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, Ear(), "", whole), std::runtime_error);
     EXPECT_EQ(to_the_end, 0);
 }
 
-TEST(SideBySide, WhatIsBusyIsBegunAgainWhenTheOthersAreDone) {
+TEST(SideBySide, WhatIsPostponedIsBegunAgainOnceWhenTheOthersAreDoneAndMayWait) {
     for (const int jobs : {1, 3}) {
         std::atomic<int> times = 0, others = 0;
         bench::store::side_by_side(std::vector<double>(10, 1), jobs, quiet, "",
                                    [&](std::size_t i, bench::store::Done& done) {
                                        EXPECT_EQ(done, 0);
                                        done = 0.5;
-                                       if (i != 2) ++others;
-                                       else if (++times < 4) throw bench::store::Busy{"somebody"};
-                                       else EXPECT_EQ(others, 9);
+                                       if (i != 2) {
+                                           wait(5);
+                                           ++others;
+                                           return;
+                                       }
+                                       EXPECT_EQ(done.may_wait(), ++times == 2);
+                                       if (times == 2) { EXPECT_GE(others, 10 - jobs); }
+                                       done.postpone();
                                    });
-        EXPECT_EQ(times, 4);
+        EXPECT_EQ(times, 2);
         EXPECT_EQ(others, 9);
     }
 }
 
-TEST(SideBySide, WhatIsBusyInAPartIsBusyAsAWhole) {
-    int times = 0, parts = 0;
-    bench::store::side_by_side({1}, 1, quiet, "", [&](std::size_t, bench::store::Done& done) {
-        ++times;
-        bench::store::side_by_side({1}, 1, bench::store::PartOf(done), "",
-                                   [&](std::size_t, bench::store::Done&) {
-                                       if (++parts < 3) throw bench::store::Busy{"somebody"};
+TEST(SideBySide, ACallFromWithinATaskRunsOnItsThread) {
+    const auto own = [] { return std::this_thread::get_id(); };
+    bench::store::side_by_side({1, 1}, 2, quiet, "", [&](std::size_t, bench::store::Done&) {
+        const auto outer = own();
+        std::vector<std::size_t> order;
+        bench::store::side_by_side({1, 1, 1}, 3, quiet, "",
+                                   [&](std::size_t i, bench::store::Done& part) {
+                                       part = 0.5;
+                                       EXPECT_EQ(own(), outer);
+                                       order.push_back(i);
                                    });
+        EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2}));
     });
-    EXPECT_EQ(times, 3);
-    EXPECT_EQ(parts, 3);
 }
 
 TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
@@ -175,10 +180,14 @@ TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
             return std::make_unique<Weary>();
         }
     } ear;
-    const auto busy = [](std::size_t, bench::store::Done&) {
-        throw bench::store::Busy{"process 7 on node, which works"};
+    // one waits for a process, the other for the first
+    const auto waits = [](std::size_t i, bench::store::Done&) {
+        const bench::store::Wait wait;
+        while (true)
+            bench::store::Wait::sleep(std::chrono::milliseconds(20),
+                                      i == 1 ? "process 7 on node, which works" : "");
     };
-    EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, ear, "", busy), std::runtime_error);
+    EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, ear, "", waits), std::runtime_error);
     EXPECT_EQ(ear.said, std::vector<std::string>{"waiting for process 7 on node, which works"});
 }
 

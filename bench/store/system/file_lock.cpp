@@ -5,7 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
+
+#include "bench/store/system/side_by_side.hpp"
 
 namespace jvari::bench::store {
 
@@ -47,10 +51,14 @@ bool stands_at(const fs::path& path, int file) {
 }
 }  // namespace
 
-FileLock::FileLock(const fs::path& file, const std::string& doing)
+FileLock::FileLock(const fs::path& file, const std::string& doing, bool wait)
     : path_(file.string() + ".lock") {
-    constexpr int most_tries = 100;
-    for (int k = 0; k < most_tries && !held() && !file.empty(); ++k) {
+    constexpr int most_removed = 100;
+    constexpr std::chrono::milliseconds shortest{20}, longest{250};
+    // no fcntl waits for a limited time: a cancelled task would wait on
+    std::optional<Wait> waits;
+    auto pause = shortest;
+    for (int removed = 0; removed < most_removed && !file.empty();) {
         file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file_ < 0) return;
         const Taken taken = take(file_);
@@ -58,8 +66,18 @@ FileLock::FileLock(const fs::path& file, const std::string& doing)
         const std::string who = taken == Taken::elsewhere ? name_in(file_) : "";
         close(file_);
         file_ = -1;
-        if (taken == Taken::elsewhere) throw Busy{who + ", which " + doing};
         if (taken == Taken::impossible) return;
+        if (taken == Taken::here) {
+            ++removed;
+            continue;
+        }
+        if (!wait) {
+            elsewhere_ = true;
+            return;
+        }
+        if (!waits) waits.emplace();
+        Wait::sleep(pause, who + ", which " + doing);
+        pause = std::min(2 * pause, longest);
     }
     if (!held()) return;
     const std::string who = own_name();
@@ -73,6 +91,14 @@ FileLock::~FileLock() {
     removed_too_.reset();
     unlink(path_.c_str());
     close(file_);
+}
+
+std::unique_ptr<FileLock> lock_of(const fs::path& file, const std::string& doing,
+                                  const Listener& listener) {
+    std::unique_ptr<FileLock> lock;
+    side_by_side({1}, 1, listener, "lock",
+                 [&](std::size_t, Done&) { lock = std::make_unique<FileLock>(file, doing); });
+    return lock;
 }
 
 }  // namespace jvari::bench::store

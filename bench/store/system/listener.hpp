@@ -27,8 +27,6 @@ public:
     virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const {
         return std::make_unique<Progress>();
     }
-    // of a larger job, which has a listener of its own
-    virtual bool is_part() const { return false; }
 };
 
 }  // namespace jvari::bench::store

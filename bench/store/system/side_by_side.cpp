@@ -3,12 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <exception>
-#include <map>
-#include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 
@@ -16,35 +13,41 @@ namespace jvari::bench::store {
 
 using namespace std::chrono_literals;
 
-class Things {
+namespace {
+thread_local Done* own_task = nullptr;  // of this thread
+}
+
+class Pool {
     using Clock = std::chrono::steady_clock;
 
 public:
-    Things(const std::vector<double>& sizes, const Listener& listener,
-           const std::function<void(std::size_t, Done&)>& work,
-           const std::function<std::string(std::size_t)>& name)
+    Pool(const std::vector<double>& sizes, const Listener& listener,
+         const std::function<void(std::size_t, Done&)>& work,
+         const std::function<std::string(std::size_t)>& name)
         : sizes_(sizes),
           listener_(listener),
           work_(work),
           name_(name),
           done_(sizes.size()),
-          seconds_(sizes.size()),
-          waits_(sizes.size()) {
-        for (Done& d : done_) d.unwanted_ = &unwanted_;
+          seconds_(sizes.size()) {
+        for (Done& d : done_) d.cancelled_ = own_task ? own_task->cancelled_ : &cancelled_;
     }
 
-    void run(int jobs, Progress& progress) {
-        std::vector<std::jthread> threads;
-        for (std::size_t k = 0; k < std::min<std::size_t>(jobs, count()); ++k)
-            threads.emplace_back([this] { worker(); });
+    void run_here() {
+        for (std::size_t i = 0; i < count(); ++i) work_(i, done_[i]);
+    }
+
+    void run(int threads, Progress& progress) {
+        std::vector<std::jthread> workers;
+        for (std::size_t k = 0; k < std::min<std::size_t>(threads, count()); ++k)
+            workers.emplace_back([this] { work(); });
         std::unique_lock lock(mutex_);
         while (finished_ < count() && !failure_) {
             changed_.wait_for(lock, 250ms);
             try {
                 show(progress);
             } catch (...) {
-                unwanted_ = ended_ = true;
-                changed_.notify_all();
+                cancelled_ = ended_ = true;
                 throw;
             }
         }
@@ -57,50 +60,37 @@ private:
     std::size_t count() const { return sizes_.size(); }
     double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-    // First what was busy and may be free by now: it is finished with, and what it needs can be let
-    // go of.
     std::optional<std::size_t> next() {
-        std::unique_lock lock(mutex_);
-        while (!ended_) {
-            const auto soonest = busy_.begin();
-            if (soonest != busy_.end() && soonest->first <= Clock::now())
-                return busy_.extract(soonest).mapped();
-            if (next_ < count()) return next_++;
-            if (soonest == busy_.end()) break;
-            const Clock::time_point then = soonest->first;
-            changed_.wait_until(lock, then);
-        }
-        return {};
+        const std::lock_guard lock(mutex_);
+        if (ended_) return {};
+        if (next_ < count()) return ++under_way_, next_++;
+        if (postponed_.empty()) return {};
+        const std::size_t i = postponed_.front();
+        postponed_.pop_front();
+        return ++under_way_, i;
     }
 
-    void worker() {
+    void work() {
         while (const std::optional<std::size_t> i = next()) {
+            Done& done = done_[*i];
+            const bool again = done.postponed_;
             std::exception_ptr thrown;
             seconds_[*i] = -now();
+            own_task = &done;
             try {
-                work_(*i, done_[*i]);
-            } catch (const Busy& busy) {
-                if (!listener_.is_part()) {
-                    put_back(*i, busy);
-                    continue;
-                }
-                thrown = std::current_exception();
+                work_(*i, done);
             } catch (...) { thrown = std::current_exception(); }
-            finish(*i, thrown);
+            if (!thrown && !again && done.postponed_) postpone(*i);
+            else finish(*i, thrown);
         }
     }
 
-    void put_back(std::size_t i, const Busy& busy) {
-        constexpr Clock::duration shortest = 20ms, longest = 500ms;
+    void postpone(std::size_t i) {
         const std::lock_guard lock(mutex_);
         done_[i].part_ = 0;
         seconds_[i] = 0;
-        const auto at = Clock::now();
-        Wait& w = waits_[i];
-        w.pause = std::clamp(2 * w.pause, shortest, longest);
-        if (std::exchange(w.who, busy.who) != busy.who) w.since = at;
-        busy_.emplace(at + w.pause, i);
-        if (all_wait() && !idle_since_) idle_since_ = at;
+        postponed_.push_back(i);
+        --under_way_;
     }
 
     void finish(std::size_t i, const std::exception_ptr& thrown) {
@@ -108,26 +98,33 @@ private:
         seconds_[i] = seconds_[i] + now();
         const std::lock_guard lock(mutex_);
         ++finished_;
-        idle_since_.reset();
+        --under_way_;
         if (thrown && i < failed_) failed_ = i, failure_ = thrown;
         if (failure_) ended_ = true;
         if (failure_ || finished_ == count()) changed_.notify_all();
     }
 
-    bool all_wait() const { return !busy_.empty() && finished_ + busy_.size() == count(); }
-    const std::string& longest_awaited() const {
-        const auto since = [this](const auto& b) { return waits_[b.second].since; };
-        return waits_[std::ranges::min_element(busy_, {}, since)->second].who;
+    // For which process every task waits that is under way; "" where one does not wait.
+    std::string awaited() const {
+        std::string who;
+        std::size_t waiting = 0;
+        for (const Done& d : done_) {
+            const std::lock_guard lock(d.mutex_);
+            waiting += d.waits_for_.has_value();
+            if (d.waits_for_ && who.empty()) who = *d.waits_for_;
+        }
+        return waiting == under_way_ ? who : "";
     }
-    void tell_for_whom() {  // once, until something is finished
-        if (!all_wait() || !idle_since_ || Clock::now() - *idle_since_ < 2s) return;
-        idle_since_ = Clock::time_point::max();
-        if (std::exchange(told_, longest_awaited()) != longest_awaited())
-            listener_.note("waiting for " + told_);
+    void note(const std::string& who) {  // once
+        if (std::exchange(awaited_, who) != who) since_ = Clock::now();
+        if (who.empty() || Clock::now() - since_ < 2s || who == noted_) return;
+        noted_ = who;
+        listener_.note("waiting for " + who);
     }
 
     void show(Progress& progress) {
-        tell_for_whom();
+        const std::string who = awaited();
+        note(who);
         double all = 0, so_far = 0, longest = 0;
         std::size_t slowest = 0;
         const double elapsed = now();
@@ -139,20 +136,14 @@ private:
             if (taken > longest) longest = taken, slowest = i;
         }
         std::string text = fmt::format("{} of {}", finished_, count());
-        if (so_far > 0)
+        if (!who.empty()) text += ", waiting for " + who;
+        if (who.empty() && so_far > 0)
             text += fmt::format(", about {:.0f} s left", elapsed * (all - so_far) / so_far);
-        if (name_ && longest > 0)
+        if (who.empty() && name_ && longest > 0)
             text += fmt::format("; longest {:.0f} s: {}", longest, name_(slowest));
-        if (all_wait())
-            text = fmt::format("{} of {}, waiting for {}", finished_, count(), longest_awaited());
         progress.show(so_far / all, text);
     }
 
-    struct Wait {  // of a thing that is busy
-        std::string who;
-        Clock::time_point since;
-        Clock::duration pause{};
-    };
     const std::vector<double>& sizes_;
     const Listener& listener_;
     const std::function<void(std::size_t, Done&)>& work_;
@@ -160,34 +151,52 @@ private:
     const Clock::time_point start_ = Clock::now();
     std::vector<Done> done_;
     std::vector<std::atomic<double>> seconds_;
-    std::atomic<bool> unwanted_ = false;
+    std::atomic<bool> cancelled_ = false;
+    std::string awaited_, noted_;
+    Clock::time_point since_;
     std::mutex mutex_;  // of what follows
     std::condition_variable changed_;
-    std::multimap<Clock::time_point, std::size_t> busy_;  // by when to look again
-    std::vector<Wait> waits_;
-    std::optional<Clock::time_point> idle_since_;  // nothing that is left could be done here
-    std::string told_;
-    std::size_t next_ = 0, finished_ = 0, failed_ = static_cast<std::size_t>(-1);
+    std::deque<std::size_t> postponed_;
+    std::size_t next_ = 0, under_way_ = 0, finished_ = 0, failed_ = static_cast<std::size_t>(-1);
     bool ended_ = false;
     std::exception_ptr failure_;
 };
 
+int threads_of(int jobs) {
+    return jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 void side_by_side(const std::vector<double>& sizes, int jobs, const Listener& listener,
                   const std::string& label, const std::function<void(std::size_t, Done&)>& work,
                   const std::function<std::string(std::size_t)>& name) {
-    Things things(sizes, listener, work, name);
-    things.run(
-        jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
-        *listener.begin(label));
-    things.rethrow();
+    Pool pool(sizes, listener, work, name);
+    if (own_task) return pool.run_here();
+    pool.run(threads_of(jobs), *listener.begin(label));
+    pool.rethrow();
 }
 
-std::unique_ptr<FileLock> lock_once_free(const std::filesystem::path& file,
-                                         const std::string& doing, const Listener& listener) {
-    std::unique_ptr<FileLock> lock;
-    side_by_side({1}, 1, listener, "lock",
-                 [&](std::size_t, Done&) { lock = std::make_unique<FileLock>(file, doing); });
-    return lock;
+void throw_if_cancelled() {
+    if (own_task && *own_task->cancelled_) throw Cancelled{};
+}
+
+void Done::operator=(double part) {
+    part_.store(part, std::memory_order_relaxed);
+    if (cancelled_ && *cancelled_) throw Cancelled{};
+}
+
+Wait::Wait() { sleep({}, ""); }
+Wait::~Wait() {
+    if (!own_task) return;
+    const std::lock_guard lock(own_task->mutex_);
+    own_task->waits_for_.reset();
+}
+void Wait::sleep(std::chrono::milliseconds pause, const std::string& who) {
+    if (own_task) {
+        const std::lock_guard lock(own_task->mutex_);
+        own_task->waits_for_ = who;
+    }
+    std::this_thread::sleep_for(pause);
+    throw_if_cancelled();
 }
 
 }  // namespace jvari::bench::store
