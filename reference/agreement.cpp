@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "reference/certificate.hpp"
+#include <variant>
 
 namespace jvari {
 
@@ -60,6 +59,14 @@ std::vector<double> extrapolated(std::span<const double> own, std::span<const do
     std::vector<double> y(std::min(own.size(), of_half.size()));
     for (std::size_t n = 0; n < y.size(); ++n) y[n] = 2 * own[n] - of_half[n];
     return y;
+}
+
+Scene moved(Scene scene, double factor) {
+    for (String& s : scene.strings) {
+        if (s.initial) std::visit([&](auto& shape) { shape.amplitude *= factor; }, *s.initial);
+        if (s.pluck) s.pluck->amplitude *= factor;
+    }
+    return scene;
 }
 
 }  // namespace jvari

@@ -17,14 +17,15 @@
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/trust/certificate_file.hpp"
 #include "bench/trust/certificate_library.hpp"
+#include "bench/trust/kept_run.hpp"
 
 namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+using trust::Certificate;
 
 struct CertifyRequest : Running {
     std::string scene, out;
@@ -152,9 +153,8 @@ std::string text_of(const Certificate& c) {
 
 // What lies there says more of the same scene than the one that is asked for would: it lasts
 // longer.
-bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertificate& asked) {
-    const Certificate &old = there.certificate, &fresh = asked.certificate;
-    if (there.scene_hash != asked.scene_hash || old.modes != fresh.modes ||
+bool covers_more(const Certificate& old, const Certificate& fresh) {
+    if (old.scene_hash != fresh.scene_hash || old.modes != fresh.modes ||
         old.tap_rate != fresh.tap_rate)
         return false;
     const auto is_stand_in = [](const Certificate& c) {
@@ -165,30 +165,15 @@ bool covers_more(const trust::KeptCertificate& there, const trust::KeptCertifica
     return old.duration > fresh.duration * (1 + 1e-9);
 }
 
-Certificate made(const Scene& scene, CertifySettings settings, const Console& console) {
-    const auto progress = console.begin("certify");
-    double from = 0, part = 1;
-    std::string what;
-    settings.progress = [&](const std::string& reference, int done, int of) {
-        part = 1.0 / of;
-        from = done * part;
-        what = reference;
-    };
-    settings.within = [&](double fraction) { progress->show(from + part * fraction, what); };
-    return certify(scene, settings);
-}
-
 int certify_command(CertifyRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
-    CertifySettings settings;
-    settings.modes = r.modes;
-    settings.tap_rate = r.tap_rate.value_or(44100);
-    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
-                                            scene.duration, settings.tap_rate));
-    trust::KeptCertificate kept = trust::planned_certificate(scene, settings);
+    const double tap_rate = r.tap_rate.value_or(44100);
+    if (scene.duration * tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
+        throw store::UsageError(
+            fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, tap_rate));
+    Certificate c = trust::certificate_plan(scene, {r.modes, tap_rate});
     const fs::path path = path_for(r, scene);
     store::must_be_writable(path);
     store::must_be_writable(trust::cost_path(path));
@@ -198,39 +183,41 @@ int certify_command(CertifyRequest r) {
     // another process may be making the same
     const auto lock = store::lock_of(path, "makes " + path.string(), console);
     if (fs::exists(path, error)) {
-        std::string why;
-        if (auto found = trust::read_certificate(path, why)) {
-            if (covers_more(*found, kept))
-                throw store::UsageError(fmt::format(
-                    "{} covers more of this scene than is asked for: {:g} s against {:g} s; it is "
-                    "kept. --out FILE writes elsewhere",
-                    path.string(), found->certificate.duration, kept.certificate.duration));
-            cached = found->key == kept.key;
-            if (cached) kept = std::move(*found);
-            else
-                console.note(fmt::format("{} {}; it is made again", path.string(),
-                                         trust::of_this_program(*found)
-                                             ? "is of another scene or setting"
-                                             : "was made by another program (sources, compiler, "
-                                               "flags, vector instructions)"));
-        } else {
-            console.note(path.string() + " cannot be used (" + why + "); it is made again");
-        }
+        auto found = trust::read_certificate(path);
+        if (found && covers_more(*found, c))
+            throw store::UsageError(fmt::format(
+                "{} covers more of this scene than is asked for: {:g} s against {:g} s; it is "
+                "kept. --out FILE writes elsewhere",
+                path.string(), found->duration, c.duration));
+        cached = found && found->identity() == c.identity();
+        if (cached) c = std::move(*found);
+        else
+            console.note(fmt::format("{} {}; it is made again", path.string(),
+                                     !found ? "is not whole, or no certificate of this format"
+                                     : found->of_this_program()
+                                         ? "is of another scene or setting"
+                                         : "was made by another program (sources, compiler, "
+                                           "flags, vector instructions)"));
     }
     if (cached) {
-        trust::read_costs(path, kept);
+        trust::read_costs(path, c);
     } else {
+        const fs::path runs = trust::kept_runs_folder();
         const store::WhenInterrupted last_word([&] {
-            console.note("interrupted: nothing is kept, until all runs of a certificate are done");
+            console.note(runs.empty() ? "interrupted: nothing is kept, until all runs of a "
+                                        "certificate are done"
+                                      : "interrupted: runs that took half a second and more are "
+                                        "kept in " +
+                                            runs.string());
         });
-        kept.certificate = made(scene, settings, console);
-        store::write_fresh(trust::cost_path(path), trust::cost_json_of(kept));
-        store::write_fresh(path, trust::json_of(kept));
+        c = trust::certify(scene, std::move(c), console, runs);
+        store::write_fresh(trust::cost_path(path), trust::cost_json_of(c));
+        store::write_fresh(path, trust::json_of(c));
     }
-    console.print(text_of(kept.certificate));
+    console.print(text_of(c));
     console.print((cached ? "read: " : "written: ") + path.string());
 
-    const auto& entries = kept.certificate.entries;
+    const auto& entries = c.entries;
     const bool good = std::any_of(entries.begin(), entries.end(), [](const auto& e) {
         return e.reason.empty() && e.status.outcome == Outcome::ok;
     });
@@ -241,7 +228,7 @@ int certify_command(CertifyRequest r) {
                                         {"cached", cached},
                                         {"file", path.string()},
                                         {"cost_file", trust::cost_path(path).string()},
-                                        {"certificate", Json::parse(trust::json_of(kept))},
+                                        {"certificate", Json::parse(trust::json_of(c))},
                                         {"wall_seconds", costs}}));
     return good ? exit_code::done : exit_code::run_failed;
 }

@@ -7,7 +7,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "reference/certificate.hpp"
+#include "reference/agreement.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 

@@ -78,14 +78,15 @@ inline Outcome outcome_named(const std::string& name) {
 }
 
 // ---- What was computed, in a file beside all that it was computed from:
-// the one format of cells, clocks, points of maps and models of trim.
+// the one format of cells, clocks, points of maps, models of trim, and certificates.
 
 // `identity`: JSON, all that the content depends on. `content`: an object.
-inline std::string kept_text(const std::string& identity, const nlohmann::ordered_json& content) {
+inline std::string kept_text(const std::string& identity, const nlohmann::ordered_json& content,
+                             int indent = -1) {
     using Json = nlohmann::ordered_json;
     Json j{{"of", Json::parse(identity)}};
     j.update(content);
-    return sealed(j.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return sealed(j.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
 // What `read` makes of the whole object; nothing where the file is not there or not whole, or where

@@ -1,22 +1,18 @@
-#include "bench/trust/certificate_file.hpp"
-
 #include <fmt/core.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/usage.hpp"
-#include "scenes/scene_file.hpp"
+#include "bench/trust/certificate.hpp"
 
 namespace jvari::bench::trust {
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr int format = 3;  // of the file
+constexpr int format = 4;  // of the file
 
 std::string window_name(std::size_t w) {
     return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w])
@@ -67,139 +63,91 @@ std::vector<Agreement> taps_of(const Certificate& c, const Json& j) {
     return taps;
 }
 
-Json options_json(const Certificate::Options& options) {
-    Json j = Json::object();
-    for (const auto& [name, value] : options) j[name] = value;
-    return j;
-}
-
-Json entry_json(const Certificate& c, const Certificate::Entry& e) {
-    Json j{{"reference", e.reference}, {"options", options_json(e.options)}};
+Json outcome_json(const Certificate& c, const Certificate::Entry& e) {
+    if (!e.reason.empty()) return {{"status", "refused"}, {"reason", e.reason}};
+    Json j{{"status", name_of(e.status.outcome)},
+           {"failed_step", e.status.step},
+           {"reached_s", e.reached}};
     if (e.sample_rate > 0) j["sample_rate_hz"] = e.sample_rate;
-    if (!e.doubled.empty()) j["doubled"] = e.doubled;
-    if (!e.reason.empty()) {
-        j["status"] = "refused";
-        j["reason"] = e.reason;
-        return j;
-    }
-    j["status"] = name_of(e.status.outcome);
-    if (e.status.outcome != Outcome::ok) j["failed_step"] = e.status.step;
-    j["reached_s"] = e.reached;
-    if (!e.estimate.empty()) {
-        j["estimate"] = Json::object();
-        for (std::size_t k = 0; k < e.estimate.size(); ++k)
-            j["estimate"][c.taps.at(k)] = windows_json(e.estimate[k], c.duration - c.from);
-    }
+    for (std::size_t k = 0; k < e.estimate.size(); ++k)
+        j["estimate"][c.taps.at(k)] = windows_json(e.estimate[k], c.duration - c.from);
     return j;
 }
-Certificate::Entry entry_of(const Certificate& c, const Json& j) {
+Certificate::Entry entry_of(const Certificate& c, const Json& plan, const Json& outcome) {
     Certificate::Entry e;
-    e.reference = j.at("reference");
-    for (const auto& [name, value] : j.at("options").items()) e.options.emplace_back(name, value);
-    e.sample_rate = j.value("sample_rate_hz", 0.0);
-    e.doubled = j.value("doubled", "");
+    e.reference = plan.at(0);
+    for (const auto& [name, value] : plan.at(1).items()) e.options.emplace_back(name, value);
+    e.doubled = plan.at(2);
     e.wall_seconds = store::nan;
-    const std::string status = j.at("status");
+    const std::string status = outcome.at("status");
     if (status == "refused") {
-        e.reason = j.at("reason");
+        e.reason = outcome.at("reason");
         return e;
     }
-    e.status.outcome = store::outcome_named(status);
-    if (const auto step = j.find("failed_step"); step != j.end())
-        e.status.step = store::whole<long>(*step);
-    e.reached = j.at("reached_s");
-    if (const auto estimate = j.find("estimate"); estimate != j.end())
+    e.status = {store::outcome_named(status), store::whole<long>(outcome.at("failed_step"))};
+    e.reached = outcome.at("reached_s");
+    e.sample_rate = outcome.value("sample_rate_hz", 0.0);
+    if (const auto estimate = outcome.find("estimate"); estimate != outcome.end())
         for (const std::string& name : c.taps) e.estimate.push_back(windows_of(estimate->at(name)));
     return e;
 }
-
-std::string key_of(const std::string& hash, const std::string& program, const Certificate& plan) {
-    Json runs = Json::array();
-    for (const auto& e : plan.entries)
-        runs.push_back({e.reference, options_json(e.options), e.sample_rate, e.doubled});
-    return store::hash_of(
-        Json{format, hash, program, plan.modes, plan.tap_rate, plan.duration, runs}.dump());
-}
 }  // namespace
 
-std::string timeless_hash(const Scene& scene) {
-    Scene timeless = scene;
-    timeless.duration = 1;
-    return scene_hash(timeless);
+std::string Certificate::identity() const {
+    Json runs = Json::array();
+    for (const Entry& e : entries) {
+        Json options = Json::object();
+        for (const auto& [name, value] : e.options) options[name] = value;
+        runs.push_back({e.reference, options, e.doubled});
+    }
+    return Json{{"program", Json::parse(program)},
+                {"format", format},
+                {"scene", scene},
+                {"scene_hash", scene_hash},
+                {"modes", modes},
+                {"tap_rate_hz", tap_rate},
+                {"duration_s", duration},
+                {"from_s", from},
+                {"taps", taps},
+                {"runs", runs}}
+        .dump();
 }
 
-KeptCertificate planned_certificate(const Scene& scene, const CertifySettings& settings,
-                                    const std::string& program) {
-    KeptCertificate k;
-    k.certificate = certificate_plan(scene, settings);
-    k.scene_hash = timeless_hash(scene);
-    k.program = program;
-    k.key = key_of(k.scene_hash, k.program, k.certificate);
-    return k;
-}
+std::string Certificate::key() const { return store::hash_of(identity()); }
 
-bool of_this_program(const KeptCertificate& kept) { return kept.program == store::run_identity(); }
-
-std::string json_of(const KeptCertificate& kept) {
-    const Certificate& c = kept.certificate;
-    Json entries = Json::array(), pairs = Json::array();
-    for (const auto& e : c.entries) entries.push_back(entry_json(c, e));
+std::string json_of(const Certificate& c) {
+    Json outcomes = Json::array(), pairs = Json::array();
+    for (const auto& e : c.entries) outcomes.push_back(outcome_json(c, e));
     for (const auto& p : c.pairs)
         pairs.push_back({{"first", p.first}, {"second", p.second}, {"taps", taps_json(c, p.taps)}});
-    const Json j{{"scene", c.scene},
-                 {"scene_hash", kept.scene_hash},
-                 {"key", kept.key},
-                 {"program", Json::parse(kept.program)},
-                 {"format", format},
-                 {"modes", c.modes},
-                 {"tap_rate_hz", c.tap_rate},
-                 {"duration_s", c.duration},
-                 {"from_s", c.from},
-                 {"taps", c.taps},
-                 {"entries", entries},
-                 {"pairs", pairs},
-                 {"noise_floor", taps_json(c, c.floor)}};
-    return store::sealed(j.dump(1));
+    return store::kept_text(
+        c.identity(),
+        {{"outcomes", outcomes}, {"pairs", pairs}, {"noise_floor", taps_json(c, c.floor)}}, 1);
 }
 
-std::string cost_json_of(const KeptCertificate& kept) {
-    Json entries = Json::array();
-    for (const auto& e : kept.certificate.entries)
-        entries.push_back({{"reference", e.reference},
-                           {"options", options_json(e.options)},
-                           {"wall_seconds", e.reason.empty() ? e.wall_seconds : store::nan}});
-    return Json{{"scene", kept.certificate.scene},
-                {"key", kept.key},
-                {"entries", entries},
-                {"made", store::made_by()}}
-               .dump(1) +
-           "\n";
+std::string cost_json_of(const Certificate& c) {
+    Json seconds = Json::array();
+    for (const auto& e : c.entries)
+        seconds.push_back(e.reason.empty() ? e.wall_seconds : store::nan);
+    return store::kept_text(c.identity(), {{"wall_seconds", seconds}, {"made", store::made_by()}},
+                            1);
 }
 
-std::optional<KeptCertificate> read_certificate(const std::filesystem::path& path,
-                                                std::string& why) {
-    std::error_code error;
-    why.clear();
-    if (!std::filesystem::is_regular_file(path, error)) {
-        why = "there is no such file";
-        return std::nullopt;
-    }
-    try {
-        const Json j = store::parsed(store::unsealed(store::read_whole(path)));
-        if (j.at("format") != format)
-            throw std::runtime_error("it is of another format, " + j.at("format").dump());
-        KeptCertificate kept;
-        kept.program = j.at("program").dump();
-        kept.key = j.at("key");
-        kept.scene_hash = j.at("scene_hash");
-        Certificate& c = kept.certificate;
-        c.scene = j.at("scene");
-        c.modes = store::whole<int>(j.at("modes"));
-        c.tap_rate = j.at("tap_rate_hz");
-        c.duration = j.at("duration_s");
-        c.from = j.value("from_s", 0.0);
-        c.taps = j.at("taps").get<std::vector<std::string>>();
-        for (const Json& e : j.at("entries")) c.entries.push_back(entry_of(c, e));
+std::optional<Certificate> read_certificate(const std::filesystem::path& path) {
+    return store::read_kept(path, [](const Json& j) {
+        const Json& of = j.at("of");
+        if (of.at("format") != format) throw std::runtime_error("of another format");
+        Certificate c;
+        c.program = of.at("program").dump();
+        c.scene = of.at("scene");
+        c.scene_hash = of.at("scene_hash");
+        c.modes = store::whole<int>(of.at("modes"));
+        c.tap_rate = of.at("tap_rate_hz");
+        c.duration = of.at("duration_s");
+        c.from = of.at("from_s");
+        c.taps = of.at("taps").get<std::vector<std::string>>();
+        for (std::size_t i = 0; i < of.at("runs").size(); ++i)
+            c.entries.push_back(entry_of(c, of.at("runs").at(i), j.at("outcomes").at(i)));
         for (const Json& p : j.at("pairs")) {
             c.pairs.push_back({store::whole<int>(p.at("first")), store::whole<int>(p.at("second")),
                                taps_of(c, p.at("taps"))});
@@ -208,11 +156,8 @@ std::optional<KeptCertificate> read_certificate(const std::filesystem::path& pat
                     throw std::runtime_error("a pair of entries that are not there");
         }
         c.floor = taps_of(c, j.at("noise_floor"));
-        return kept;
-    } catch (const std::exception& e) {  // Json::exception, UsageError
-        why = e.what();
-        return std::nullopt;
-    }
+        return c;
+    });
 }
 
 std::filesystem::path cost_path(const std::filesystem::path& certificate) {
@@ -220,16 +165,15 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate) {
     return path.replace_extension(".cost.json");
 }
 
-void read_costs(const std::filesystem::path& certificate, KeptCertificate& kept) {
-    try {
-        const Json j = store::parsed(store::read_whole(cost_path(certificate)));
-        if (j.at("key") != kept.key || j.at("entries").size() != kept.certificate.entries.size())
-            return;
-        for (std::size_t i = 0; i < kept.certificate.entries.size(); ++i)
-            if (const Json& seconds = j.at("entries").at(i).at("wall_seconds"); seconds.is_number())
-                kept.certificate.entries[i].wall_seconds = seconds;
-    } catch (const std::exception&) {  // the costs are gone; the certificate holds without them
-    }
+void read_costs(const std::filesystem::path& certificate, Certificate& c) {
+    const auto seconds = store::read_kept(cost_path(certificate), c.identity(), [](const Json& j) {
+        std::vector<double> all;
+        for (const Json& x : j.at("wall_seconds"))
+            all.push_back(x.is_number() ? x.get<double>() : store::nan);
+        return all;
+    });
+    for (std::size_t i = 0; seconds && i < std::min(seconds->size(), c.entries.size()); ++i)
+        c.entries[i].wall_seconds = (*seconds)[i];
 }
 
 }  // namespace jvari::bench::trust

@@ -38,10 +38,6 @@ double covering(const Certificate::ByWindow& values, double end, double reached)
     return values.back();
 }
 
-std::string name_of(const Certificate::Entry& e) {
-    return store::variant_name(e.reference, store::options_text(e.options));
-}
-
 }  // namespace
 
 double Trust::in_model(std::size_t tap, std::size_t window) const {
@@ -65,12 +61,11 @@ std::string file_stem(const std::string& scene_name) {
     return stem.empty() ? "scene" : stem;
 }
 
-Trust trust_of(const KeptCertificate& kept, const std::string& reference,
+Trust trust_of(const Certificate& c, const std::string& reference,
                const Certificate::Options& options, double until) {
-    const Certificate& c = kept.certificate;
     Trust t;
-    t.key = kept.key;
-    t.of_this_program = of_this_program(kept);
+    t.key = c.key();
+    t.of_this_program = c.of_this_program();
     const auto mine = std::find_if(c.entries.begin(), c.entries.end(), [&](const auto& e) {
         return e.reference == reference && e.options == options && e.doubled.empty() &&
                e.reason.empty();
@@ -104,7 +99,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference,
     if (is_matched(options)) {
         Certificate::Options own = options;
         std::erase_if(own, [](const auto& o) { return is_matched({o}); });
-        const Trust unmatched = trust_of(kept, reference, own, until);
+        const Trust unmatched = trust_of(c, reference, own, until);
         for (std::size_t k = 0; k < unmatched.figure.size(); ++k)
             at_least[k] = unmatched.figure[k][0];
         t.against = unmatched.against;
@@ -116,7 +111,7 @@ Trust trust_of(const KeptCertificate& kept, const std::string& reference,
             const Largest most = largest(k, ends[w]);
             if (!most.other) continue;
             t.figure[k][w] = std::fmax(most.difference, at_least[k]);
-            if (const std::string name = name_of(*most.other);
+            if (const std::string name = most.other->name();
                 std::find(names.begin(), names.end(), name) == names.end())
                 names.push_back(name);
         }
@@ -185,11 +180,9 @@ Trust trust_of(const Scene& scene, const std::string& reference, const Settings&
                 files.push_back(entry.path());
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files) {
-            std::string why;
-            const auto kept = read_certificate(file, why);
-            if (!kept || kept->scene_hash != hash || kept->certificate.modes != modes ||
-                kept->certificate.tap_rate != settings.tap_rate ||
-                kept->certificate.from != free_from(scene))
+            const auto kept = read_certificate(file);
+            if (!kept || kept->scene_hash != hash || kept->modes != modes ||
+                kept->tap_rate != settings.tap_rate || kept->from != free_from(scene))
                 continue;
             Trust t = trust_of(*kept, reference, settings.options, until);
             t.file = file.string();

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/trust/certificate_file.hpp"
+#include "bench/trust/certificate.hpp"
 #include "reference/oversampled.hpp"
 
 namespace jvari::bench::trust {
@@ -51,7 +51,7 @@ std::vector<std::filesystem::path> certificate_folders();
 // this tap rate has for `reference`, over `until` s. One that this program made comes before one
 // with as many figures that another did.
 Trust trust_of(const Scene&, const std::string& reference, const Settings&, double until);
-Trust trust_of(const KeptCertificate&, const std::string& reference, const Certificate::Options&,
+Trust trust_of(const Certificate&, const std::string& reference, const Certificate::Options&,
                double until);
 
 Trust trust_of(const Oversampled&, double until);  // of a stand-in; `until`: its last row [s]

@@ -235,8 +235,9 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     if (!best || !needs.has(Feature::lumped_barrier) || needs.has(Feature::profile_barrier)) return;
     at("certificate");
     const double until = std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate;
+    using namespace bench::trust;
     const Certificate certificate =
-        certify(c.scene, {c.settings.modes, c.settings.tap_rate, {}, {}});
+        certify(c.scene, certificate_plan(c.scene, {c.settings.modes, c.settings.tap_rate}));
     const auto with = [&](const char* rtol) {
         return Settings{0, c.settings.tap_rate, certificate.modes, {{"rtol", rtol}}};
     };
@@ -258,10 +259,8 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     const bool alone =
         // certified by another of its own settings, whose error adds to the difference
         best->name == std::string("sundials");
-    for (const Claim& x :
-         claims(bench::trust::trust_of(bench::trust::KeptCertificate{"", "", certificate},
-                                       best->name, {}, until),
-                r.trace, truth.trace, certificate.from, off, floor)) {
+    for (const Claim& x : claims(trust_of(certificate, best->name, {}, until), r.trace, truth.trace,
+                                 certificate.from, off, floor)) {
         ++tally.claims;
         tally.worst_claim = std::max(tally.worst_claim, x.ratio());
         if (!(x.ratio() < (alone ? claim_allowed_alone : claim_allowed)))
@@ -298,16 +297,29 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
         if (cpu_seconds() - from > about_scene_seconds) throw PastItsLimit{};
     };
     const bool profile = needed_by(c.scene).has(Feature::profile_barrier);
-    CertifySettings settings{
-        std::min(model_modes, modes_for(c.scene, {})), c.settings.tap_rate, {}, [&](double) {
-            look();
-        }};
+    struct Ear : bench::store::Listener {
+        struct Line : bench::store::Progress {
+            std::function<void()> look;
+            void show(double, const std::string&) override { look(); }
+        };
+        std::function<void()> look;
+        std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
+            auto line = std::make_unique<Line>();
+            line->look = look;
+            return line;
+        }
+    } ear;
+    ear.look = look;
     at("certificate about the scene");
-    const Certificate certificate = certify(c.scene, settings);
+    using namespace bench::trust;
+    const Certificate certificate =
+        certify(c.scene,
+                certificate_plan(
+                    c.scene, {std::min(model_modes, modes_for(c.scene, {})), c.settings.tap_rate}),
+                ear);
     const auto trust_in = [&](const OptionValues& options) {
-        return bench::trust::trust_of(
-            bench::trust::KeptCertificate{"", "", certificate}, best->name, options,
-            std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate);
+        return trust_of(certificate, best->name, options,
+                        std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate);
     };
     const bench::trust::Trust trust = trust_in({});
     const auto matching = matched(*best, c.scene, {});

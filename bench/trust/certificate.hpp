@@ -14,14 +14,17 @@
 // twice the modes it has it too, for it is nearer to the scene with the same modes.
 #pragma once
 
-#include <functional>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/store/machine.hpp"
+#include "bench/store/system/listener.hpp"
 #include "reference/agreement.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari {
+namespace jvari::bench::trust {
 
 struct Certificate {
     using Options = std::vector<std::pair<std::string, std::string>>;
@@ -39,6 +42,8 @@ struct Certificate {
         std::string reason;  // of a refusal; then nothing else is set
         // "modes" or "points": what it has twice as many of; "": it is of the certificate's model
         std::string doubled;
+        const Descriptor* scheme = nullptr;  // of a plan; not kept
+        std::string name() const;            // "sundials rtol=1e-12"
     };
     struct Pair {
         int first, second;  // entries; relative to the second
@@ -55,36 +60,45 @@ struct Certificate {
     // reference alone
     std::vector<Pair> pairs;
     std::vector<Agreement> floor;  // by tap
+    std::string scene_hash;        // of the scene whatever its duration
+    std::string program = store::run_identity();
+
+    std::string identity() const;  // JSON: all of the above that is known before it runs
+    std::string key() const;       // hash_of it
+    // the same sources, compiler, flags and vector instructions
+    bool of_this_program() const { return program == store::run_identity(); }
 };
+
+std::string timeless_hash(const Scene&);  // scene_hash of the scene as if it lasted 1 s
 
 struct CertifySettings {
-    // 0: every mode below 20 kHz
-    int modes = 0;
+    int modes = 0;            // 0: every mode below 20 kHz
     double tap_rate = 44100;  // [Hz]
-    // before each run
-    std::function<void(const std::string& reference, int done, int of)> progress = {};
-    // of the run under way
-    std::function<void(double fraction)> within = {};
 };
 
-// Throws BadScene, or Refusal where nothing at all represents the scene.
-Certificate certify(const Scene&, const CertifySettings& = {});
-
-// What it is going to run: the certificate's head, and its entries without their outcome. Throws
-// Refusal as well.
+// What is going to run: the entries without their outcome. Throws BadScene, or Refusal where
+// nothing at all represents the scene.
 Certificate certificate_plan(const Scene&, const CertifySettings& = {});
 
-constexpr double floor_displacement = 1e-12;
+// Runs it, one reference after the other, for their costs are measured. Runs are kept in that
+// folder and come from there (kept_run.hpp); "": nowhere. Throws as the plan does.
+Certificate certify(const Scene&, Certificate plan, const store::Listener& = {},
+                    const std::filesystem::path& runs = {});
 
-// What all doublings of modes or points together change, over what the first does, for an order of
-// one half: 1/(1 - 2^-1/2), rounded up. Displacements have an order above one. But the force of a
-// stiff contact is slow: C3's at 60 modes needs 3.2.
-constexpr double and_further_ones = 3.5;
-// Matched modes change little at first, and then unevenly: a corner that is pressed on a stiff
-// barrier in the open string needs 7.1.
-constexpr double matched_and_further_ones = 8;
+// ---- As files. <scene>.json has what repeats to the last digit on one program and one type of
+// machine; <scene>.cost.json beside it what a clock measured, with date, commit and machine:
+// numbers of the two kinds never share a file that is committed.
 
-// The scene with every initial shape and every pluck scaled.
-Scene moved(Scene, double factor);
+std::string json_of(const Certificate&);
+std::string cost_json_of(const Certificate&);  // wall seconds of each entry
 
-}  // namespace jvari
+// Nothing where there is no such file, it is not whole, or it is of another format. One that
+// another program made is read: its figures are those of the references as they were then. Its wall
+// seconds are NaN.
+std::optional<Certificate> read_certificate(const std::filesystem::path&);
+
+std::filesystem::path cost_path(const std::filesystem::path& certificate);  // a.json: a.cost.json
+// Fills in the wall seconds from the file beside the certificate, if it is of the same identity.
+void read_costs(const std::filesystem::path& certificate, Certificate&);
+
+}  // namespace jvari::bench::trust
