@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/wording.hpp"
+
 namespace jvari::bench::store {
 
 // The caller asked for something that cannot be: the message says what was expected.
@@ -18,7 +20,13 @@ struct Unwritable : std::runtime_error {
 };
 
 // "unknown scheme "modal_two": did you mean modal_two_point?", or what there is.
-std::string unknown(const std::string& kind, const std::string& word,
-                    const std::vector<std::string>& known);
+inline std::string unknown(const std::string& kind, const std::string& word,
+                           const std::vector<std::string>& known) {
+    const std::string near = nearest(word, known);
+    return "unknown " + kind + " " + found_text(word) + "; " +
+           (!near.empty()   ? "did you mean " + quote(near) + "?"
+            : known.empty() ? "there is none"
+                            : "there is " + list_of(known));
+}
 
 }  // namespace jvari::bench::store
