@@ -133,18 +133,13 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
     return partials;
 }
 
-Partial partial_near(std::span<const double> signal, double rate, double guess, double half_width) {
+Partial strongest_near(std::span<const double> signal, double rate, double guess,
+                       double half_width) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto partials = partials_between(signal, rate, guess - half_width, guess + half_width);
-    const double seconds = static_cast<double>(signal.size()) / rate;
-    // a^2 times the integral of exp(-2 sigma t) over the record
-    const auto energy = [&](const Partial& p) {
-        const double u = 2 * p.decay * seconds;
-        return p.amplitude * p.amplitude * (std::abs(u) < 1e-8 ? 1.0 : -std::expm1(-u) / u);
-    };
-    const auto quieter = [&](const Partial& a, const Partial& b) { return energy(a) < energy(b); };
-    const auto loudest = std::max_element(partials.begin(), partials.end(), quieter);
-    return loudest == partials.end() ? Partial{nan, nan, nan, nan} : *loudest;
+    Partial strongest{nan, nan, 0, nan};
+    for (const Partial& p : partials_between(signal, rate, guess - half_width, guess + half_width))
+        if (p.amplitude > strongest.amplitude) strongest = p;
+    return strongest;
 }
 
 double cents(double frequency, double reference) { return 1200 * std::log2(frequency / reference); }

@@ -30,9 +30,11 @@ struct Partial {
 std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from,
                                       double to);
 
-// The partial with the most energy within `half_width` [Hz] of `guess`; all members are NaN if
-// there is none. A good half width is 0.4 of the distance to the next partial.
-Partial partial_near(std::span<const double> signal, double rate, double guess, double half_width);
+// The partial that is strongest at the first row within `half_width` [Hz] of `guess`: by energy over
+// the record a spurious pole that grows could pass for it. NaN where there is none. A good half
+// width is 0.4 of the distance to the next partial.
+Partial strongest_near(std::span<const double> signal, double rate, double guess,
+                       double half_width);
 
 double cents(double frequency, double reference);  // 1200 log2(frequency/reference)
 

@@ -16,14 +16,6 @@ double largest(std::span<const double> x) {  // NaN where any value is
     for (double v : x) most = std::isnan(most) || std::isnan(v) ? nan : std::max(most, std::abs(v));
     return most;
 }
-
-void same_taps(const Trace& a, const Trace& b) {
-    if (a.names != b.names) throw std::invalid_argument("the two traces have different taps");
-    if (a.tap_rate != b.tap_rate)
-        throw std::invalid_argument(
-            "the two traces have different tap rates: " + std::to_string(a.tap_rate) + " and " +
-            std::to_string(b.tap_rate) + " Hz");
-}
 }  // namespace
 
 double relative_l2(std::span<const double> candidate, std::span<const double> reference,
@@ -47,34 +39,16 @@ double horizon(std::span<const double> candidate, std::span<const double> refere
     return agree_until(candidate, reference, rate, threshold);
 }
 
-TapErrors relative_l2(const Trace& candidate, const Trace& reference, Window window) {
-    same_taps(candidate, reference);
-    TapErrors errors{{}, reference.taps() > 0 ? 0 : nan, nan};
-    double squares = 0;
-    for (int k = 0; k < reference.taps(); ++k) {
-        const double e =
-            relative_l2(candidate.column(k), reference.column(k), reference.tap_rate, window);
-        errors.tap.push_back(e);
-        if (std::isinf(errors.worst) || std::isinf(e)) errors.worst = inf;
-        // a NaN stays until an infinity
-        else if (!(e <= errors.worst)) errors.worst = std::isnan(errors.worst) ? nan : e;
-        squares += e * e;
-    }
-    if (reference.taps() > 0)
-        errors.combined =
-            std::isfinite(errors.worst) ? std::sqrt(squares / reference.taps()) : errors.worst;
+std::vector<double> relative_l2(const Trace& a, const Trace& b, Window window) {
+    if (a.names != b.names) throw std::invalid_argument("the two traces have different taps");
+    if (a.tap_rate != b.tap_rate)
+        throw std::invalid_argument(
+            "the two traces have different tap rates: " + std::to_string(a.tap_rate) + " and " +
+            std::to_string(b.tap_rate) + " Hz");
+    std::vector<double> errors;
+    for (int k = 0; k < b.taps(); ++k)
+        errors.push_back(relative_l2(a.column(k), b.column(k), b.tap_rate, window));
     return errors;
-}
-
-TapHorizons horizon(const Trace& candidate, const Trace& reference, double threshold) {
-    same_taps(candidate, reference);
-    TapHorizons horizons{{}, reference.taps() > 0 ? inf : nan};
-    for (int k = 0; k < reference.taps(); ++k) {
-        horizons.tap.push_back(
-            horizon(candidate.column(k), reference.column(k), reference.tap_rate, threshold));
-        horizons.shortest = std::fmin(horizons.shortest, horizons.tap.back());
-    }
-    return horizons;
 }
 
 }  // namespace jvari

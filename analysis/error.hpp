@@ -35,19 +35,7 @@ double relative_l2(std::span<const double> candidate, std::span<const double> re
 double horizon(std::span<const double> candidate, std::span<const double> reference, double rate,
                double threshold = 0.1);
 
-struct TapErrors {
-    std::vector<double> tap;  // one per tap of the reference
-    double worst;             // the largest: +inf if any is +inf, else NaN if any is NaN
-    // the root mean square; each tap is relative to its own norm, so units do not matter
-    double combined;
-};
-// Both throw std::invalid_argument unless the traces have the same taps at the same tap rate.
-TapErrors relative_l2(const Trace& candidate, const Trace& reference, Window = {});
-
-struct TapHorizons {
-    std::vector<double> tap;  // [s], one per tap of the reference
-    double shortest;          // [s]; NaN for a trace without taps
-};
-TapHorizons horizon(const Trace& candidate, const Trace& reference, double threshold = 0.1);
+// Of each tap. Throws std::invalid_argument unless the traces have the same taps at the same rate.
+std::vector<double> relative_l2(const Trace& candidate, const Trace& reference, Window = {});
 
 }  // namespace jvari

@@ -14,22 +14,12 @@ Spread spread_of(std::span<const double> values) {
     std::vector<double> sorted;
     std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
                  [](double v) { return std::isfinite(v); });
-    if (sorted.empty()) return {0, nan, nan, nan, nan, nan};
+    if (sorted.empty()) return {0, nan, nan, nan};
     std::sort(sorted.begin(), sorted.end());
     const auto quantile = [&](double f) {
         return gsl_stats_quantile_from_sorted_data(sorted.data(), 1, sorted.size(), f);
     };
-    return {static_cast<int>(sorted.size()),
-            quantile(0.5),
-            quantile(0.25),
-            quantile(0.75),
-            sorted.front(),
-            sorted.back()};
-}
-
-bool tie(const Spread& a, const Spread& b) {
-    if (a.count == 0 || b.count == 0) return true;
-    return a.lower <= b.upper && b.lower <= a.upper;
+    return {static_cast<int>(sorted.size()), quantile(0.5), quantile(0.25), quantile(0.75)};
 }
 
 }  // namespace jvari

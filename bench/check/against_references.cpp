@@ -149,7 +149,7 @@ std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& sce
         const jvari::Run r =
             run(d, scene, {times * contract_tap_rate, contract_tap_rate, claim_modes, {}});
         if (r.status.outcome != Outcome::ok) return {};
-        all.push_back(relative_l2(r.trace, truth).tap);
+        all.push_back(relative_l2(r.trace, truth));
     }
     return all;
 }

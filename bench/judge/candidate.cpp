@@ -116,12 +116,13 @@ std::string beside(const compare::Comparison& c, const study::Record& own) {
         if (is_candidate(r.cell) || r.cell.status() != "ok" ||
             settings.sample_rate != own.cell.settings.sample_rate)
             continue;
-        const TapErrors apart = relative_l2(trace, run(*r.cell.scheme, c.scene(), settings).trace);
+        const std::vector<double> apart =
+            relative_l2(trace, run(*r.cell.scheme, c.scene(), settings).trace);
         text += fmt::format(
             "\n  it differs from {} by",
             store::variant_name(r.cell.scheme->name, store::options_text(settings.options)));
-        for (std::size_t k = 0; k < apart.tap.size(); ++k)
-            text += fmt::format("{} {:.2g} ({})", k > 0 ? "," : "", apart.tap[k], trace.names[k]);
+        for (std::size_t k = 0; k < apart.size(); ++k)
+            text += fmt::format("{} {:.2g} ({})", k > 0 ? "," : "", apart[k], trace.names[k]);
     }
     return text;
 }

@@ -56,16 +56,6 @@ Heard heard(const MeasuredCell& c) {
     }
     return {{signal.begin(), signal.end()}, trace->tap_rate, ""};
 }
-
-// The strongest at the start: by energy over the record a spurious pole that grows could pass for
-// the mode.
-Partial strongest_near(const Heard& h, double hertz, double half_width) {
-    Partial strongest{nan, nan, 0, nan};
-    for (const Partial& p :
-         partials_between(h.signal, h.rate, hertz - half_width, hertz + half_width))
-        if (p.amplitude > strongest.amplitude) strongest = p;
-    return strongest;
-}
 }  // namespace
 
 store::Table dispersion_rows(const MeasuredCell& c) {
@@ -92,7 +82,8 @@ store::Table dispersion_rows(const MeasuredCell& c) {
         const bool known = i < static_cast<int>(own.size()) && own[i].omega > 0;
         const double own_hertz = known ? own[i].omega / two_pi : nan;
         Partial p{nan, nan, nan, nan};
-        if (h.note.empty()) p = strongest_near(h, known ? own_hertz : hertz, 0.4 * gap);
+        if (h.note.empty())
+            p = strongest_near(h.signal, h.rate, known ? own_hertz : hertz, 0.4 * gap);
         if (!known && std::isnan(p.frequency) && !h.note.empty()) continue;  // nothing to say
         t.rows.push_back({std::to_string(i + 1), store::text_of(hertz),
                           store::text_of(cents(own_hertz, hertz)),
