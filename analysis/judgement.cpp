@@ -75,6 +75,7 @@ Verdict verdict_named(const std::string& name) {
 }
 
 bool is_stable(Verdict v) { return v == Verdict::sound || v == Verdict::flagged; }
+bool is_trusted(Verdict v) { return v == Verdict::sound || v == Verdict::unjudged; }
 
 Verdict verdict_of(const Figures& f, Balance promised, double error) {
     const double pull = pull_of(f.smallest_contact_force, f.largest_contact_force);

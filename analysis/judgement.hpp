@@ -92,6 +92,8 @@ const char* name_of(Verdict);
 Verdict verdict_named(const std::string&);  // throws std::runtime_error
 // nothing went wrong with the run itself: sound or flagged
 bool is_stable(Verdict);
+// nothing speaks against it, as far as its figures tell: sound or unjudged
+bool is_trusted(Verdict);
 
 Verdict verdict_of(const Figures&, Balance, double error);  // NaN: there is no error
 

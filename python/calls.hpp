@@ -26,7 +26,7 @@
 #include "bench/study/run.hpp"
 #include "bench/suite/facet.hpp"
 #include "bench/suite/suite_plan.hpp"
-#include "bench/trim/trim_record.hpp"
+#include "bench/trim/trim.hpp"
 #include "python/listening.hpp"
 #include "python/values.hpp"
 #include "schemes/registry.hpp"
@@ -239,7 +239,7 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
             trim::Judge judge(r, catalogue, PythonListener());
             const trim::Trimmed t = trim::trimmed(judge, r, catalogue, PythonListener());
             path = trim::path_table(t, judge);
-            needs = trim::needs_table(t, judge);
+            needs = trim::needs_table(t);
             if (t.path.found) toml = trim::trimmed_toml(t, judge);
             return t.path.found;
         },

@@ -19,10 +19,16 @@ std::span<const Descriptor> references() {
     return table;
 }
 
-const Descriptor* best_reference(const Scene& scene) {
+std::vector<const Descriptor*> references_of(const Scene& scene) {
+    std::vector<const Descriptor*> able;
     for (const Descriptor& r : references())
-        if (represents(r, scene)) return &r;
-    return nullptr;
+        if (represents(r, scene)) able.push_back(&r);
+    return able;
+}
+
+const Descriptor* best_reference(const Scene& scene) {
+    const auto able = references_of(scene);
+    return able.empty() ? nullptr : able.front();
 }
 
 std::optional<OptionValues> matched(const Descriptor& reference, const Scene& scene,

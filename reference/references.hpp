@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "schemes/making.hpp"
 
@@ -13,7 +14,8 @@ extern const Descriptor exact_linear, characteristic_lattice, exact_contact, sun
 
 std::span<const Descriptor> references();
 
-// The first reference that represents the scene, or nullptr.
+// Those that represent the scene, and the first of them or nullptr.
+std::vector<const Descriptor*> references_of(const Scene&);
 const Descriptor* best_reference(const Scene&);
 
 // The options with compliance=matched, which is nearer to the scene with the same modes: where it

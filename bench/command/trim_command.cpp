@@ -15,7 +15,7 @@
 #include "bench/store/json.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/store/system/interruption.hpp"
-#include "bench/trim/trim_record.hpp"
+#include "bench/trim/trim.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::command {
@@ -32,7 +32,7 @@ std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
     for (const trim::Need& n : t.needs)
         table.rows.push_back({' ',
                               {n.part + (n.becomes == "left out" ? "" : " = " + n.becomes),
-                               text_of(*judge.target().measure, n.error),
+                               judge.target().text(n.error),
                                std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved),
                                n.needed ? "yes" : "no", n.left_out ? "left out" : "kept"}});
     return table.text(Console::width());
@@ -46,28 +46,28 @@ std::string path_text(const trim::Trimmed& t, const trim::Judge& judge) {
                     {}};
     for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
         const trim::Step& s = t.path.steps[k];
-        table.rows.push_back({' ',
-                              {s.change + (s.within ? "" : " (not within)"),
-                               text_of(*judge.target().measure, s.error),
-                               fmt::format("{:.3g}", t.costs[k].median), s.model.settings_text()}});
+        table.rows.push_back(
+            {' ',
+             {s.change + (s.within ? "" : " (not within)"), judge.target().text(s.error),
+              fmt::format("{:.3g}", t.costs[k].median), s.model.settings_text()}});
     }
     return table.text(Console::width());
 }
 
-std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
-    const trim::Measure& m = *judge.target().measure;
-    const trim::Truth& truth = t.truths.front();
+std::string verdict_text(const trim::Trimmed& t, trim::Judge& judge) {
+    const trim::Target& target = judge.target();
     std::string text =
-        fmt::format("truth: {}, {}; certain to {}, noise floor {}\n", truth.reference, truth.said,
-                    certainty_text(m, truth.certificate), text_of(m, truth.floor));
+        fmt::format("truth: {}, {}; certain to {}, noise floor {}\n",
+                    judge.truth(0).reference.choice.name(), judge.truth(0).said,
+                    target.text(judge.certificate(0), "unknown"), target.text(judge.floor(0)));
     if (!t.path.found)
         return text + fmt::format("none of {} is within {} over {:g} s",
-                                  fmt::join(t.path.tried, ", "), text_of(m, judge.target().most),
+                                  fmt::join(t.path.tried, ", "), target.text(target.most),
                                   t.whole.duration);
     for (const trim::Verified& v : t.verified)
-        text += fmt::format("verified: {} from {}{}\n", text_of(m, v.error), v.said,
+        text += fmt::format("verified: {} from {}{}\n", target.text(v.error), v.said,
                             !v.decided    ? fmt::format(", whose reference is certain to {} only",
-                                                        certainty_text(m, v.certificate))
+                                                        target.text(v.certificate, "unknown"))
                             : v.judged_by ? std::string()
                                           : ", which the search did not know");
     if (t.independent() == 0)
@@ -76,7 +76,7 @@ std::string verdict_text(const trim::Trimmed& t, const trim::Judge& judge) {
         "{:.3g} times cheaper than the whole scene without matched compliance{}, {:.3g} times than "
         "its cheapest model",
         t.costs.front().median / t.costs.back().median,
-        t.full().within ? "" : fmt::format(" (which errs by {})", text_of(m, t.full().error)),
+        t.full().within ? "" : fmt::format(" (which errs by {})", target.text(t.full().error)),
         t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);
     return text;
 }
@@ -130,7 +130,7 @@ int trim_command(TrimCall r) {
     trim::Judge judge(request, catalogue, console);
     const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
     const auto manifest = trim::manifest_of(t, judge, request);
-    const store::Table needs = trim::needs_table(t, judge), path = trim::path_table(t, judge);
+    const store::Table needs = trim::needs_table(t), path = trim::path_table(t, judge);
     ResultsFolder folder(r.out, console);
     if (t.path.found) folder.add("trimmed.toml", trim::trimmed_toml(t, judge));
     if (t.path.found && folder) keep_sounds(r.out, t, judge);
@@ -139,9 +139,9 @@ int trim_command(TrimCall r) {
     folder.add_manifest(manifest);
     folder.add_report();
     console.print(fmt::format("{} within {} of {}, tap {}, {:g} s; {} models judged, {} read back",
-                              t.whole.name, text_of(*judge.target().measure, judge.target().most),
-                              judge.target().measure->title, judge.tap().name, t.whole.duration,
-                              t.judged, t.read_back));
+                              t.whole.name, judge.target().text(judge.target().most),
+                              judge.target().title, judge.tap().name, t.whole.duration, t.judged,
+                              t.read_back));
     if (!t.path.steps.empty()) console.print(path_text(t, judge));
     if (t.path.found) console.print(needs_text(t, judge));
     console.print(verdict_text(t, judge));

@@ -46,10 +46,6 @@ const Descriptor& Catalogue::find(const std::string& name) const {
     throw store::UsageError(store::unknown("scheme or reference", name, names));
 }
 
-bool Catalogue::is_reference(const Descriptor& d) const {
-    return std::find(references.begin(), references.end(), &d) != references.end();
-}
-
 void note_slow_plugins(const store::Listener& listener) {
     for (const Guest* g : guests())
         if (!g->optimised)

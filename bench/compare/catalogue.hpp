@@ -23,7 +23,6 @@ struct Catalogue {
 
     // any of them; UsageError suggests the nearest name
     const Descriptor& find(const std::string& name) const;
-    bool is_reference(const Descriptor&) const;
 };
 
 // Warns of plugins that were compiled without optimisation.

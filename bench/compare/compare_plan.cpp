@@ -11,7 +11,6 @@
 
 #include "bench/compare/variants.hpp"
 #include "bench/study/cell.hpp"
-#include "reference/oversampled.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/making.hpp"
@@ -20,9 +19,6 @@
 namespace jvari::bench::compare {
 
 namespace {
-// A stand-in reference runs at 1, 2 and 4 times the highest compared rate.
-constexpr int oversampling = 4;
-
 // The rates of each have rows in common.
 std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
     std::vector<double> left = r.rates;
@@ -114,46 +110,26 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     return chosen;
 }
 
+// Options of the scheme that stands as reference are its own.
 std::vector<study::ReferenceChoice> references_for(const CompareRequest& r,
                                                    const Catalogue& catalogue, const Scene& scene,
                                                    const Settings& at_highest,
                                                    const Descriptor& first_scheme,
                                                    std::vector<bool>& used) {
-    std::vector<study::ReferenceChoice> choices;
-    const auto add = [&](const Descriptor& d, const std::string& note) {
-        Settings s = at_highest;
-        if (d.clock == Clock::continuous) s.sample_rate = 0;
-        const bool stepped = d.clock != Clock::continuous && !catalogue.is_reference(d);
-        if (stepped) s.sample_rate *= oversampling;
+    std::vector<study::ReferenceChoice> choices = study::references_of(
+        scene, at_highest, r.reference.empty() ? nullptr : &catalogue.find(r.reference),
+        &first_scheme);
+    for (study::ReferenceChoice& c : choices)
         for (std::size_t k = 0; k < r.options.size(); ++k)
-            if (const SchemeOption& o = r.options[k]; o.scheme == d.name) {
-                if (std::any_of(s.options.begin(), s.options.end(),
-                                [&o](const auto& set) { return set.first == o.name; }))
+            if (const SchemeOption& o = r.options[k]; o.scheme == c.scheme->name) {
+                if (std::ranges::find(c.settings.options, o.name,
+                                      [](auto& x) { return x.first; }) != c.settings.options.end())
                     throw store::UsageError(fmt::format(
                         "--option {}:{}: found more than once, and the reference takes one value",
-                        d.name, o.name));
-                s.options.emplace_back(o.name, o.value);
+                        o.scheme, o.name));
+                c.settings.options.emplace_back(o.name, o.value);
                 used[k] = true;
             }
-        choices.push_back({&d, s, note, stepped ? oversampling : 0, catalogue.is_reference(d)});
-    };
-    if (!r.reference.empty()) {
-        add(catalogue.find(r.reference), "");
-        return choices;
-    }
-    for (const Descriptor* d : catalogue.references)
-        if (represents(*d, scene)) add(*d, "");
-    auto able = stand_ins(scene);  // of those in the program; else one that a plugin brought
-    if (able.empty()) able.push_back(&first_scheme);
-    const std::string why = choices.empty() ? "no reference represents scene " + scene.name
-                                            : "no reference gets scene " + scene.name + " going";
-    for (const Descriptor* scheme : able)
-        add(*scheme,
-            fmt::format("{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its "
-                        "error is estimated from three rates, "
-                        "not bounded{}",
-                        why, scheme->name, oversampling * at_highest.sample_rate, oversampling,
-                        able.size() > 1 ? ", and was the least of those that could" : ""));
     return choices;
 }
 

@@ -73,25 +73,21 @@ Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request)
     store::must_be_writable(keep_.folder / "any");
 }
 
-// The references that represent the scene, or the one that is named, whatever it is: a scheme takes
-// eight times the rate.
+// Nothing stands in: where no reference represents the scene a point is judged by its own figures.
 std::vector<study::ReferenceChoice> Trials::references_of(const Trial& t) const {
-    std::vector<study::ReferenceChoice> choices;
-    if (t.reference == "none") return choices;
-    std::vector<const Descriptor*> candidates = catalogue_.references;
-    if (!t.reference.empty()) candidates = {&catalogue_.find(t.reference)};
-    for (const Descriptor* d : candidates) {
-        if (!represents(*d, t.scene)) continue;
-        Settings s;
-        s.sample_rate = d->clock == Clock::continuous ? 0 : 8 * t.settings.sample_rate;
-        s.tap_rate = t.settings.tap_rate;
-        s.modes = t.reference_modes > 0  ? t.reference_modes
-                  : t.settings.modes > 0 ? t.settings.modes
-                                         : modes_for(t.scene, t.settings);
-        study::ReferenceChoice c{d, s, ""};
-        c.kept = catalogue_.is_reference(*d) && !request_.folder.empty();
+    if (t.reference == "none") return {};
+    Settings at = t.settings;
+    at.options.clear();
+    at.modes = t.reference_modes > 0  ? t.reference_modes
+               : t.settings.modes > 0 ? t.settings.modes
+                                      : modes_for(t.scene, t.settings);
+    const bool named = !t.reference.empty();
+    std::vector<study::ReferenceChoice> choices =
+        study::references_of(t.scene, at, named ? &catalogue_.find(t.reference) : nullptr, nullptr);
+    std::erase_if(choices, [&t](const auto& c) { return !represents(*c.scheme, t.scene); });
+    for (study::ReferenceChoice& c : choices) {
+        c.kept = c.kept && !request_.folder.empty();
         if (request_.resume) c.kept_in = request_.folder / "references";
-        choices.push_back(std::move(c));
     }
     return choices;
 }

@@ -19,50 +19,47 @@ constexpr double shortest_sample = 0.02;  // [s]
 constexpr double cell_budget = 10;        // of one cell [s]
 
 struct Timed : Contender {
-    int runs;                                   // back to back in one sample
-    int repeats;                                // samples
-    std::vector<double> samples, of_processor;  // [s] of one run
+    double expected;                          // [s] of one sample
+    int repeats;                              // samples
+    std::vector<double> wall{}, processor{};  // [s] of one run
 };
-
-void sample(Timed& t) {
-    const auto scheme = make_scheme(*t.cell->scheme, *t.scene, t.cell->settings);
-    RunOptions options;
-    options.timed = true;
-    double seconds = 0;
-    const double from = store::processor_seconds();
-    for (int k = 0; k < t.runs; ++k) {
-        const Run r = run(*scheme, *t.scene, t.cell->settings, options);
-        seconds += r.wall_seconds;
-        const double deadline = options.block_rows / t.cell->settings.tap_rate;
-        if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
-            t.cell->clock.worst_block =
-                std::fmin(t.cell->clock.worst_block, r.worst_block / deadline);
-    }
-    t.of_processor.push_back((store::processor_seconds() - from) / t.runs);
-    t.samples.push_back(seconds / t.runs);
-}
 // What the machine does in a round (another clock frequency, a busy neighbour) meets the cells of
 // one rate alike, which are next to each other in it. So of every sample goes the median over them
 // of a sample over its cell's own median.
 void take_off_drift(std::span<Timed> of_one_rate, int rounds) {
     constexpr std::size_t fewest = 3;  // of fewer it cannot be told from theirs
     std::vector<double> middle;
-    for (const Timed& t : of_one_rate) middle.push_back(spread_of(t.of_processor).median);
+    for (const Timed& t : of_one_rate) middle.push_back(spread_of(t.processor).median);
     for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round) {
         std::vector<double> relative;
         for (std::size_t k = 0; k < of_one_rate.size(); ++k)
-            if (round < of_one_rate[k].of_processor.size())
-                relative.push_back(of_one_rate[k].of_processor[round] / middle[k]);
+            if (round < of_one_rate[k].processor.size())
+                relative.push_back(of_one_rate[k].processor[round] / middle[k]);
         if (relative.size() < fewest) return;
         const double drift = spread_of(relative).median;
         for (Timed& t : of_one_rate)
-            if (round < t.of_processor.size()) t.of_processor[round] /= drift;
+            if (round < t.processor.size()) t.processor[round] /= drift;
     }
 }
-double seconds_of(const Timed& t) {  // its last sample
-    return t.samples.back() * t.runs;
-}
 }  // namespace
+
+Sample sample_of(const Descriptor& d, const Scene& scene, const Settings& settings,
+                 double shortest) {
+    const auto scheme = make_scheme(d, scene, settings);
+    Sample s{0, 0, store::nan};
+    const RunOptions options{.timed = true};
+    const double from = store::processor_seconds(),
+                 deadline = options.block_rows / settings.tap_rate;
+    int runs = 0;
+    for (; runs < 1000 && s.processor < shortest; ++runs) {
+        const Run r = run(*scheme, scene, settings, options);
+        s.wall += r.wall_seconds;
+        if (r.worst_block > 0 && r.status.outcome == Outcome::ok)
+            s.worst_block = std::fmin(s.worst_block, r.worst_block / deadline);
+        s.processor = store::processor_seconds() - from;
+    }
+    return {s.wall / runs, s.processor / runs, s.worst_block};
+}
 
 void time_cells(const std::vector<Contender>& contenders, int repeats,
                 const store::Listener& listener) {
@@ -72,11 +69,10 @@ void time_cells(const std::vector<Contender>& contenders, int repeats,
     for (const Contender& c : contenders) {
         if (!c.cell->ran()) continue;
         const double once = std::max(c.cell->summary.wall_seconds, 1e-6);
-        const int runs =
-            static_cast<int>(std::clamp(std::ceil(shortest_sample / once), 1.0, 1000.0));
-        const int most = static_cast<int>(std::clamp(cell_budget / (once * runs), 2.0, 1e6));
-        timed.push_back({c, runs, std::min(repeats, most), {}, {}});
-        work += once * runs * timed.back().repeats;
+        const double expected = std::max(once, std::min(shortest_sample, 1000 * once));
+        const int most = static_cast<int>(std::clamp(cell_budget / expected, 2.0, 1e6));
+        timed.push_back({c, expected, std::min(repeats, most)});
+        work += expected * timed.back().repeats;
     }
     // competitors at the same rate follow each other, so that what the machine does meanwhile meets
     // them alike
@@ -87,7 +83,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats,
     for (const Timed& t : timed) rounds = std::max(rounds, t.repeats);
     const auto progress = listener.begin("cost");
     const auto start = std::chrono::steady_clock::now();
-    const Timed* slowest = nullptr;  // of one sample
+    const Timed* slowest = nullptr;  // of one run
     for (int round = 0; round < rounds; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;
@@ -98,12 +94,16 @@ void time_cells(const std::vector<Contender>& contenders, int repeats,
                             finished > 0 ? elapsed * (work - finished) / finished : work);
             if (slowest)
                 text +=
-                    fmt::format("; longest {:.0f} s: {} at {} Hz", seconds_of(*slowest),
+                    fmt::format("; longest {:.0f} s: {} at {} Hz", slowest->wall.back(),
                                 slowest->cell->scheme->name, slowest->cell->settings.sample_rate);
             progress->show(finished / work, text);
-            sample(t);
-            finished += t.cell->summary.wall_seconds * t.runs;
-            if (!slowest || seconds_of(t) > seconds_of(*slowest)) slowest = &t;
+            const Sample s =
+                sample_of(*t.cell->scheme, *t.scene, t.cell->settings, shortest_sample);
+            t.wall.push_back(s.wall);
+            t.processor.push_back(s.processor);
+            t.cell->clock.worst_block = std::fmin(t.cell->clock.worst_block, s.worst_block);
+            finished += t.expected;
+            if (!slowest || s.wall > slowest->wall.back()) slowest = &t;
         }
     for (auto from = timed.begin(), to = from; from != timed.end(); from = to) {
         to = std::find_if(from, timed.end(), [&](const Timed& t) {
@@ -112,8 +112,8 @@ void time_cells(const std::vector<Contender>& contenders, int repeats,
         take_off_drift({from, to}, rounds);
     }
     for (Timed& t : timed) {
-        t.cell->clock.wall = spread_of(t.samples);
-        t.cell->clock.processor = spread_of(t.of_processor);
+        t.cell->clock.wall = spread_of(t.wall);
+        t.cell->clock.processor = spread_of(t.processor);
         t.cell->clock.stamp = stamp;
     }
 }

@@ -12,12 +12,19 @@
 
 namespace jvari::bench::study {
 
+// One sample of a clock: the mean of as many runs back to back as last `shortest` [s], a thousand at
+// most. `worst_block` as a fraction of its deadline, NaN where none was timed.
+struct Sample {
+    double wall, processor;  // [s] of one run
+    double worst_block;
+};
+Sample sample_of(const Descriptor&, const Scene&, const Settings&, double shortest);
+
 // The worst block: the longest of 64 rows over the time those rows sound, in the run where it was
 // shortest, so that it is the scheme's worst and not what the machine did meanwhile. The first
 // block of a run and failed runs do not count.
 //
-// Fills Cell::clock of every cell that was run. A sample of a short run is the mean of as many runs
-// back to back as last 20 ms; a cell that takes longer than 10 s for all its repeats gets fewer,
+// Fills Cell::clock of every cell that was run. A sample lasts 20 ms at least; a cell that takes longer than 10 s for all its repeats gets fewer,
 // two at least.
 struct Contender {
     Cell* cell;

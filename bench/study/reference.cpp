@@ -9,6 +9,7 @@
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/trust/kept_run.hpp"
+#include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {
@@ -69,6 +70,36 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene,
     for (std::size_t i = 0; i < tried.size(); ++i) choices[i] = std::move(tried[i].second);
 }
 }  // namespace
+
+std::vector<ReferenceChoice> references_of(const Scene& scene, const Settings& at,
+                                           const Descriptor* named, const Descriptor* stand_in) {
+    std::vector<ReferenceChoice> all;
+    const auto add = [&](const Descriptor& d, const std::string& note) {
+        const bool solver = std::ranges::any_of(references(), [&d](auto& r) { return &r == &d; });
+        const bool continuous = d.clock == Clock::continuous;
+        const int multiple = solver || continuous ? 0 : oversampling;
+        ReferenceChoice& c = all.emplace_back(ReferenceChoice{&d, at, note, multiple, solver});
+        c.settings.sample_rate *= continuous ? 0 : std::max(1, multiple);
+    };
+    if (named) {
+        add(*named, "");
+        return all;
+    }
+    for (const Descriptor* d : jvari::references_of(scene)) add(*d, "");
+    if (!stand_in) return all;
+    auto able = stand_ins(scene);
+    if (able.empty()) able.push_back(stand_in);
+    const std::string why = all.empty() ? "no reference represents scene " + scene.name
+                                        : "no reference gets scene " + scene.name + " going";
+    for (const Descriptor* scheme : able)
+        add(*scheme,
+            fmt::format("{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its "
+                        "error is estimated from three rates, "
+                        "not bounded{}",
+                        why, scheme->name, oversampling * at.sample_rate, oversampling,
+                        able.size() > 1 ? ", and was the least of those that could" : ""));
+    return all;
+}
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs,
                         const store::Listener& listener, double time_limit, bool alone) {

@@ -28,6 +28,16 @@ struct ReferenceChoice {
     }
 };
 
+constexpr int oversampling = 4;  // of a scheme that stands in: the coarsest of its three rates is
+                                 // the highest cell's
+
+// The one chooser of references, in order of authority: `named` alone, whatever it represents; else
+// every reference that represents the scene, and behind them the schemes that may stand in. Of
+// those in the program; where none of them may, `stand_in`, and where that is nullptr nothing
+// stands in at all. `at`: the cells' settings, at their highest rate.
+std::vector<ReferenceChoice> references_of(const Scene&, const Settings& at,
+                                           const Descriptor* named, const Descriptor* stand_in);
+
 struct Reference {
     ReferenceChoice choice;
     Run run, moved;      // moved: started 1e-12 apart

@@ -10,21 +10,25 @@
 // ones early.
 #pragma once
 
-#include <array>
-#include <map>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "bench/trim/judge.hpp"
+#include "bench/compare/variants.hpp"
+#include "bench/trim/trim.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::trim {
 
 inline constexpr std::array multiples{1, 2, 4, 8, 16, 32};  // of the tap rate
-inline constexpr double longest = 10;                       // of one judged run [s]
-// a judged run is probed: it takes at most so much longer
-inline constexpr double judged_over_timed = 4;
+inline constexpr double fewer = 0.7;  // from one number of modes to the next that is tried
+inline constexpr double first_looks[] = {1, 4};  // multiples of the tap rate
+// numbers of modes: from the most to a quarter of them, for more at one rate can be worse
+inline constexpr std::size_t looked_at = 5;
 
 struct Found {
     Model model;
@@ -35,59 +39,205 @@ struct Found {
     }
 };
 
-struct Variant {
-    const Descriptor* scheme;
-    OptionValues options;
-    std::string name() const;
-};
-// The values asked for; of options that nobody named compliance=matched too, and with it fewer
-// points of a profile.
-std::vector<Variant> variants_of(const Descriptor&, const Scene&,
-                                 const std::vector<compare::SchemeOption>& = {});
-
+// `limit` is a cost [s per s] from which on a model is pointless.
 class CheapestSettings {
 public:
-    CheapestSettings(Judge&, const std::vector<int>& starts, const store::Listener&);
+    CheapestSettings(Judge& judge, const std::vector<const Descriptor*>& schemes,
+                     const std::vector<int>& starts, const store::Listener& listener)
+        : judge_(judge), schemes_(schemes), starts_(starts), progress_(listener.begin("trim")) {}
 
-    Judge& judge() { return judge_; }
     // the worst; nothing where one start is not within
-    std::optional<double> error_within(const Model&, double limit);
-    // limit: a cost [s per s] that makes it pointless
-    Verdict judged(const Model&, int start, double limit);
+    std::optional<double> error_within(const Model& m, double limit) {
+        double worst = 0;
+        for (const int s : starts_) {
+            const Judged j = judged(m, s, limit);
+            if (!judge_.within(j, s)) return std::nullopt;
+            worst = std::max(worst, j.error);
+        }
+        return worst;
+    }
 
-    // Between two rates; nothing that costs `limit` or more is looked for.
-    std::optional<Found> of_variant(const Variant&, const std::vector<int>& left_out, double from,
-                                    double to, double limit);
-    std::optional<Found> of_all(const std::vector<const Descriptor*>&,
-                                const std::vector<int>& left_out, double limit);
+    // Between two rates.
+    std::optional<Found> of_variant(const Variant& v, const std::vector<int>& left_out, double from,
+                                    double to, double limit) {
+        std::optional<Found> best;
+        int dearer = 0;
+        for (const int k : multiples) {
+            const double rate = k * judge_.tap_rate();
+            if (rate < from || rate > to) continue;
+            bool too_dear = false;
+            const auto found = fewest(v, left_out, rate, limit, too_dear);
+            if (too_dear) break;
+            if (!found) continue;
+            if (best && !found->better_than(*best)) {
+                if (++dearer == 2) break;
+                continue;
+            }
+            dearer = 0;
+            best = found;
+            limit = std::min(limit, best->cost);
+        }
+        return best;
+    }
+
+    std::optional<Found> of_all(const std::vector<int>& left_out, double limit) {
+        const Scene scene = judge_.scene_of({left_out, nullptr, {}});
+        std::vector<Variant> variants;
+        for (const Descriptor* d : schemes_)
+            if (represents(*d, scene))
+                for (const Variant& v : variants_of(*d, scene, judge_.options()))
+                    variants.push_back(v);
+        return of_variants(variants, left_out, limit);
+    }
+
     // The whole scene with no option set, so that compliance is the scheme's own: the cheapest that
     // serves, else the nearest that was judged; nothing where none was sound.
-    std::optional<Found> as_published(const std::vector<const Descriptor*>&, bool& within);
+    std::optional<Found> as_published(bool& within) {
+        std::vector<Variant> variants;
+        for (const Descriptor* d : schemes_)
+            if (represents(*d, judge_.scene())) variants.push_back({d, {}});
+        const auto found = of_variants(variants, {}, HUGE_VAL);
+        within = found.has_value();
+        if (found || !nearest_) return found;
+        return Found{*nearest_, judge_.worst_error(*nearest_, starts_), judge_.cost(*nearest_)};
+    }
 
-    std::vector<std::string> passed_over() const;  // after a first look: "name (its errors)"
+    std::vector<std::string> passed_over() const {  // after a first look: "name (its errors)"
+        std::vector<std::string> all;
+        for (const auto& [name, text] : passed_over_) all.push_back(text);
+        return all;
+    }
 
 private:
-    struct Look {
-        Variant variant;
-        // [s per s] as judged, at the cheaper rate that is within; infinite where neither is
-        double cost;
-    };
-    std::optional<Found> of_variants(const std::vector<Variant>&, const std::vector<int>& left_out,
-                                     double limit);
-    std::vector<Look> looked(const std::vector<Variant>&, const std::vector<int>& left_out,
-                             double limit);
-    std::optional<Model> nearest_;  // as published
-    double nearest_error_ = HUGE_VAL;
-    bool hopeless(double error_at_the_lower_rate, double at_the_higher) const;
-    std::optional<Found> fewest(const Variant&, const std::vector<int>& left_out, double rate,
-                                double limit, bool& too_dear);
-    std::vector<int> ladder(const Model&) const;
+    double longest_run(double limit) const {  // [s] of processor
+        return judged_over_timed * limit * judge_.scene().duration;
+    }
+
+    Judged judged(const Model& m, int start, double limit) {
+        const Judged j = judge_.judged(m, start, std::min(longest, longest_run(limit) + 0.01));
+        if (start == starts_.front() && m.left_out.empty() && m.settings.options.empty() &&
+            j.trusted() && j.error < nearest_error_)
+            nearest_ = m, nearest_error_ = j.error;
+        progress_->show(std::min(0.99, 1 - 1 / (1 + judge_.runs() / 500.0)),
+                        fmt::format("{} models judged, {} read back; {}", judge_.runs(),
+                                    judge_.read_back(), best_text_));
+        return j;
+    }
+
+    // From few modes to many, the fewest that serve; beyond `limit` it gives up.
+    std::optional<Found> fewest(const Variant& v, const std::vector<int>& left_out, double rate,
+                                double limit, bool& too_dear) {
+        Model m{left_out, v.scheme, {rate, judge_.tap_rate(), 0, v.options}};
+        int last = 0;
+        const std::vector<int> rungs = ladder(m);
+        for (const int modes : rungs) {
+            m.settings.modes = modes;
+            if (auto error = error_within(m, limit)) {
+                Model x = m;
+                // between the last that failed and the first that serves
+                while (last > 0 && m.settings.modes - last > 1) {
+                    x.settings.modes = (last + m.settings.modes) / 2;
+                    if (const auto e = error_within(x, limit)) m = x, error = e;
+                    else last = x.settings.modes;
+                }
+                return Found{m, *error, judge_.cost(m)};
+            }
+            last = modes;
+            const Judged failed = judged(m, starts_.front(), limit);
+            if (std::isinf(failed.seconds) || failed.seconds > longest_run(limit)) {
+                // with more modes or at a higher rate it is dearer still
+                too_dear = modes == rungs.front();
+                return std::nullopt;
+            }
+        }
+        return std::nullopt;
+    }
+
+    // From few modes to the most that are sought; {0} where the scheme takes its own.
+    std::vector<int> ladder(const Model& m) const {
+        const Scene scene = judge_.scene_of(m);
+        const double rate = m.settings.sample_rate;
+        const auto dofs = [&](int modes) {
+            return compare::dofs_with(modes, *m.scheme, scene, m.settings);
+        };
+        const int all = compare::most_modes_sought(
+            scene, std::max(1, modes_for(scene, {rate, judge_.tap_rate(), 0, {}})), rate);
+        if (dofs(all) == dofs(std::max(1, all / 2)) && dofs(all) > 0) return {0};
+        std::vector<int> modes;
+        for (double n = all; n >= 2; n *= fewer) modes.push_back(static_cast<int>(std::lround(n)));
+        std::ranges::reverse(modes);
+        // it has a number of its own, as one whose nodes are points of contact
+        if (dofs(0) > 0 && dofs(0) != dofs(all)) modes.push_back(0);
+        return modes;
+    }
+
+    std::optional<Found> of_variants(const std::vector<Variant>& variants,
+                                     const std::vector<int>& left_out, double limit) {
+        std::optional<Found> best;
+        for (const auto& [cost, variant] : looked(variants, left_out, limit)) {
+            const auto found = of_variant(*variant, left_out, 0, HUGE_VAL, limit);
+            if (!found || (best && !found->better_than(*best))) continue;
+            best = found;
+            limit = std::min(limit, best->cost);
+            best_text_ = fmt::format("{:.3g} s per s so far", best->cost);
+        }
+        return best;
+    }
+
+    // By cost [s per s] as judged, at the cheaper rate that is within; infinite where neither is.
+    std::vector<std::pair<double, const Variant*>> looked(const std::vector<Variant>& variants,
+                                                          const std::vector<int>& left_out,
+                                                          double limit) {
+        std::vector<std::pair<double, const Variant*>> looks;
+        for (const Variant& v : variants) {
+            double cost = HUGE_VAL;
+            std::vector<double> errors;  // at the rates where nothing but it speaks against a run
+            for (const double k : first_looks) {
+                Model m{
+                    left_out, v.scheme, {k * judge_.tap_rate(), judge_.tap_rate(), 0, v.options}};
+                const std::vector<int> rungs = ladder(m);
+                double least = HUGE_VAL;
+                for (std::size_t n = rungs.size();
+                     n-- > 0 && rungs.size() - n <= looked_at && cost == HUGE_VAL;) {
+                    m.settings.modes = rungs[n];
+                    const Judged seen = judged(m, starts_.front(), limit);
+                    if (judge_.within(seen, starts_.front()))
+                        cost = seen.seconds / judge_.scene().duration;
+                    if (seen.trusted()) least = std::min(least, seen.error);
+                }
+                if (cost < HUGE_VAL) break;
+                if (least < HUGE_VAL) errors.push_back(least);
+            }
+            limit = std::min(limit, cost);
+            const bool both = cost == HUGE_VAL && errors.size() == std::size(first_looks);
+            if (!both || !hopeless(errors[0], errors[1])) {
+                looks.emplace_back(cost, &v);
+                continue;
+            }
+            const auto at = [&](std::size_t k) {
+                return fmt::format("{} at {:g} Hz", judge_.target().text(errors[k]),
+                                   first_looks[k] * judge_.tap_rate());
+            };
+            passed_over_[v.name()] = fmt::format("{} ({}, {})", v.name(), at(0), at(1));
+        }
+        std::ranges::stable_sort(looks, {}, [](const auto& look) { return look.first; });
+        return looks;
+    }
+
+    bool hopeless(double error_at_lower, double error_at_higher) const {
+        const double order_seen = std::max(0.0, std::log2(error_at_lower / error_at_higher)) /
+                                  std::log2(first_looks[1] / first_looks[0]);
+        const double octaves = std::log2(multiples.back() / first_looks[1]);
+        return error_at_higher * std::exp2(-2 * order_seen * octaves) > judge_.target().most;
+    }
 
     Judge& judge_;
+    const std::vector<const Descriptor*>& schemes_;
     std::vector<int> starts_;  // that it is judged by
     std::unique_ptr<store::Progress> progress_;
-    std::string best_said_ = "none is within the tolerance yet";
-    double tap_rate_;
+    std::optional<Model> nearest_;  // as published
+    double nearest_error_ = HUGE_VAL;
+    std::string best_text_ = "none is within the tolerance yet";
     std::map<std::string, std::string> passed_over_;  // by variant
 };
 

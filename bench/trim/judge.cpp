@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/compare/bound.hpp"
-#include "bench/compare/compare_plan.hpp"
+#include "analysis/cheapest.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/cost.hpp"
-#include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "schemes/controls.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::trim {
 
@@ -24,29 +24,22 @@ namespace fs = std::filesystem;
 namespace {
 constexpr double sample = 5e-3;  // least time of one sample of a cost [s]
 constexpr int samples = 3;
+constexpr double deepest_absent = 1;    // penetration of a reference that touches nothing [m]
 constexpr double worth_keeping = 5e-3;  // of a model: below, a file takes longer than the run [s]
-
-int column_of(const Scene& scene, const std::string& tap) {
-    for (std::size_t k = 0; k < scene.taps.size(); ++k)
-        if (scene.taps[k].name == tap) return static_cast<int>(k);
-    throw BadScene("tap", tap, "to be there still");
-}
 
 // What is unknown of a reference by this measure: its certificate for waveforms; of the others no
 // bound is known, and what the doublings tell stands for it.
-double uncertainty(const study::Truth& t, int tap, std::size_t measure, double from) {
+double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, double from) {
     const study::Reference& of = t.reference;
-    const std::string& column = study::measures()[measure].column;
-    for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w)
-        if (column ==
-            "error" +
-                std::string(trust::Trust::columns[w]).substr(std::string("certificate").size()))
-            return of.trust.any() ? of.trust.of_scene(static_cast<std::size_t>(tap), w)
-                                  : store::nan;
+    // the waveform's windows come first among the measures
+    if (measure < trust::Trust::columns.size())
+        return of.trust.any() ? of.trust.of_scene(tap, measure) : store::nan;
     const double rate = of.run.trace.tap_rate;
+    const auto column = [&](const Trace& t) {
+        return rows_from(t.column(static_cast<int>(tap)), from, rate);
+    };
     const auto apart = [&](const Trace& a, const Trace& b) {
-        return study::error_of(measure, rows_from(a.column(tap), from, rate),
-                               rows_from(b.column(tap), from, rate), rate);
+        return study::error_of(measure, column(a), column(b), rate);
     };
     std::vector<double> changes;
     for (std::size_t n = 0; n < t.coarser.size(); ++n) {
@@ -74,18 +67,9 @@ Model toggled(Model m, int part) {
 }
 
 double processor_time(const Model& m, const Scene& left) {
-    const auto scheme = make_scheme(*m.scheme, left, m.settings);
     double least = HUGE_VAL;
-    for (int k = 0; k < samples; ++k) {
-        const double from = store::processor_seconds();
-        double took = 0;
-        int runs = 0;
-        for (; took < sample; ++runs) {
-            run(*scheme, left, m.settings, {.timed = true});
-            took = store::processor_seconds() - from;
-        }
-        least = std::min(least, took / runs);
-    }
+    for (int k = 0; k < samples; ++k)
+        least = std::min(least, study::sample_of(*m.scheme, left, m.settings, sample).processor);
     return least / left.duration;
 }
 
@@ -102,12 +86,13 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
       stamp_(store::stamp_now()) {
     const double absent = judges_decay() ? own_duration_ : free_from(scene_) + 50e-3;
     scene_.duration = std::min(own_duration_, request.duration.value_or(absent));
-    tap_ = compare::tap_named(scene_, request.tap);
-    if (request.tap.empty()) tap_ = study::headline_of(scene_).nut;
-    const double window = target_.measure->window, judged = scene_.duration - free_from(scene_);
-    place_ = std::isfinite(window) && judged < window * (1 - 1e-9)
-                 ? study::measure("error_l2_whole")
-                 : target_.measure->place;
+    const int tap = compare::tap_named(scene_, request.tap);
+    tap_ = static_cast<std::size_t>(request.tap.empty() ? study::headline_of(scene_).nut : tap);
+    const double window = study::measures()[target_.measure].window,
+                 judged = scene_.duration - free_from(scene_);
+    measure_ = std::isfinite(window) && judged < window * (1 - 1e-9)
+                   ? study::measure("error_l2_whole")
+                   : target_.measure;
     if (!request_.out.empty()) {
         keep_.folder = fs::path(request_.out) / "cells";
         keep_.resume = true;
@@ -116,7 +101,8 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
         store::must_be_writable(fs::path(request_.out) / "path.csv");
         store::sweep_parts(keep_.folder);
     }
-    reductions_ = reductions_of(scene_, truth(0).penetration);
+    const double depth = fact_of(truth(0).reference.run.facts, facts::deepest_penetration);
+    reductions_ = reductions_of(scene_, depth > 0 ? depth : deepest_absent);
 }
 
 bool Judge::may_go(int k) const {
@@ -130,9 +116,7 @@ bool Judge::may_go(int k) const {
     Scene left = scene_;
     r.apply(left);
     remove_idle_taps(left, tap().name);
-    if (std::none_of(left.taps.begin(), left.taps.end(),
-                     [this](const Tap& t) { return t.name == tap().name; }))
-        return false;
+    if (std::ranges::find(left.taps, tap().name, &Tap::name) == left.taps.end()) return false;
     const Quantity q = tap().quantity;
     const bool sums =
         q == Quantity::thread_force || q == Quantity::bridge_force || q == Quantity::driving_force;
@@ -143,7 +127,8 @@ Scene Judge::scene_of(const Model& m, int start) const {
     Scene scene = started(scene_, start);
     for (const int k : m.left_out) reductions_[k].apply(scene);
     remove_idle_taps(scene, tap().name);
-    column_of(scene, tap().name);
+    if (std::ranges::find(scene.taps, tap().name, &Tap::name) == scene.taps.end())
+        throw BadScene("tap", tap().name, "to be there still");
     validate(scene);
     return scene;
 }
@@ -153,11 +138,13 @@ const study::Point& Judge::point(int start) {
     study::Point& p = points_[start].points.emplace_back();
     p.scene = started(scene_, start);
     p.whole = p.scene;
-    compare::CompareRequest r;
-    r.reference = request_.reference;
-    r.rates = {4 * request_.tap_rate};
-    r.tap_rate = request_.tap_rate;
-    p.references = compare::references_of(r, catalogue_, p.scene);
+    const auto able = std::ranges::find_if(catalogue_.schemes, [&p](const Descriptor* d) {
+        return represents(*d, p.scene) && !left_out_unasked(*d, p.scene);
+    });
+    p.references = study::references_of(
+        p.scene, {4 * request_.tap_rate, request_.tap_rate, 0, {}},
+        request_.reference.empty() ? nullptr : &catalogue_.find(request_.reference),
+        able == catalogue_.schemes.end() ? nullptr : *able);
     if (!request_.out.empty())
         study::keep_references_in(points_[start], fs::path(request_.out) / "references");
     p.truth_modes = request_.reference_modes;
@@ -171,13 +158,13 @@ study::Plan Judge::plan_of(const Model& m, int start) {
     study::Point& p = plan.points.emplace_back(point(start));
     p.scene = scene_of(m, start);
     study::Job& job = plan.jobs.emplace_back(study::Job{&p, {m.scheme, m.settings}});
-    job.errors = {place_};
+    job.errors = {measure_};
     study::address(plan, program_);
     return plan;
 }
 
-const Truth& Judge::truth(int start) {
-    if (truths_.at(start)) return *truths_[start];
+const Judge::Known& Judge::known(int start) {
+    if (known_.at(start)) return *known_[start];
     const study::Point& whole = point(start);
     references_.hold(whole);
     const study::References::Of found = references_.make(whole, request_.jobs, listener_);
@@ -186,45 +173,35 @@ const Truth& Judge::truth(int start) {
     if (of.run.status.outcome != Outcome::ok)
         throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(),
                                   name_of(of.run.status.outcome)));
-    Truth& t = truths_[start].emplace();
-    t.reference = of.choice.name();
-    t.said = found.truth->said;
-    t.modes = of.choice.settings.modes;
-    t.certificate = uncertainty(*found.truth, tap_, place_, free_from(whole.scene));
-    t.floor = found.floor->at(static_cast<std::size_t>(tap_))[place_];
-    t.horizon = found.truth->horizon;
-    if (const double depth = fact_of(of.run.facts, facts::deepest_penetration); depth > 0)
-        t.penetration = depth;
-    return t;
+    const double unknown = uncertainty(*found.truth, tap_, measure_, free_from(whole.scene));
+    return known_[start].emplace(Known{found, unknown});
 }
 
-Verdict Judge::verdict(const Model& m, int start, double limit) {
-    truth(start);
+const study::Truth& Judge::truth(int start) { return *known(start).reference.truth; }
+double Judge::certificate(int start) { return known(start).certificate; }
+double Judge::floor(int start) { return known(start).reference.floor->at(tap_)[measure_]; }
+
+Judged Judge::judged(const Model& m, int start, double limit) {
+    known(start);
     study::Plan plan = plan_of(m, start);
     study::Job& job = plan.jobs.front();
-    if (const auto known = verdicts_.find(job.id); known != verdicts_.end()) return known->second;
+    if (const auto at = judged_.find(job.id); at != judged_.end()) return at->second;
     job.patience = limit;
     const study::Record record = *study::record_of(job, references_, keep_, [](long, long) {});
     const study::Cell& cell = record.cell;
-    if (cell.failure == "past_time_limit") return {"slow", store::nan, limit};
-    // what is left is no model of this scheme
-    if (!cell.ran()) return verdicts_[job.id] = {"refused"};
-    const std::string flags = names_of(study::flags_of(cell.summary));
-    const bool whole = cell.summary.status.outcome == Outcome::ok;
-    return verdicts_[job.id] = {
-               !whole          ? name_of(cell.summary.status.outcome)
-               : flags.empty() ? "ok"
-                               : flags,
-               whole ? cell.errors.at(static_cast<std::size_t>(tap_))[place_] : store::nan,
-               cell.summary.processor_seconds};
+    if (cell.failure == "past_time_limit") return {};
+    const bool whole = cell.ran() && cell.summary.status.outcome == Outcome::ok;
+    return judged_[job.id] = {study::judge(cell, store::nan).verdict,
+                              whole ? cell.errors.at(tap_)[measure_] : store::nan,
+                              cell.summary.processor_seconds};
 }
 
 double Judge::worst_error(const Model& m, const std::vector<int>& of_starts) {
     double worst = 0;
     try {
         for (const int start : of_starts) {
-            const Verdict v = verdict(m, start);
-            if (v.status != "ok") return std::nan("");
+            const Judged v = judged(m, start);
+            if (!v.trusted()) return std::nan("");
             worst = std::max(worst, v.error);
         }
     } catch (const std::exception&) { return std::nan(""); }
@@ -232,14 +209,13 @@ double Judge::worst_error(const Model& m, const std::vector<int>& of_starts) {
 }
 
 bool Judge::certain(int start) {
-    return truth(start).certificate < (start == 0 ? 1 : 0.5) * target_.most;
+    return certificate(start) < (start == 0 ? 1 : 0.5) * target_.most;
 }
 
-bool Judge::within(const Verdict& v, int start) {
-    const double error = start > 0 && !certain(start)
-                             ? v.error
-                             : compare::Bound{v.error, truth(start).certificate}.most();
-    return v.status == "ok" && error <= target_.most;
+bool Judge::within(const Judged& j, int start) {
+    const bool alone = start > 0 && !certain(start);
+    const double most = alone ? j.error : at_most(j.error, certificate(start));
+    return j.trusted() && most <= target_.most;
 }
 
 double Judge::cost(const Model& m) {
@@ -280,7 +256,7 @@ std::vector<Spread> Judge::costs(const std::vector<Model>& models, int rounds) {
     for (const Model& m : models) {
         scenes.push_back(scene_of(m));
         cells.push_back({m.scheme, m.settings});
-        cells.back().summary.wall_seconds = verdict(m, 0).seconds;
+        cells.back().summary.wall_seconds = judged(m, 0).seconds;
     }
     std::vector<study::Contender> contenders;
     for (std::size_t k = 0; k < cells.size(); ++k) contenders.push_back({&cells[k], &scenes[k]});

@@ -18,11 +18,38 @@
 #include "analysis/statistics.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/request.hpp"
+#include "bench/study/judgement.hpp"
 #include "bench/study/run.hpp"
-#include "bench/trim/target.hpp"
 #include "scenes/reduction.hpp"
 
 namespace jvari::bench::trim {
+
+// ---- What a trimmed model has to keep, and how far: a measure of one tap and a tolerance.
+
+struct Target {
+    std::size_t measure;  // its place among study::measures()
+    double most;          // the tolerance: 0.01 for 1 %; dB as they are
+    // "l2_50ms"; the measure's title without its unit; "%"
+    std::string name, title, unit;
+    // "1.3 %", "0.8 dB"; `unknown` for NaN
+    std::string text(double error, const char* unknown = "-") const;
+};
+std::vector<Target> targets();  // of every measure that less is better of, without a tolerance
+// "1%", "0.01", "1dB". Throws UsageError for a measure that there is not, for a tolerance in
+// another unit than the measure's, and for one above 0.5 that says no unit.
+Target target_of(const std::string& measure, const std::string& within);
+
+// ---- The scene's start and others of another family: higher modes, a sharp triangle near an end
+// (rounded as by a plectrum), a pluck elsewhere. A model that is trimmed by one start is verified
+// by the others, so that it is not tuned to one.
+
+constexpr int starts = 5;
+// 0: the scene's own. 1: sharp and near an end. 2: a higher mode. Further ones are elsewhere.
+// Between six and nine tenths of its size.
+Scene started(Scene, int start);
+std::string name_of_start(const Scene& started);  // of its first string that is set in motion
+
+// ---- Models and their judge.
 
 inline constexpr double worth = 0.95;  // what is cheaper costs less than this of the other
 
@@ -47,22 +74,11 @@ struct Model {
 
 Model toggled(Model, int part);  // without it, or with it once more
 
-struct Verdict {
-    // ok, or what speaks against it: refused, diverged, flags as compare has them
-    std::string status;
+struct Judged {  // the run of a model; as it is: ended, for it took too long
+    Verdict verdict = Verdict::error;
     double error = std::numeric_limits<double>::quiet_NaN();
-    double seconds = 0;  // of processor, of the judged run
-};
-
-struct Truth {  // of one start
-    std::string reference, said;
-    int modes = 0;
-    double certificate = std::numeric_limits<double>::quiet_NaN();  // of the measure; NaN: unknown
-    // what 1e-12 of the start changes
-    double floor = 0;
-    // [s], of the truth against itself with half its modes; NaN: not known
-    double horizon = 0;
-    double penetration = 1;  // deepest [m]
+    double seconds = HUGE_VAL;  // of processor
+    bool trusted() const { return is_trusted(verdict); }
 };
 
 using CostOf = std::function<double(const Model&, const Scene& left)>;  // [s per s]
@@ -88,10 +104,12 @@ public:
 
     // throws BadScene where what is left makes no sense
     Scene scene_of(const Model&, int start = 0) const;
-    const Truth& truth(int start);
+    const study::Truth& truth(int start);
+    double certificate(int start);  // of the truth by the measure; NaN: unknown
+    double floor(int start);        // what 1e-12 of the start changes
 
-    // A run of more than `limit` s of processor is ended and not kept: "slow".
-    Verdict verdict(const Model&, int start, double limit = HUGE_VAL);
+    // A run of more than `limit` s of processor is ended and not kept.
+    Judged judged(const Model&, int start, double limit = HUGE_VAL);
     // NaN where one start fails, or what is left makes no scene
     double worst_error(const Model&, const std::vector<int>& of_starts);
     // The reference tells what is within the tolerance:
@@ -99,7 +117,7 @@ public:
     bool certain(int start);
     // Error and certificate together. Of another start whose reference is not certain: the error
     // alone.
-    bool within(const Verdict&, int start);
+    bool within(const Judged&, int start);
     double cost(const Model&);  // [s of processor per s], least of several; kept
     // Cheaper than `now` by a twentieth and by more than the clock scatters, both timed anew in
     // turn.
@@ -107,13 +125,18 @@ public:
     // processor time, models in turn: what is quoted
     std::vector<Spread> costs(const std::vector<Model>&, int rounds);
 
-    int judged() const { return keep_.ran; }
+    int runs() const { return keep_.ran; }
     int read_back() const { return keep_.kept - keep_.ran; }
 
 private:
-    bool judges_decay() const { return target_.measure->name == "decay"; }
+    struct Known {
+        study::References::Of reference;
+        double certificate;
+    };
+    bool judges_decay() const { return target_.name == "decay"; }
     const study::Point& point(int start);          // the whole scene
     study::Plan plan_of(const Model&, int start);  // of one job
+    const Known& known(int start);
 
     Request request_;
     const compare::Catalogue& catalogue_;
@@ -122,17 +145,17 @@ private:
     Target target_;
     Scene scene_;
     double own_duration_;
-    int tap_ = 0;
+    std::size_t tap_ = 0;
     // of the measure: of the whole run's error where the run is shorter than the measure's window
-    std::size_t place_;
+    std::size_t measure_;
     std::string program_;
     std::vector<Reduction> reductions_;
     study::References references_;
     study::Kept keep_;
     store::Stamp stamp_;
     std::array<study::Plan, starts> points_;  // of one point each
-    std::array<std::optional<Truth>, starts> truths_;
-    std::map<std::string, Verdict> verdicts_;  // by the job's id
+    std::array<std::optional<Known>, starts> known_;
+    std::map<std::string, Judged> judged_;  // by the job's id
     std::map<std::string, double> costs_;
 };
 

@@ -1,12 +1,13 @@
-#include "bench/trim/search.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "bench/compare/variants.hpp"
+#include "bench/store/records.hpp"
 #include "bench/trim/cheapest_settings.hpp"
+#include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::trim {
@@ -21,18 +22,18 @@ struct Candidate {
 
 // The parts that may be left out or put back, in the order in which they are tried: what saves most
 // for the error that it costs goes first, what is put back or not within at these settings last.
-std::vector<Candidate> candidates(CheapestSettings& s, const Found& now) {
+std::vector<Candidate> candidates(Judge& judge, CheapestSettings& s, const Found& now) {
     std::vector<Candidate> order;
-    for (int k = 0; k < static_cast<int>(s.judge().reductions().size()); ++k) {
-        if (!s.judge().may_go(k)) continue;
+    for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
+        if (!judge.may_go(k)) continue;
         const Model m = toggled(now.model, k);
         Candidate c{k, -1, HUGE_VAL};
         try {
             if (const auto e = s.error_within(m, now.cost);
                 e && m.left_out.size() > now.model.left_out.size()) {
                 const double saved =
-                    std::max(0.0, std::floor((1 - s.judge().cost(m) / now.cost) / (1 - worth)));
-                c = {k, saved / std::max(1e-3 * s.judge().target().most, *e - now.error), *e};
+                    std::max(0.0, std::floor((1 - judge.cost(m) / now.cost) / (1 - worth)));
+                c = {k, saved / std::max(1e-3 * judge.target().most, *e - now.error), *e};
             }
         } catch (const std::exception&) {
             continue;  // what is left makes no scene
@@ -45,63 +46,84 @@ std::vector<Candidate> candidates(CheapestSettings& s, const Found& now) {
     });
     return order;
 }
-
-// Step 2: toggles of single parts, settings sought anew, until none is cheaper.
-void descend(CheapestSettings& s, Found& now, Path& path, const store::Listener& listener) {
-    for (bool cheaper = true; cheaper;) {
-        cheaper = false;
-        for (const Candidate& c : candidates(s, now)) {
-            const double rate = now.model.settings.sample_rate;
-            const std::vector<int> left_out = toggled(now.model, c.part).left_out;
-            const auto found = s.of_variant({now.model.scheme, now.model.settings.options},
-                                            left_out, rate / 2, rate * 2, worth * now.cost);
-            if (!found || found->cost > worth * now.cost) continue;
-            const bool gone = left_out.size() > now.model.left_out.size();
-            if (gone && !s.judge().saves(found->model, now.model)) continue;
-            const std::string said = s.judge().reductions()[c.part].said();
-            now = *found;
-            path.steps.push_back(
-                {gone ? said : "put back: " + said, now.model, now.error, now.cost, true});
-            listener.note(
-                fmt::format("{}: {}", path.steps.back().change, now.model.settings_text()));
-            cheaper = true;
-            break;
-        }
-    }
-}
 }  // namespace
+
+std::string Variant::name() const {
+    return store::variant_name(scheme->name, store::options_text(options));
+}
+
+std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene,
+                                 const std::vector<compare::SchemeOption>& options) {
+    std::vector<Variant> all;
+    std::vector<bool> used(options.size());
+    for (const OptionValues& asked : compare::asked_of(options, d, used)) {
+        all.push_back({&d, asked});
+        const bool named = compare::sets(asked, compliance_option);
+        if (named || !declares(d, compliance_option.name) || !compare::touched(scene)) continue;
+        Variant matched = all.back();
+        matched.options.emplace_back(compliance_option.name, "matched");
+        all.push_back(matched);
+        const bool profile =
+            declares(d, profile_points_option.name) && needed_by(scene).any(any_profile);
+        if (!profile || compare::sets(asked, profile_points_option)) continue;
+        for (const char* points : {"8", "4"})
+            all.emplace_back(matched).options.emplace_back(profile_points_option.name, points);
+    }
+    return all;
+}
 
 Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
             const std::vector<int>& starts, const store::Listener& listener) {
     Path path;
-    CheapestSettings s(judge, starts, listener);
+    CheapestSettings s(judge, schemes, starts, listener);
     for (const Descriptor* d : schemes)
         if (represents(*d, judge.scene())) path.tried.emplace_back(d->name);
     if (path.tried.empty())
         throw Refusal("no scheme represents scene " + judge.scene().name + ": it needs " +
                       names_of(needed_by(judge.scene())));
+    const auto step = [&path](const std::string& change, const Found& f, bool within = true) {
+        path.steps.push_back({change, f.model, f.error, f.cost, within});
+    };
     bool within = false;
-    if (const auto first = s.as_published(schemes, within))
-        path.steps.push_back({"the whole scene, compliance its own", first->model, first->error,
-                              first->cost, within});
+    if (const auto first = s.as_published(within))
+        step("the whole scene, compliance its own", *first, within);
     std::vector<int> unheard;  // taps that nobody judges: the motion is the same without them
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
         if (judge.reductions()[k].part == Part::tap && judge.may_go(k)) unheard.push_back(k);
-    const auto whole = s.of_all(schemes, unheard, HUGE_VAL);
+    std::optional<Found> now = s.of_all(unheard, HUGE_VAL);
     path.passed_over = s.passed_over();
-    if (!whole) return path;
-    Found now = *whole;
-    path.steps.push_back(
-        {"taps that are not judged, scheme, rate and modes", now.model, now.error, now.cost, true});
+    if (!now) return path;
+    step("taps that are not judged, scheme, rate and modes", *now);
     listener.note(
-        fmt::format("the whole scene: {}, {:.3g} s per s", now.model.settings_text(), now.cost));
+        fmt::format("the whole scene: {}, {:.3g} s per s", now->model.settings_text(), now->cost));
+    const auto cheaper = [&now](const std::optional<Found>& found) {
+        return found && found->cost <= worth * now->cost;
+    };
+    // Step 2: one part toggled, settings sought anew.
+    const auto descend = [&] {
+        for (const Candidate& c : candidates(judge, s, *now)) {
+            const Settings& settings = now->model.settings;
+            const std::vector<int> left_out = toggled(now->model, c.part).left_out;
+            const auto found =
+                s.of_variant({now->model.scheme, settings.options}, left_out,
+                             settings.sample_rate / 2, settings.sample_rate * 2, worth * now->cost);
+            if (!cheaper(found)) continue;
+            const bool gone = left_out.size() > now->model.left_out.size();
+            if (gone && !judge.saves(found->model, now->model)) continue;
+            now = found;
+            step((gone ? "" : "put back: ") + judge.reductions()[c.part].said(), *now);
+            listener.note(
+                fmt::format("{}: {}", path.steps.back().change, now->model.settings_text()));
+            return true;
+        }
+        return false;
+    };
     for (;;) {
-        descend(s, now, path, listener);
-        const auto again = s.of_all(schemes, now.model.left_out, worth * now.cost);
-        if (!again || again->cost > worth * now.cost) break;
-        now = *again;
-        path.steps.push_back(
-            {"scheme, rate and modes once more", now.model, now.error, now.cost, true});
+        while (descend()) {}
+        const auto again = s.of_all(now->model.left_out, worth * now->cost);
+        if (!cheaper(again)) break;
+        now = again;
+        step("scheme, rate and modes once more", *now);
     }
     path.found = true;
     return path;

@@ -1,4 +1,4 @@
-#include "bench/trim/target.hpp"
+#include "bench/trim/judge.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -21,52 +21,44 @@ std::string name_of(const std::string& column) {
 }
 }  // namespace
 
-const std::vector<Measure>& measures() {
-    static const std::vector<Measure> all = [] {
-        std::vector<Measure> named;
-        for (std::size_t k = 0; k < study::measures().size(); ++k) {
-            const study::Measure& m = study::measures()[k];
-            const std::string title = m.title.substr(0, m.title.find(" ["));  // without its unit
-            if (m.less_is_better)
-                named.push_back(
-                    {name_of(m.column), title, m.unit == "1" ? "%" : m.unit, k, m.window});
-        }
-        return named;
-    }();
+std::vector<Target> targets() {
+    std::vector<Target> all;
+    for (std::size_t k = 0; k < study::measures().size(); ++k)
+        if (const study::Measure& m = study::measures()[k]; m.less_is_better)
+            all.push_back({k, 0, name_of(m.column), m.title.substr(0, m.title.find(" [")),
+                           m.unit == "1" ? "%" : m.unit});
     return all;
 }
 
 Target target_of(const std::string& name, const std::string& within) {
-    const auto found = std::ranges::find(measures(), name, &Measure::name);
-    if (found == measures().end()) {
+    const std::vector<Target> all = targets();
+    const auto found = std::ranges::find(all, name, &Target::name);
+    if (found == all.end()) {
         std::vector<std::string> names;
-        for (const Measure& m : measures()) names.push_back(m.name);
+        for (const Target& t : all) names.push_back(t.name);
         throw store::UsageError("--of " + store::unknown("measure", name, names));
     }
+    Target target = *found;
     // of the number; npos + 1: there is none
     const auto end = within.find_last_of("0123456789.") + 1;
     const double x = store::number_of(within.substr(0, end));
     std::string unit = within.substr(end);
     unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
-    const bool relative = found->unit == "%";
-    if (!std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != found->unit))
-        throw store::UsageError(fmt::format("--within {}: expected a tolerance of {}, as {}",
-                                            within, found->name,
-                                            relative ? "1%" : "1" + found->unit));
+    const bool relative = target.unit == "%";
+    if (!std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != target.unit))
+        throw store::UsageError(fmt::format("--within {}: expected a tolerance of {}, as 1{}",
+                                            within, name, target.unit));
     if (relative && unit.empty() && x > most_without_unit)
         throw store::UsageError(fmt::format(
             "--within {}: without a unit this is {:.4g} %; say {}%, or {:.4g}% where that is meant",
             within, 100 * x, within, 100 * x));
-    return {&*found, unit == "%" ? x / 100 : x};
+    target.most = unit == "%" ? x / 100 : x;
+    return target;
 }
 
-std::string text_of(const Measure& m, double error) {
-    if (std::isnan(error)) return "-";
-    return fmt::format("{:.2g} {}", m.unit == "%" ? 100 * error : error, m.unit);
-}
-
-std::string certainty_text(const Measure& m, double certificate) {
-    return std::isnan(certificate) ? "unknown" : text_of(m, certificate);
+std::string Target::text(double error, const char* unknown) const {
+    if (std::isnan(error)) return unknown;
+    return fmt::format("{:.2g} {}", unit == "%" ? 100 * error : error, unit);
 }
 
 namespace {

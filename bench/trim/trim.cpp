@@ -1,11 +1,15 @@
 #include "bench/trim/trim.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "bench/compare/variants.hpp"
-#include "bench/trim/cheapest_settings.hpp"
+#include "bench/store/json.hpp"
+#include "bench/store/machine.hpp"
+#include "scenes/scene_file.hpp"
 #include "schemes/controls.hpp"
 
 namespace jvari::bench::trim {
@@ -45,7 +49,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
                                    fmt::join(path.passed_over, ", ")));
     if (judge.scene().strings.front().pluck || judge.scene().strings.front().initial)
         left.emplace_back("plainer excitations: they are the question");
-    if (judge.target().measure->name != "decay")
+    if (judge.target().name != "decay")
         left.emplace_back(
             "losses of string and contact left out: --of decay judges how the sound dies away, "
             "over the whole scene");
@@ -58,12 +62,12 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
 }
 
 Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
-    const Verdict v = judge.verdict(m, start);
+    const Judged j = judge.judged(m, start);
     return {start,
             name_of_start(started(judge.scene(), start)),
-            v.status == "ok" ? v.error : std::nan(""),
-            judge.truth(start).certificate,
-            judge.within(v, start),
+            j.trusted() ? j.error : store::nan,
+            judge.certificate(start),
+            judge.within(j, start),
             judged_by,
             judge.certain(start)};
 }
@@ -72,6 +76,7 @@ Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
 bool fails(const Verified& v, const Target& target) {
     return !v.within && v.certificate < target.most;
 }
+bool is_no_model(Verdict v) { return v == Verdict::refused || v == Verdict::error; }
 constexpr int rounds_of_needs = 5;
 
 std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimmed,
@@ -93,7 +98,7 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
                true};
         if (!std::isnan(n.error)) {
             n.needed = !std::ranges::all_of(
-                starts, [&](int s) { return judge.within(judge.verdict(alone, s), s); });
+                starts, [&](int s) { return judge.within(judge.judged(alone, s), s); });
             timed.push_back(alone);
             timed_needs.push_back(needs.size());
             gone.push_back(std::ranges::binary_search(whole.left_out, k));
@@ -113,15 +118,15 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
 
 Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalogue,
                 const store::Listener& listener) {
-    Trimmed t{judge.scene(), judge.scene(), judge.own_duration(), {}, {}, {}, {}, {}, {}, 0, 0};
-    const Measure& measure = *judge.target().measure;
+    Trimmed t{judge.scene(), judge.scene(), judge.own_duration(), {}, {}, {}, {}, {}};
+    const Target& target = judge.target();
     if (!judge.certain(0))
         throw Refusal(
             fmt::format("what is within {} cannot be decided: how far the reference {} ({}) is "
                         "certain is {}. A shorter "
                         "--duration or more --reference-modes may help",
-                        text_of(measure, judge.target().most), judge.truth(0).reference,
-                        judge.truth(0).said, certainty_text(measure, judge.truth(0).certificate)));
+                        target.text(target.most), judge.truth(0).reference.choice.name(),
+                        judge.truth(0).said, target.text(judge.certificate(0), "unknown")));
     const std::vector<const Descriptor*> schemes = schemes_of(r, judge.scene(), catalogue);
     std::vector<bool> used(r.options.size());
     for (const Descriptor* d : schemes) compare::asked_of(r.options, *d, used);
@@ -133,32 +138,165 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
         for (int s = 0; s < starts; ++s)
             t.verified.push_back(verified(judge, t.last().model, s, std::ranges::count(by, s) > 0));
         const auto worst = std::ranges::max_element(t.verified, {}, [&](const Verified& v) {
-            return !fails(v, judge.target()) ? -1 : std::isnan(v.error) ? HUGE_VAL : v.error;
+            return !fails(v, target) ? -1 : std::isnan(v.error) ? HUGE_VAL : v.error;
         });
-        if (!fails(*worst, judge.target())) {
+        if (!fails(*worst, target)) {
             Model whole = t.last().model;
             whole.left_out = t.path.steps[1].model.left_out;
-            if (judge.verdict(whole, 0).status == "refused") whole = t.path.steps[1].model;
+            if (is_no_model(judge.judged(whole, 0).verdict)) whole = t.path.steps[1].model;
             t.scene = judge.scene_of(t.last().model);
             t.needs = needs_of(judge, whole, t.last().model, by);
             break;
         }
         listener.note(
             fmt::format("started otherwise ({}) it errs by {}: that start is judged by as well",
-                        worst->said, text_of(measure, worst->error)));
+                        worst->said, target.text(worst->error)));
         by.push_back(worst->start);
     }
-    for (std::size_t s = 0; s < std::max<std::size_t>(1, t.verified.size()); ++s)
-        t.truths.push_back(judge.truth(static_cast<int>(s)));
     if (!t.path.steps.empty()) {
         std::vector<Model> models;
         for (const Step& step : t.path.steps) models.push_back(step.model);
         t.costs = judge.costs(models, rounds);
     }
     t.not_tried = not_tried(judge, r, t.path);
-    t.judged = judge.judged();
+    t.judged = judge.runs();
     t.read_back = judge.read_back();
     return t;
+}
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+std::string rounded(double x) {  // three digits: no more is known of an error or a clock
+    return std::isfinite(x) ? fmt::format("{:.3g}", x) : "";
+}
+
+// a line of TOML, whatever stands in the names that it holds
+std::string comment(std::string text) {
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    return "#" + text + "\n";
+}
+
+std::string within_text(const Judge& judge) {
+    const Target& target = judge.target();
+    return fmt::format("within {} of {} ({}), tap {}", target.text(target.most), target.name,
+                       target.title, judge.tap().name);
+}
+}  // namespace
+
+store::Table needs_table(const Trimmed& t) {
+    store::Table table{{"part", "becomes", "error_without", "cost_saved", "needed",
+                        "in_trimmed_model", "error_if_turned_round"},
+                       {}};
+    for (const Need& n : t.needs)
+        table.rows.push_back({n.part, n.becomes, rounded(n.error), rounded(n.saved),
+                              n.needed ? "yes" : "no", n.left_out ? "left out" : "kept",
+                              rounded(n.error_in_trimmed)});
+    return table;
+}
+
+store::Table path_table(const Trimmed& t, Judge& judge) {
+    store::Table table{
+        {"step", "change", "scheme", "options", "modes", "rate", "error", "certificate", "within",
+         "cost_s_per_s", "cost_lower", "cost_upper", "parts_left_out", "measure", "target"},
+        {}};
+    for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
+        const Step& s = t.path.steps[k];
+        table.rows.push_back(
+            {std::to_string(k), s.change, s.model.scheme->name,
+             store::options_text(s.model.settings.options),
+             s.model.settings.modes > 0 ? std::to_string(s.model.settings.modes) : "",
+             store::text_of(s.model.settings.sample_rate), rounded(s.error),
+             rounded(judge.certificate(0)), s.within ? "yes" : "no", rounded(t.costs[k].median),
+             rounded(t.costs[k].lower), rounded(t.costs[k].upper),
+             std::to_string(s.model.left_out.size()), judge.target().title,
+             rounded(judge.target().most)});
+    }
+    return table;
+}
+
+std::string command_of(const Trimmed& t, const std::string& file) {
+    return fmt::format("jvari run {} {}", file,
+                       compare::arguments_of(*t.last().model.scheme, t.last().model.settings));
+}
+
+std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
+    const Step &full = t.full(), &last = t.last();
+    const Target& target = judge.target();
+    std::string text = comment(fmt::format(" The cheapest model of {} that `jvari trim` found {}.",
+                                           t.whole.name, within_text(judge)));
+    text += comment("   " + command_of(t, "trimmed.toml"));
+    for (const Verified& v : t.verified)
+        text += comment(
+            fmt::format(" Error {}, and how far the reference is certain is {}; started from {}{}.",
+                        target.text(v.error), target.text(v.certificate, "unknown"), v.said,
+                        !v.decided    ? ": not enough to be sure"
+                        : v.judged_by ? ""
+                                      : ", which the search did not know"));
+    if (t.independent() == 0)
+        text +=
+            comment(" Every start that there is judged the search: none was left to verify it.");
+    text +=
+        comment(fmt::format(" It costs {} s of computing per second of sound; {}, with all parts "
+                            "and its own compliance, {} for an error of {}.",
+                            rounded(t.costs.back().median), full.model.settings_text(),
+                            rounded(t.costs.front().median), target.text(full.error)));
+    text += comment("") + comment(" What went:");
+    for (const int k : last.model.left_out) {
+        const Reduction& r = judge.reductions()[k];
+        const auto need = std::ranges::find_if(t.needs, [&](const Need& n) {
+            return n.part == r.key && (r.becomes.empty() || n.becomes == r.becomes);
+        });
+        const bool known = need != t.needs.end() && !std::isnan(need->error);
+        text += comment("   " + r.said() +
+                        (known ? fmt::format(" (alone: error {})", target.text(need->error)) : ""));
+    }
+    if (t.own_duration > t.scene.duration)
+        text += comment(fmt::format("   duration = {:g} s in place of {:g} s: no more was judged",
+                                    t.scene.duration, t.own_duration));
+    text += "\n";
+    Scene named = t.scene;
+    named.name = t.whole.name + "_trimmed";
+    return text + write_scene(named);
+}
+
+Json manifest_of(const Trimmed& t, Judge& judge, const Request& r) {
+    Json verified = Json::array(), truths = Json::array();
+    for (const Verified& v : t.verified)
+        verified.push_back({{"start", v.said},
+                            {"error", v.error},
+                            {"certificate", v.certificate},
+                            {"within", v.within},
+                            {"decided", v.decided},
+                            {"judged_by", v.judged_by}});
+    for (int s = 0; s < std::max(1, static_cast<int>(t.verified.size())); ++s) {
+        const study::Truth& truth = judge.truth(s);
+        truths.push_back({{"reference", truth.reference.choice.name()},
+                          {"said", truth.said},
+                          {"modes", truth.reference.choice.settings.modes},
+                          {"certificate", judge.certificate(s)},
+                          {"floor", judge.floor(s)},
+                          {"horizon_s", truth.horizon}});
+    }
+    Json manifest = store::made_by();
+    manifest.update({{"suite", "trim " + t.whole.name},
+                     {"source", t.whole.source},
+                     {"asked",
+                      {{"scene", r.scene},
+                       {"within", r.within},
+                       {"of", r.measure},
+                       {"tap", judge.tap().name},
+                       {"scheme", r.scheme},
+                       {"duration", t.whole.duration}}},
+                     {"found", t.path.found},
+                     {"command", t.path.found ? command_of(t, "trimmed.toml") : ""},
+                     {"verified", verified},
+                     {"truths", truths},
+                     {"judged", t.judged},
+                     {"read_back", t.read_back},
+                     {"not_tried", t.not_tried}});
+    return manifest;
 }
 
 }  // namespace jvari::bench::trim

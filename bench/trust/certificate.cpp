@@ -25,9 +25,7 @@ double finest_rate(double tap_rate) { return 64 * tap_rate; }  // of the oversam
 bool is_oversampled(const Entry& e) { return e.sample_rate > 0; }
 
 std::vector<Entry> entries_for(const Scene& scene, const CertifySettings& settings) {
-    std::vector<const Descriptor*> able;
-    for (const Descriptor& r : references())
-        if (represents(r, scene)) able.push_back(&r);
+    const std::vector<const Descriptor*> able = references_of(scene);
     const auto confirmation_of = [&scene](const Descriptor& d) {
         return d.confirmation ? d.confirmation(scene) : Confirmation{};
     };

@@ -15,8 +15,6 @@
 #include "analysis/error.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/trim/cheapest_settings.hpp"
-#include "bench/trim/trim_record.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/run.hpp"
@@ -68,19 +66,18 @@ TEST(Measures, AreZeroForTheTruthItselfAndGrowWithWhatIsChanged) {
         little.push_back(x * std::exp(-1 * t));
         much.push_back(std::exp(-60 * t) * std::sin(2800 * t));
     }
-    for (const trim::Measure& m : trim::measures()) {
+    for (const trim::Target& t : trim::targets()) {
         const auto error = [&](const std::vector<double>& x) {
-            return study::error_of(m.place, x, truth, 44100);
+            return study::error_of(t.measure, x, truth, 44100);
         };
-        EXPECT_LT(error(truth), 1e-12) << m.name;
-        EXPECT_GT(error(little), 0) << m.name;
-        EXPECT_GT(error(much), 2 * error(little)) << m.name;
+        EXPECT_LT(error(truth), 1e-12) << t.name;
+        EXPECT_GT(error(little), 0) << t.name;
+        EXPECT_GT(error(much), 2 * error(little)) << t.name;
     }
     // exp(-2 t) more of the energy is gone after t: the curves part by 8.7 dB a second, and a
     // little less at the end
-    EXPECT_NEAR(
-        study::error_of(trim::target_of("decay", "1dB").measure->place, little, truth, 44100), 1.0,
-        0.4);
+    EXPECT_NEAR(study::error_of(trim::target_of("decay", "1dB").measure, little, truth, 44100), 1.0,
+                0.4);
 }
 
 TEST(Starts, OthersAreScenesWithAnotherShape) {
@@ -178,7 +175,7 @@ Cheapest of_grid(trim::Judge& judge, const std::vector<int>& left_out) {
                     trim::Model m{left_out, &catalogue().find(scheme), {rate, 44100, modes, {}}};
                     if (matched) m.settings.options = {{"compliance", "matched"}};
                     const double cost = counted(m, judge.scene_of(m));
-                    if (cost < best.cost && judge.within(judge.verdict(m, 0), 0))
+                    if (cost < best.cost && judge.within(judge.judged(m, 0), 0))
                         best = {cost, m.settings_text()};
                 }
     return best;
@@ -211,16 +208,16 @@ TEST(Judge, CountsTheCertificateWithTheError) {
     double error = 0, certificate = 0;
     {
         trim::Judge judge(r, catalogue(), silent, counted);
-        error = judge.verdict(m, 0).error, certificate = judge.truth(0).certificate;
+        error = judge.judged(m, 0).error, certificate = judge.certificate(0);
     }
     ASSERT_GT(error, 0);
     ASSERT_GT(certificate, 1e-6);
     for (const double share : {-0.1, 0.9, 1.1}) {  // of the certificate, beyond the error
         r.within = store::text_of(error + share * certificate);
         trim::Judge judge(r, catalogue(), silent, counted);
-        EXPECT_EQ(judge.within(judge.verdict(m, 0), 0), share > 1) << share;
-        trim::Verdict flagged = judge.verdict(m, 0);
-        flagged.status = "adhesion";
+        EXPECT_EQ(judge.within(judge.judged(m, 0), 0), share > 1) << share;
+        trim::Judged flagged = judge.judged(m, 0);
+        flagged.verdict = Verdict::adhesive;
         EXPECT_FALSE(judge.within(flagged, 0)) << share;
     }
 }
@@ -234,7 +231,7 @@ TEST(Search, IsWithinAtEachStepWhichSavesAndKeepsNothingThatWouldSave) {
     EXPECT_EQ(judge.scene_of(last.model).taps.size(), 1u);
     for (std::size_t k = 1; k < path.steps.size(); ++k) {
         EXPECT_TRUE(path.steps[k].within) << path.steps[k].change;
-        EXPECT_TRUE(judge.within(judge.verdict(path.steps[k].model, 0), 0)) << path.steps[k].change;
+        EXPECT_TRUE(judge.within(judge.judged(path.steps[k].model, 0), 0)) << path.steps[k].change;
         EXPECT_TRUE(k == 1 || path.steps[k].cost <= trim::worth * path.steps[k - 1].cost)
             << path.steps[k].change;
     }
@@ -247,7 +244,7 @@ TEST(Search, IsWithinAtEachStepWhichSavesAndKeepsNothingThatWouldSave) {
         m.left_out.insert(std::ranges::lower_bound(m.left_out, k), k);
         if (judge.scene_of(m) == judge.scene_of(last.model)) continue;  // it went with another
         EXPECT_FALSE(judge.cost(m) <= trim::worth * last.cost &&
-                     judge.within(judge.verdict(m, 0), 0))
+                     judge.within(judge.judged(m, 0), 0))
             << r.said();
     }
 }
@@ -289,7 +286,7 @@ TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
             continue;
         }
         for (const double rate : {44100.0, 176400.0, 1411200.0})
-            EXPECT_FALSE(judge.within(judge.verdict({{}, d, {rate, 44100, 0, {}}}, 0), 0))
+            EXPECT_FALSE(judge.within(judge.judged({{}, d, {rate, 44100, 0, {}}}, 0), 0))
                 << d->name << " " << rate;
     }
     EXPECT_LE(path.steps.back().cost, 1.05 * cheapest);
@@ -303,13 +300,13 @@ TEST(Trim, AnUnknownOrATooLargeUncertaintyDecidesNothing) {
     trim::Request r = request("tanpura_c3_release", "0.0001%");
     r.scheme = "modal_two_point";
     trim::Judge judge(r, catalogue(), silent, counted);
-    ASSERT_GT(judge.truth(0).certificate, 1e-6);
+    ASSERT_GT(judge.certificate(0), 1e-6);
     EXPECT_THROW(trim::trimmed(judge, r, catalogue(), silent), Refusal);
     r.measure = "third_octave_db", r.within = "3dB";
     r.reference = "modal_two_point";  // a stand-in, and no bound is known of third octaves
     trim::Judge by_a_stand_in(r, catalogue(), silent, counted);
-    EXPECT_TRUE(std::isnan(by_a_stand_in.truth(0).certificate));
-    EXPECT_FALSE(by_a_stand_in.within({"ok", 1e-9, 0}, 0));
+    EXPECT_TRUE(std::isnan(by_a_stand_in.certificate(0)));
+    EXPECT_FALSE(by_a_stand_in.within({Verdict::sound, 1e-9, 0}, 0));
     EXPECT_THROW(trim::trimmed(by_a_stand_in, r, catalogue(), silent), Refusal);
 }
 
@@ -354,7 +351,7 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     trim::Judge judge(r, catalogue(), silent, counted);
     const trim::Path by_one = trim::search(judge, {&catalogue().find(r.scheme)}, {0}, silent);
     ASSERT_TRUE(by_one.found);
-    ASSERT_FALSE(judge.within(judge.verdict(by_one.steps.back().model, 1), 1))
+    ASSERT_FALSE(judge.within(judge.judged(by_one.steps.back().model, 1), 1))
         << "another tolerance is needed for this test";
     const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
     ASSERT_TRUE(t.path.found);
