@@ -19,13 +19,13 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/pareto.hpp"
 #include "bench/compare/scene_notes.hpp"
-#include "bench/map/map_tables.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/facet.hpp"
-#include "bench/suite/suite_plan.hpp"
+#include "bench/suite/maps.hpp"
+#include "bench/suite/suite.hpp"
 #include "bench/trim/trim.hpp"
 #include "python/listening.hpp"
 #include "python/values.hpp"
@@ -184,7 +184,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
         [&] {
-            const map::MapRun maps = map::run_maps(
+            const suite::MapRun maps = suite::run_maps(
                 suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs},
                 PythonListener());
             const study::Study run =
@@ -192,8 +192,8 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
             tables.emplace_back(
                 "cells",
                 compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
-            tables.emplace_back("maps", map::maps_table(maps));
-            tables.emplace_back("boundaries", map::boundaries_table(maps, {}));
+            tables.emplace_back("maps", suite::maps_table(maps));
+            tables.emplace_back("boundaries", suite::boundaries_table(maps, {}));
             for (const suite::Facet& f : suite::facets())
                 if (store::Table rows = study::rows_of(f.name, plan, run.records);
                     !rows.rows.empty() && f.rows != suite::sound_rows)

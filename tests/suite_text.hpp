@@ -7,8 +7,7 @@
 #include "bench/compare/catalogue.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/study/run.hpp"
-#include "bench/suite/suite_file.hpp"
-#include "bench/suite/suite_plan.hpp"
+#include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::test {

@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include "bench/check/promise.hpp"
-#include "bench/map/trial.hpp"
 #include "bench/suite/facet.hpp"
+#include "bench/suite/maps.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::check {
@@ -156,7 +156,7 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
 
 // ---- A map: five rates x four of what makes a scheme stiff.
 
-std::vector<map::Trial> map_of(const Descriptor& d) {
+std::vector<suite::Trial> map_of(const Descriptor& d) {
     const auto scene_at = [&d](int level) {
         Scene scene = ringing(true, true);
         scene.duration = 20e-3;
@@ -173,14 +173,14 @@ std::vector<map::Trial> map_of(const Descriptor& d) {
         return std::pair{scene,
                          fmt::format("a bending stiffness of {:g} N m^2", s.bending_stiffness)};
     };
-    std::vector<map::Trial> all;
+    std::vector<suite::Trial> all;
     for (const double rate : {22050.0, 29400.0, 44100.0, 66150.0, 96000.0})
         for (int level = 0; level < 4; ++level) {
             auto [scene, what] = scene_at(level);
             scene.name = fmt::format("{} at {:g} Hz", what, rate);
             all.push_back({&d,
-                           map::listened(scene),
-                           {rate, map::row_rate(rate), contract_modes, {}},
+                           suite::listened(scene),
+                           {rate, suite::row_rate(rate), contract_modes, {}},
                            "none"});
         }
     return all;
@@ -202,9 +202,9 @@ Verdict stays_sound_over_a_map(const Case& c) {
     const Descriptor& d = c.scheme;
     if (d.balance == Balance::none) return not_asked("it promises no balance");
     const compare::Catalogue catalogue;
-    map::Trials trials(catalogue);
+    suite::Trials trials(catalogue);
     int sound = 0;
-    for (const map::Trial& t : map_of(d)) {
+    for (const suite::Trial& t : map_of(d)) {
         if (!takes(d, t.scene, t.settings)) continue;
         // on the unsound side, as it says itself
         if (d.limit.margin && d.limit.margin(t.scene, t.settings) < 0) continue;

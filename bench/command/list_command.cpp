@@ -10,7 +10,7 @@
 #include "bench/store/json.hpp"
 #include "bench/study/columns.hpp"
 #include "bench/suite/facet.hpp"
-#include "bench/suite/suite_file.hpp"
+#include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/driver/pairings.hpp"

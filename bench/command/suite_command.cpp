@@ -14,7 +14,6 @@
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/notes.hpp"
 #include "bench/compare/record/pareto.hpp"
-#include "bench/map/map_tables.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
@@ -23,7 +22,8 @@
 #include "bench/study/columns.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/facet.hpp"
-#include "bench/suite/suite_plan.hpp"
+#include "bench/suite/maps.hpp"
+#include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::bench::command {
@@ -119,7 +119,7 @@ int suite_command(SuiteRequest r) {
     if (r.resume) note_missing_locks(folder, console);
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
     if (r.resume) study::keep_references_in(plan, folder / "references");
-    const map::RecordedMaps maps = map::run_and_record_maps(
+    const suite::RecordedMaps maps = suite::run_and_record_maps(
         suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs},
         console);
     const study::Study run = study::run(plan, kept_cells, r.resume, r.jobs, console);

@@ -1,6 +1,6 @@
 // Reads by scenes/document.hpp, the one reader of TOML there is, and by declared keys
 // (store/keys.hpp).
-#include "bench/suite/suite_file.hpp"
+#include "bench/suite/suite.hpp"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "bench/map/map_file.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/suite/facet.hpp"
@@ -137,7 +136,7 @@ std::vector<store::Key<Suite>> keys_of_suite() {
         key("name", &Suite::name, store::text(), "what it is called", "the file's"),
         key("question", &Suite::question, store::text(), "what it answers", "none"),
         key("source", &Suite::source, store::text(), "what it follows", "none"),
-        key("map", &Suite::maps, map::maps(), "maps of what becomes of each scheme"),
+        key("map", &Suite::maps, maps(), "maps of what becomes of each scheme"),
         key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
             "sets of cells: each the product of what it lists")};
 }
@@ -198,39 +197,10 @@ Suite read_suite(const std::string& name) {
     };
     for (CellSet& set : suite.sets)
         for (std::string& scene : set.scenes) find(scene);
-    for (map::Map& m : suite.maps) find(m.scene);
+    for (Map& m : suite.maps) find(m.scene);
     return suite;
 }
 
 std::vector<std::string> library_suites() { return toml_names(library()); }
-
-std::vector<SuitePoint> points_of(const Suite& suite) {
-    std::vector<SuitePoint> points;
-    for (const CellSet& set : suite.sets) {
-        std::vector<compare::CompareRequest> requests{set};
-        requests.front().controls = true;
-        // as they are where there is no value
-        const auto vary = [&requests](const auto& values, const auto& apply) {
-            if (values.empty()) return;
-            std::vector<compare::CompareRequest> more;
-            for (const compare::CompareRequest& r : requests)
-                for (const auto& value : values) apply(more.emplace_back(r), value);
-            requests = std::move(more);
-        };
-        using Request = compare::CompareRequest;
-        vary(set.scenes, [](Request& r, const std::string& scene) { r.scene = scene; });
-        vary(set.modes, [](Request& r, int modes) { r.modes = {modes}; });
-        for (const SweptKey& k : set.sweep)
-            vary(k.values, [&k](Request& r, const std::string& value) {
-                r.set.push_back(k.key + "=" + value);
-            });
-        for (const VariedOption& o : set.varied)
-            vary(o.values, [&o](Request& r, const std::string& value) {
-                r.options.emplace_back(o.option).value = value;
-            });
-        for (const Request& r : requests) points.push_back({&set, r});
-    }
-    return points;
-}
 
 }  // namespace jvari::bench::suite

@@ -1,4 +1,4 @@
-#include "bench/suite/suite_plan.hpp"
+#include "bench/suite/suite.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -35,6 +35,35 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
     };
 }
 }  // namespace
+
+std::vector<SuitePoint> points_of(const Suite& suite) {
+    std::vector<SuitePoint> points;
+    for (const CellSet& set : suite.sets) {
+        std::vector<compare::CompareRequest> requests{set};
+        requests.front().controls = true;
+        // as they are where there is no value
+        const auto vary = [&requests](const auto& values, const auto& apply) {
+            if (values.empty()) return;
+            std::vector<compare::CompareRequest> more;
+            for (const compare::CompareRequest& r : requests)
+                for (const auto& value : values) apply(more.emplace_back(r), value);
+            requests = std::move(more);
+        };
+        using Request = compare::CompareRequest;
+        vary(set.scenes, [](Request& r, const std::string& scene) { r.scene = scene; });
+        vary(set.modes, [](Request& r, int modes) { r.modes = {modes}; });
+        for (const SweptKey& k : set.sweep)
+            vary(k.values, [&k](Request& r, const std::string& value) {
+                r.set.push_back(k.key + "=" + value);
+            });
+        for (const VariedOption& o : set.varied)
+            vary(o.values, [&o](Request& r, const std::string& value) {
+                r.options.emplace_back(o.option).value = value;
+            });
+        for (const Request& r : requests) points.push_back({&set, r});
+    }
+    return points;
+}
 
 study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
                     const std::vector<std::string>& plugins) {

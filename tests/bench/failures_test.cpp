@@ -1,7 +1,7 @@
 // Every way in which a scheme is known to fail, from its smallest reproducer; and the minimiser
 // that made them, on a toy. `jvari suite stability --out DIR` writes them to DIR/failures; copied
 // to tests/failures they are what is replayed here.
-#include "bench/map/failures.hpp"
+#include "bench/suite/maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <set>
 
-#include "bench/map/failures.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace jvari::test {
@@ -22,11 +21,11 @@ const bench::compare::Catalogue& catalogue() {
 }
 
 TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
-    bench::map::Trials trials(catalogue());
-    const auto all = bench::map::read_failures(JVARI_FAILURES, catalogue());
+    bench::suite::Trials trials(catalogue());
+    const auto all = bench::suite::read_failures(JVARI_FAILURES, catalogue());
     ASSERT_FALSE(all.empty());
-    for (const bench::map::Reproducer& r : all) {
-        const bench::map::Tried t = trials(r.trial);
+    for (const bench::suite::Reproducer& r : all) {
+        const bench::suite::Tried t = trials(r.trial);
         EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict))
             << r.file << ": " << t.judgement.detail;
         // a growth from rounding is as long as its logarithm
@@ -37,7 +36,7 @@ TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
 
 TEST(Failures, AMapThatReproducesNoneHasNone) {
     for (const bool reproduce : {true, false}) {
-        bench::map::Map m;
+        bench::suite::Map m;
         m.name = "a";
         m.scene = "tanpura_c3_release";
         m.schemes = {"modal_explicit_penalty"};
@@ -45,10 +44,10 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.initial.amplitude", "-1e-6"}};
         m.reference = "none";
         m.reproduce = reproduce;
-        const std::vector<bench::map::Map> maps = {m};
-        const bench::map::MapRequest request{"\"tests\"", {}, false, 1};
-        const bench::map::MapRun run =
-            bench::map::run_maps(maps, catalogue(), request, bench::store::Listener());
+        const std::vector<bench::suite::Map> maps = {m};
+        const bench::suite::MapRequest request{"\"tests\"", {}, false, 1};
+        const bench::suite::MapRun run =
+            bench::suite::run_maps(maps, catalogue(), request, bench::store::Listener());
         ASSERT_EQ(run.points.size(), 1u);
         EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::study::Verdict::diverged);
         EXPECT_EQ(reproducers_of(run, catalogue(), request, bench::store::Listener()).size(),
@@ -58,7 +57,8 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
 
 TEST(Failures, EveryControlHasOne) {
     std::set<std::string> failing;
-    for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue()))
+    for (const bench::suite::Reproducer& r :
+         bench::suite::read_failures(JVARI_FAILURES, catalogue()))
         failing.insert(r.trial.scheme->name);
     for (const char* control :
          {"modal_explicit_penalty", "modal_two_point_trapezoidal", "modal_quadratised",
@@ -66,8 +66,8 @@ TEST(Failures, EveryControlHasOne) {
         EXPECT_TRUE(failing.contains(control)) << control;
 }
 
-bench::map::Trial large() {
-    bench::map::Trial t{
+bench::suite::Trial large() {
+    bench::suite::Trial t{
         &catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
     t.settings.sample_rate = t.settings.tap_rate = 44100;
     t.scene.duration = 0.1;
@@ -77,7 +77,8 @@ bench::map::Trial large() {
 TEST(Failures, EveryOutcomeHasOne) {
     std::set<bench::study::Verdict> seen;
     bool gains = false;
-    for (const bench::map::Reproducer& r : bench::map::read_failures(JVARI_FAILURES, catalogue())) {
+    for (const bench::suite::Reproducer& r :
+         bench::suite::read_failures(JVARI_FAILURES, catalogue())) {
         seen.insert(r.expected.verdict);
         gains = gains || (r.trial.scheme->name == std::string("modal_explicit_penalty") &&
                           r.expected.verdict == bench::study::Verdict::energy_gaining);
@@ -91,9 +92,9 @@ TEST(Failures, EveryOutcomeHasOne) {
 }
 
 TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
-    const bench::map::Trial t =
+    const bench::suite::Trial t =
         // fails with a thread, from 17 modes and 23 rows on
-        bench::map::minimised(large(), [](const bench::map::Trial& x) {
+        bench::suite::minimised(large(), [](const bench::suite::Trial& x) {
             return x.scene.strings[0].thread && x.settings.modes >= 17 &&
                    x.scene.duration * x.settings.tap_rate > 22.5;
         });
@@ -108,11 +109,13 @@ TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
 }
 
 TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
-    const bench::map::Trial t = bench::map::minimised(large(), [](const bench::map::Trial& x) {
-        if (x.scene.strings[0].barriers.empty()) throw std::runtime_error("nothing to fail at");
-        // either will do
-        return x.scene.strings[0].thread.has_value() || x.scene.strings[0].bending_stiffness > 0;
-    });
+    const bench::suite::Trial t =
+        bench::suite::minimised(large(), [](const bench::suite::Trial& x) {
+            if (x.scene.strings[0].barriers.empty()) throw std::runtime_error("nothing to fail at");
+            // either will do
+            return x.scene.strings[0].thread.has_value() ||
+                   x.scene.strings[0].bending_stiffness > 0;
+        });
     const String& s = t.scene.strings[0];
     EXPECT_EQ(s.barriers.size(), 1u);
     EXPECT_NE(s.thread.has_value(), s.bending_stiffness > 0);
@@ -120,20 +123,20 @@ TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
 }
 
 TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
-    bench::map::Trials trials(catalogue());
-    bench::map::Trial t = large();
+    bench::suite::Trials trials(catalogue());
+    bench::suite::Trial t = large();
     t.scheme = &catalogue().find("modal_explicit_penalty");
-    const auto diverges = [&trials](const bench::map::Trial& x) {
+    const auto diverges = [&trials](const bench::suite::Trial& x) {
         return trials(x).judgement.verdict == bench::study::Verdict::diverged;
     };
     ASSERT_TRUE(diverges(t));
-    t = bench::map::minimised(t, diverges);
+    t = bench::suite::minimised(t, diverges);
     EXPECT_LT(t.settings.modes, 133);
     const auto folder =
         std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
-    bench::map::write_failures(folder, {{"a.toml", t, trials(t).judgement}});
-    const auto back = bench::map::read_failures(folder, catalogue());
+    bench::suite::write_failures(folder, {{"a.toml", t, trials(t).judgement}});
+    const auto back = bench::suite::read_failures(folder, catalogue());
     std::filesystem::remove_all(folder);
     ASSERT_EQ(back.size(), 1u);
     EXPECT_EQ(trials.plan_of(back[0].trial).jobs[0].identity, trials.plan_of(t).jobs[0].identity);

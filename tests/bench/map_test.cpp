@@ -3,9 +3,9 @@
 #include <cmath>
 #include <thread>
 
-#include "bench/map/map_tables.hpp"
 #include "bench/store/checksum.hpp"
-#include "bench/suite/suite_file.hpp"
+#include "bench/suite/maps.hpp"
+#include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/command_line.hpp"
 #include "tests/suite_text.hpp"
@@ -30,7 +30,7 @@ TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
     )",
                                                             "a.toml");
     ASSERT_EQ(s.maps.size(), 1u);
-    const bench::map::Map& m = s.maps[0];
+    const bench::suite::Map& m = s.maps[0];
     ASSERT_EQ(m.x.values.size(), 7u);
     EXPECT_EQ(m.x.at[1], 1e6);
     EXPECT_EQ(m.x.at[6], 1e16);
@@ -38,9 +38,10 @@ TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
     EXPECT_TRUE(m.y.whole);
     EXPECT_FALSE(m.x.whole);
     EXPECT_TRUE(m.reproduce);
-    EXPECT_EQ(m.fixed, (std::vector<bench::map::Assignment>{{"rate", "48000"},
-                                                            {"option:grid", "100"},
-                                                            {"string.0.damping.law", "\"none\""}}));
+    EXPECT_EQ(
+        m.fixed,
+        (std::vector<bench::suite::Assignment>{
+            {"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
 }
 
 TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
@@ -99,9 +100,9 @@ TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
         return ++asked,
                x < 3.14159265 ? bench::study::Verdict::sound : bench::study::Verdict::diverged;
     };
-    const bench::map::Bracket b =
-        bench::map::bisect({1, 100, bench::study::Verdict::sound, bench::study::Verdict::diverged},
-                           20, false, past_pi);
+    const bench::suite::Bracket b = bench::suite::bisect(
+        {1, 100, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 20, false,
+        past_pi);
     EXPECT_EQ(asked, 20);
     EXPECT_LT(b.low, 3.14159265);
     EXPECT_GE(b.high, 3.14159265);
@@ -112,7 +113,7 @@ TEST(Bisection, OfWholeNumbersEndsAtNeighbours) {
     const auto past = [](double x) {
         return x <= 137 ? bench::study::Verdict::sound : bench::study::Verdict::refused;
     };
-    const bench::map::Bracket b = bench::map::bisect(
+    const bench::suite::Bracket b = bench::suite::bisect(
         {100, 400, bench::study::Verdict::sound, bench::study::Verdict::refused}, 60, true, past);
     EXPECT_EQ(b.low, 137);
     EXPECT_EQ(b.high, 138);
@@ -124,14 +125,14 @@ TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereStabilityEnds) {
                : x < 3 ? bench::study::Verdict::adhesive
                        : bench::study::Verdict::diverged;
     };
-    const bench::map::Bracket end = bench::map::bisect(
+    const bench::suite::Bracket end = bench::suite::bisect(
         {1, 10, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 30, false, three);
     EXPECT_NEAR(end.low, 2, 1e-6);
     EXPECT_EQ(end.at_high, bench::study::Verdict::adhesive);
     const auto mirrored = [&three](double x) { return three(11 - x); };
-    const bench::map::Bracket start =
-        bench::map::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound},
-                           30, false, mirrored);
+    const bench::suite::Bracket start =
+        bench::suite::bisect({1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound},
+                             30, false, mirrored);
     EXPECT_NEAR(start.high, 9, 1e-6);
     EXPECT_EQ(start.at_low, bench::study::Verdict::adhesive);
     const auto flagged = [](double x) {  // an open ledger between is stable
@@ -139,7 +140,7 @@ TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereStabilityEnds) {
                : x < 3 ? bench::study::Verdict::flagged
                        : bench::study::Verdict::sound;
     };
-    const bench::map::Bracket stable = bench::map::bisect(
+    const bench::suite::Bracket stable = bench::suite::bisect(
         {1, 10, bench::study::Verdict::diverged, bench::study::Verdict::sound}, 30, false, flagged);
     EXPECT_NEAR(stable.low, 2, 1e-6);
     EXPECT_EQ(stable.at_high, bench::study::Verdict::flagged);
@@ -172,38 +173,38 @@ constexpr const char* limits = R"(
     refine = 8
 )";
 
-bench::map::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {},
-                          bool resume = false, int jobs = 1) {
+bench::suite::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {},
+                            bool resume = false, int jobs = 1) {
     static const bench::compare::Catalogue catalogue;
-    return bench::map::run_maps(suite.maps, catalogue, {"\"tests\"", folder, resume, jobs},
-                                bench::store::Listener());
+    return bench::suite::run_maps(suite.maps, catalogue, {"\"tests\"", folder, resume, jobs},
+                                  bench::store::Listener());
 }
 
 TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
     const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
-    const bench::map::MapRun run = run_of(suite);
+    const bench::suite::MapRun run = run_of(suite);
     ASSERT_EQ(run.boundaries.size(), 3u);
-    for (const bench::map::Boundary& b : run.boundaries) {
+    for (const bench::suite::Boundary& b : run.boundaries) {
         EXPECT_LT(std::abs(b.relative_difference()), 0.01)
             << b.map->name << " " << b.scheme->name << " " << b.theory;
         EXPECT_EQ(b.high, bench::study::Verdict::sound);
         EXPECT_NE(b.low, bench::study::Verdict::sound);
     }
-    const bench::store::Table t = bench::map::boundaries_table(run, {});
+    const bench::store::Table t = bench::suite::boundaries_table(run, {});
     for (std::size_t i = 0; i < t.rows.size(); ++i)
         EXPECT_EQ(t.at(i, "theory_holds_for").starts_with("lasting contact;"),
                   t.at(i, "map") == "penalty")
             << t.at(i, "theory_holds_for");
-    EXPECT_TRUE(says(bench::map::maps_text(run), "theory holds for lasting contact;"));
+    EXPECT_TRUE(says(bench::suite::maps_text(run), "theory holds for lasting contact;"));
 }
 
 TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
     const bench::compare::Catalogue catalogue;
-    const bench::map::Trials trials(catalogue);
+    const bench::suite::Trials trials(catalogue);
     const auto at = [&](const char* rate, const std::string& reference) {
-        bench::map::Trial t =
-            bench::map::trial_of("free_string", catalogue.find("modal_two_point"), reference,
-                                 {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
+        bench::suite::Trial t =
+            bench::suite::trial_of("free_string", catalogue.find("modal_two_point"), reference,
+                                   {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
         t.settings.tap_rate = 44100;
         // points that share it share the run
         return trials.plan_of(t).points.front().reference_key;
@@ -215,9 +216,9 @@ TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
 
 TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {
     const bench::compare::Catalogue catalogue;
-    bench::map::Trials trials(catalogue);
+    bench::suite::Trials trials(catalogue);
     const auto error = [&](const char* modes, int reference_modes) {
-        const bench::map::Trial t = bench::map::trial_of(
+        const bench::suite::Trial t = bench::suite::trial_of(
             "tanpura_c3_release", catalogue.find("modal_two_point"), "exact_contact",
             {{"rate", "705600"}, {"modes", modes}, {"duration", "0.005"}}, reference_modes);
         return trials(t).error;
@@ -238,14 +239,14 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
         duration = 0.005
     )",
                                                                 "a.toml");
-    const bench::map::MapRun run = run_of(suite);
-    const bench::store::Table t = bench::map::maps_table(run);
+    const bench::suite::MapRun run = run_of(suite);
+    const bench::store::Table t = bench::suite::maps_table(run);
     ASSERT_EQ(t.rows.size(), 8u);
     EXPECT_EQ(t.at(0, "outcome"), "sound");
     EXPECT_EQ(t.at(0, "reference"), "exact_linear");
     EXPECT_EQ(t.at(1, "outcome"), "refused");
     EXPECT_TRUE(says(t.at(1, "detail"), "half the sample rate"));
-    const bench::store::Table boundaries = bench::map::boundaries_table(
+    const bench::store::Table boundaries = bench::suite::boundaries_table(
         run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
     ASSERT_GE(boundaries.rows.size(), 2u);
     EXPECT_EQ(boundaries.at(0, "between"), "sound|refused");
@@ -257,7 +258,7 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
 TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     const Scratch scratch;
     const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
-    const bench::map::MapRun whole = run_of(suite, scratch.path);
+    const bench::suite::MapRun whole = run_of(suite, scratch.path);
     EXPECT_EQ(whole.read_back, 0);
     // as if the suite had been stopped: a part of its points, and one that was cut off
     int removed = 0;
@@ -265,7 +266,7 @@ TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
         if (++removed % 3 == 0) fs::remove(entry.path());
         if (removed % 7 == 0) std::ofstream(entry.path()) << "{";
     }
-    const bench::map::MapRun resumed = run_of(suite, scratch.path, true, 2);
+    const bench::suite::MapRun resumed = run_of(suite, scratch.path, true, 2);
     EXPECT_GT(resumed.read_back, 0);
     EXPECT_GT(resumed.ran, 0);
     EXPECT_EQ(resumed.ran + resumed.read_back, whole.ran);

@@ -1,5 +1,5 @@
 // Outcomes of runs that are made up, each by the one thing that is wrong with it.
-#include "bench/map/trial.hpp"
+#include "bench/suite/maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Scene string_over_barrier() {
 }
 
 struct MadeUp {  // 100 rows at 1 kHz of a string that swings
-    Scene scene = bench::map::listened(string_over_barrier());
+    Scene scene = bench::suite::listened(string_over_barrier());
     Run run;
     Trace truth;
 

@@ -13,7 +13,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "bench/study/cost.hpp"
-#include "bench/suite/suite_plan.hpp"
+#include "bench/suite/suite.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {

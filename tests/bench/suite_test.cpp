@@ -10,7 +10,7 @@
 #include "bench/study/columns.hpp"
 #include "bench/study/cost.hpp"
 #include "bench/study/run.hpp"
-#include "bench/suite/suite_plan.hpp"
+#include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/command_line.hpp"
 #include "tests/suite_text.hpp"

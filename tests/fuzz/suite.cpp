@@ -1,7 +1,7 @@
 // Whatever bytes come, a suite is read or refused with SceneFileError or UsageError; what is read
 // can be spread out to its points.
+#include "bench/suite/suite.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/suite/suite_file.hpp"
 #include "fuzz.hpp"
 #include "scenes/scene_file.hpp"
 

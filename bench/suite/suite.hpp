@@ -1,4 +1,4 @@
-// Suite files: TOML that declares what to compare. suite_file.cpp declares their keys, facet.hpp
+// Suite files: TOML that declares what to compare. suite_file.cpp and map_file.cpp declare their keys, facet.hpp
 // what can be measured; `jvari list keys` shows them.
 #pragma once
 
@@ -8,8 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/compare/catalogue.hpp"
 #include "bench/compare/request.hpp"
-#include "bench/map/map_file.hpp"
+#include "bench/store/keys.hpp"
+#include "bench/study/job.hpp"
 #include "scenes/scene.hpp"
 
 namespace jvari::bench::suite {
@@ -41,10 +43,43 @@ struct CellSet
     bool measures(std::string_view facet) const;
 };
 
+// ---- Maps: what becomes of each scheme over two settings of one scene.
+
+// "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and plucks),
+// "option:[SCHEME:]NAME", else a key of the scene.
+struct MapAxis {
+    std::string key;
+    // in TOML syntax, an option's as the scheme reads it; numbers ascend
+    std::vector<std::string> values;
+    // as numbers, between which a boundary can be sought; empty where one of them is none
+    std::vector<double> at;
+    bool whole = false;       // modes, and options given as whole numbers
+    double from = 0, to = 0;  // as the file may say its values; 0: absent, as of points
+    int points = 0;
+};
+
+using Assignment = std::pair<std::string, std::string>;  // a key as an axis has it, and its value
+
+struct Map {
+    std::string name, scene, theory;
+    std::string reference;  // "": the highest that represents the scene; "none"
+    std::vector<std::string> schemes;
+    MapAxis x, y;                   // y without a key: one row
+    std::vector<Assignment> fixed;  // the same at every point
+    int reference_modes = 0;        // 0: those of the point
+    int refine = 0;
+    bool reproduce = true;
+};
+
+// [[map]] tables of a suite (map_file.cpp).
+store::Kind<std::vector<Map>> maps();
+
+// ---- A suite.
+
 struct Suite {
     std::string name, question, source;
     std::vector<CellSet> sets;
-    std::vector<map::Map> maps;
+    std::vector<Map> maps;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12:
@@ -70,5 +105,11 @@ struct SuitePoint {
     compare::CompareRequest request;
 };
 std::vector<SuitePoint> points_of(const Suite&);
+
+// The suite spread out to its jobs: each a scheme at its settings on one scene.
+// `plugins` are files whose contents count as part of the program. The suite must outlive the plan.
+// Throws UsageError, SceneFileError, BadScene, Refusal.
+study::Plan plan_of(const Suite&, const compare::Catalogue&,
+                    const std::vector<std::string>& plugins);
 
 }  // namespace jvari::bench::suite

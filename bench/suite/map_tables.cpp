@@ -1,16 +1,14 @@
-#include "bench/map/map_tables.hpp"
+#include "bench/suite/maps.hpp"
 
 #include <fmt/core.h>
 
 #include <cmath>
 #include <map>
 
-#include "bench/map/failures.hpp"
-#include "bench/map/map_run.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/study/judgement.hpp"
 
-namespace jvari::bench::map {
+namespace jvari::bench::suite {
 
 store::Table maps_table(const MapRun& run) {
     store::Table t;
@@ -108,4 +106,4 @@ RecordedMaps run_and_record_maps(const std::vector<Map>& maps, const compare::Ca
     return recorded;
 }
 
-}  // namespace jvari::bench::map
+}  // namespace jvari::bench::suite

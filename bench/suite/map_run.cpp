@@ -1,4 +1,4 @@
-#include "bench/map/map_run.hpp"
+#include "bench/suite/maps.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 
-namespace jvari::bench::map {
+namespace jvari::bench::suite {
 
 namespace {
 std::vector<const Descriptor*> schemes_of(const Map& m, const compare::Catalogue& catalogue) {
@@ -210,4 +210,4 @@ double theory_margin(const std::string& name, const Descriptor& d, const Scene& 
                                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace jvari::bench::map
+}  // namespace jvari::bench::suite

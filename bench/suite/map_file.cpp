@@ -1,4 +1,4 @@
-#include "bench/map/map_file.hpp"
+#include "bench/suite/suite.hpp"
 
 #include <fmt/core.h>
 
@@ -8,10 +8,9 @@
 #include <functional>
 #include <map>
 
-#include "bench/map/map_run.hpp"
 #include "scenes/wording.hpp"
 
-namespace jvari::bench::map {
+namespace jvari::bench::suite {
 
 namespace {
 constexpr double most_points = 1e6;  // of a map: each is a run
@@ -157,4 +156,4 @@ store::Kind<std::vector<Map>> maps() {
     return store::tables("map", store::table(map_keys(), hold_together));
 }
 
-}  // namespace jvari::bench::map
+}  // namespace jvari::bench::suite

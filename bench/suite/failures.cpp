@@ -1,4 +1,4 @@
-#include "bench/map/failures.hpp"
+#include "bench/suite/maps.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -19,7 +19,7 @@
 #include "schemes/making.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari::bench::map {
+namespace jvari::bench::suite {
 
 namespace {
 namespace fs = std::filesystem;
@@ -232,4 +232,4 @@ Trial minimised(Trial t, const Fails& fails) {
     return t;
 }
 
-}  // namespace jvari::bench::map
+}  // namespace jvari::bench::suite

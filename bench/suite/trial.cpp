@@ -1,4 +1,4 @@
-#include "bench/map/trial.hpp"
+#include "bench/suite/maps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 
-namespace jvari::bench::map {
+namespace jvari::bench::suite {
 
 namespace {
 // of the length: no low mode has a node at both
@@ -117,4 +117,4 @@ std::optional<Tried> Trials::operator()(const Trial& t, bool wait) {
     return Tried{*r, error, study::judge(r->cell, error)};
 }
 
-}  // namespace jvari::bench::map
+}  // namespace jvari::bench::suite
