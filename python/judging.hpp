@@ -4,8 +4,7 @@
 
 #include "bench/check/promise.hpp"
 #include "bench/compare/compare_plan.hpp"
-#include "bench/judge/candidate.hpp"
-#include "bench/judge/foreign_trace.hpp"
+#include "bench/judge/judge.hpp"
 #include "bench/store/checksum.hpp"
 #include "python/calls.hpp"
 #include "python/own_schemes.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "bench/judge/external.hpp"
+#include "bench/judge/judge.hpp"
 #include "bench/store/keys.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"

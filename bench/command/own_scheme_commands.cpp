@@ -9,9 +9,7 @@
 #include "bench/command/results_folder.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
-#include "bench/judge/candidate.hpp"
-#include "bench/judge/foreign_trace.hpp"
-#include "bench/judge/problem_file.hpp"
+#include "bench/judge/judge.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 

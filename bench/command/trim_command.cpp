@@ -65,7 +65,7 @@ std::string verdict_text(const trim::Trimmed& t, trim::Judge& judge) {
                                   fmt::join(t.path.tried, ", "), target.text(target.most),
                                   t.whole.duration);
     for (const trim::Verified& v : t.verified)
-        text += fmt::format("verified: {} from {}{}\n", target.text(v.error), v.said,
+        text += fmt::format("verified: {} from {}{}\n", target.text(v.error), v.name,
                             !v.decided    ? fmt::format(", whose reference is certain to {} only",
                                                         target.text(v.certificate, "unknown"))
                             : v.judged_by ? std::string()

@@ -1,4 +1,4 @@
-#include "bench/judge/candidate.hpp"
+#include "bench/judge/judge.hpp"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,6 @@
 #include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/fits.hpp"
-#include "bench/judge/foreign_trace.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -23,7 +22,7 @@ constexpr Option reported{
     "cost", "none", "who measured it: a trace has no cost of its own", {"none", "as_reported"}};
 constexpr const char* no_cost = "not reported";
 
-std::unique_ptr<Scheme> made(const Descriptor& d, const Scene&, const Settings& settings) {
+std::unique_ptr<Scheme> row_player(const Descriptor& d, const Scene&, const Settings& settings) {
     const auto& traces = static_cast<const Candidate*>(d.own)->traces;
     const auto found = traces.find(settings.sample_rate);
     if (found == traces.end())
@@ -37,7 +36,7 @@ std::string enter(Candidate candidate) {  // as a guest; returns its path
     const auto* kept = new Candidate(std::move(candidate));
     Descriptor d{kept->name.c_str(), "traces of another program",
                  every_feature,      Balance::none,
-                 Clock::stepped,     made};
+                 Clock::stepped,     row_player};
     d.options = {&reported, 1};
     d.all_strings = true;
     d.own = kept;

@@ -1,4 +1,4 @@
-#include "bench/judge/external.hpp"
+#include "bench/judge/judge.hpp"
 
 #include <fmt/core.h>
 #include <wordexp.h>
@@ -11,8 +11,6 @@
 #include <sstream>
 #include <vector>
 
-#include "bench/judge/foreign_trace.hpp"
-#include "bench/judge/problem_file.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/program.hpp"
@@ -47,17 +45,18 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of,
     const store::Scratch folder;
     if (folder.path.empty())
         throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
-    const fs::path asked = folder.path / "problem.json", given = folder.path / "trace.csv";
-    store::write_fresh(asked, problem);
-    const store::Said said = store::run_program(
-        {"sh", "-c", e.command + " \"$@\"", "sh", asked.string(), given.string()}, unwanted);
-    if (said.code == refuses) throw Refusal(fmt::format("{}: {}", e.name, last_line(said.text)));
-    if (said.code != 0)
+    const fs::path problem_file = folder.path / "problem.json", given = folder.path / "trace.csv";
+    store::write_fresh(problem_file, problem);
+    const store::Said output = store::run_program(
+        {"sh", "-c", e.command + " \"$@\"", "sh", problem_file.string(), given.string()}, unwanted);
+    if (output.code == refuses)
+        throw Refusal(fmt::format("{}: {}", e.name, last_line(output.text)));
+    if (output.code != 0)
         throw BadScheme(
-            fmt::format("{}: exit code {}: {}", e.command, said.code, last_line(said.text)));
+            fmt::format("{}: exit code {}: {}", e.command, output.code, last_line(output.text)));
     if (!fs::exists(given))
         throw BadScheme(e.command +
-                        ": wrote no trace, its last argument; it said: " + last_line(said.text));
+                        ": wrote no trace, its last argument; it said: " + last_line(output.text));
     return std::make_shared<const Trace>(
         read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
 }

@@ -1,4 +1,4 @@
-#include "bench/judge/foreign_trace.hpp"
+#include "bench/judge/judge.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -195,10 +195,10 @@ public:
                 out.tap[n + k * out.stride] = there ? trace_->tap[row_ + k * trace_->stride]
                                                     : std::numeric_limits<double>::quiet_NaN();
             if (!out.energy) continue;
-            const bool told = there && !trace_->energy.empty();
+            const bool balanced = there && !trace_->energy.empty();
             for (int k = 0; k < 3; ++k)
                 out.energy[n + k * out.stride] =
-                    told ? trace_->energy[row_ + k * trace_->stride] : 0;
+                    balanced ? trace_->energy[row_ + k * trace_->stride] : 0;
         }
         return {};
     }

@@ -1,4 +1,4 @@
-#include "bench/judge/problem_file.hpp"
+#include "bench/judge/judge.hpp"
 
 #include <fmt/core.h>
 

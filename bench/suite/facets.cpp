@@ -1,5 +1,5 @@
-// What a suite measures of a cell. Dispersion: the true modes are those of van Walstijn et al. 2016,
-// eqs 17-18 (scenes/modes.hpp): omega^2 = omega0^2 - sigma^2. Leaves out: the second plane of
+// What a suite measures of a cell. Dispersion: the true modes are those of van Walstijn et al.
+// 2016, eqs 17-18 (scenes/modes.hpp): omega^2 = omega0^2 - sigma^2. Leaves out: the second plane of
 // vibration, strings after the first, modes of string and thread together.
 #include "bench/suite/facet.hpp"
 

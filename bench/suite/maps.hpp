@@ -156,8 +156,8 @@ std::string motion_of(const std::string& theory);
 // scheme.
 double theory_margin(const std::string& theory, const Descriptor&, const Scene&, const Settings&);
 
-// ---- Minimised reproducers: a scene file <scheme>-<outcome>.toml for each way in which a scheme fails,
-// and index.csv that says how to run it and what becomes of it.
+// ---- Minimised reproducers: a scene file <scheme>-<outcome>.toml for each way in which a scheme
+// fails, and index.csv that says how to run it and what becomes of it.
 
 struct Reproducer {
     std::string file;  // within its folder

@@ -1,5 +1,5 @@
-// Suite files: TOML that declares what to compare. suite_file.cpp and map_file.cpp declare their keys, facet.hpp
-// what can be measured; `jvari list keys` shows them.
+// Suite files: TOML that declares what to compare. suite_file.cpp and map_file.cpp declare their
+// keys, facet.hpp what can be measured; `jvari list keys` shows them.
 #pragma once
 
 #include <filesystem>

@@ -69,28 +69,30 @@ store::Kind<Tap> tap() {
 
 std::vector<store::Key<CellSet>> set_keys() {
     using Set = CellSet;
-    const auto asked = []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* {
+    const auto request =
+        []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* {
         return member;
     };
     return {
         needed("scenes", &Set::scenes, store::several(store::text()),
                "files, beside the suite or where the program runs, or names of the library"),
-        key("schemes", asked(&Set::schemes), store::several(store::text()), "what is compared",
+        key("schemes", request(&Set::schemes), store::several(store::text()), "what is compared",
             "all that represent the scene"),
-        key("rates", asked(&Set::rates), store::several(store::positive("Hz")),
+        key("rates", request(&Set::rates), store::several(store::positive("Hz")),
             "at which each runs", "44100 x 1, 2, 4 ... 64"),
-        key("modes", asked(&Set::modes), store::several(store::count()), "of each string",
+        key("modes", request(&Set::modes), store::several(store::count()), "of each string",
             "those below 20 kHz, and more of them by `search`"),
-        key("search", asked(&Set::search), store::yes_or_no(),
+        key("search", request(&Set::search), store::yes_or_no(),
             "where errors are measured and these are not named, tries more modes, and both forms "
             "of compliance"),
-        key("duration", asked(&Set::duration), store::positive("s"), "of each run", "the scene's"),
-        key("tap_rate", asked(&Set::tap_rate), store::positive("Hz"),
+        key("duration", request(&Set::duration), store::positive("s"), "of each run",
+            "the scene's"),
+        key("tap_rate", request(&Set::tap_rate), store::positive("Hz"),
             "of the rows that are compared", "as compare"),
-        key("repeats", asked(&Set::repeats), store::count(), "timed runs"),
-        key("reference", asked(&Set::reference), store::text(), "what errors are against",
+        key("repeats", request(&Set::repeats), store::count(), "timed runs"),
+        key("reference", request(&Set::reference), store::text(), "what errors are against",
             "the highest that represents the scene"),
-        key("reference_modes", asked(&Set::reference_modes), reference_modes(),
+        key("reference_modes", request(&Set::reference_modes), reference_modes(),
             "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
         key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap",
             "the scene's first"),

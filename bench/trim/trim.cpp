@@ -150,7 +150,7 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
         }
         listener.note(
             fmt::format("started otherwise ({}) it errs by {}: that start is judged by as well",
-                        worst->said, target.text(worst->error)));
+                        worst->name, target.text(worst->error)));
         by.push_back(worst->start);
     }
     if (!t.path.steps.empty()) {
@@ -230,7 +230,7 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
     for (const Verified& v : t.verified)
         text += comment(
             fmt::format(" Error {}, and how far the reference is certain is {}; started from {}{}.",
-                        target.text(v.error), target.text(v.certificate, "unknown"), v.said,
+                        target.text(v.error), target.text(v.certificate, "unknown"), v.name,
                         !v.decided    ? ": not enough to be sure"
                         : v.judged_by ? ""
                                       : ", which the search did not know"));
@@ -264,7 +264,7 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
 Json manifest_of(const Trimmed& t, Judge& judge, const Request& r) {
     Json verified = Json::array(), truths = Json::array();
     for (const Verified& v : t.verified)
-        verified.push_back({{"start", v.said},
+        verified.push_back({{"start", v.name},
                             {"error", v.error},
                             {"certificate", v.certificate},
                             {"within", v.within},

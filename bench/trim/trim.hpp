@@ -1,17 +1,16 @@
 // The cheapest model of a scene within a tolerance.
 //
 // A model is a set of parts left out, a scheme with its options, a rate and a number of modes.
-//   0. The whole scene, compliance the scheme's own, as published: what the trimmed model is held
-//   against.
+//   0. The whole scene, compliance the scheme's own, as published: what the trimmed model is
+//      compared with.
 //   1. Of the whole scene, less the taps that are not judged: for each scheme, own and matched
-//   compliance, and each rate the fewest modes
-//   that serve; the cheapest stays (search.cpp).
+//      compliance, and each rate the fewest modes that serve; the cheapest stays
+//      (cheapest_settings.hpp).
 //   2. In turn the part that saves most for the error it costs is left out, the fewest modes at
-//   half, the same and twice the rate are
-//      sought anew, and what is cheaper stays. Parts that went before are put back in the same way:
-//      what one part costs depends on others.
+//      half, the same and twice the rate are sought anew, and what is cheaper stays. Parts that
+//      went before are put back in the same way: what one part costs depends on others.
 //   3. Step 1 for what is left: a plainer scene is open to more schemes. What is cheaper stays, and
-//   step 2 begins again.
+//      step 2 begins again.
 // Cheaper is by a twentieth or more: a part that saves less stays, and so do losses unless the
 // decay is judged. Of costs that are closer the more accurate model is taken, so that a clock's
 // noise decides nothing. Costs are processor time, so that what else the machine does hardly
@@ -81,7 +80,7 @@ struct Need {
 
 struct Verified {
     int start;
-    std::string said;           // "a triangle at 0.3 m, 0.00152 m"
+    std::string name;           // "a triangle at 0.3 m, 0.00152 m"
     double error, certificate;  // certificate NaN: unknown
     bool within;
     bool judged_by;  // the search knew this start

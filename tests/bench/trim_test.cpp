@@ -361,23 +361,23 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     std::set<std::string> names;
     std::set<double> errors;
     for (const trim::Verified& v : t.verified) {
-        EXPECT_TRUE(v.within && v.decided) << v.said;
+        EXPECT_TRUE(v.within && v.decided) << v.name;
         const Scene scene = trim::started(judge.scene(), v.start);
-        EXPECT_EQ(v.said, trim::name_of_start(scene));
-        names.insert(v.said), errors.insert(v.error);
+        EXPECT_EQ(v.name, trim::name_of_start(scene));
+        names.insert(v.name), errors.insert(v.error);
         // by hand: the trimmed model against the whole scene, both from this start
         const jvari::Run truth = run(catalogue().find("exact_contact"), scene,
                                      {0, 44100, r.reference_modes, {{"compliance", "matched"}}});
         const trim::Model& m = t.last().model;
         const jvari::Run made = run(*m.scheme, judge.scene_of(m, v.start), m.settings);
         EXPECT_NEAR(relative_l2(made.trace.column(0), truth.trace.column(0), 44100), v.error, 1e-6)
-            << v.said;
+            << v.name;
     }
     EXPECT_EQ(names.size(), t.verified.size());
     EXPECT_EQ(errors.size(), t.verified.size());
     const std::string toml = trim::trimmed_toml(t, judge);
     for (const trim::Verified& v : t.verified)
-        EXPECT_EQ(toml.find(v.said + ", which the search did not know") != std::string::npos,
+        EXPECT_EQ(toml.find(v.name + ", which the search did not know") != std::string::npos,
                   !v.judged_by)
             << toml;
 }
