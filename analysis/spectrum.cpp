@@ -189,26 +189,28 @@ std::vector<double> centroid_track(const Spectrogram& s) {
     return track;
 }
 
-double centroid_difference(std::span<const double> candidate, std::span<const double> reference,
-                           double rate) {
-    constexpr int window = 2048, hop = 512;
-    if (candidate.size() < reference.size()) return inf;
+CentroidDifference centroid_difference(std::span<const double> candidate,
+                                       std::span<const double> reference, double rate, int window,
+                                       int hop) {
+    if (candidate.size() < reference.size()) return {inf, 1};
     const Spectrogram c = spectrogram(candidate.first(reference.size()), rate, window, hop),
                       r = spectrogram(reference, rate, window, hop);
     const auto of_c = centroid_track(c), of_r = centroid_track(r);
     const auto power_of = [](std::span<const double> bins) {
         return std::accumulate(bins.begin(), bins.end(), 0.0);
     };
-    double strongest = 0, sum = 0;
+    double strongest = 0, squares = 0, sum = 0;
     int frames = 0;
     for (int m = 0; m < r.frames; ++m) strongest = std::max(strongest, power_of(r.frame(m)));
     for (int m = 0; m < r.frames; ++m) {
         if (!(power_of(r.frame(m)) > 1e-6 * strongest)) continue;
-        if (!std::isfinite(of_c[m])) return inf;
-        sum += (of_c[m] - of_r[m]) * (of_c[m] - of_r[m]);
+        if (!std::isfinite(of_c[m])) return {inf, 1};
+        squares += (of_c[m] - of_r[m]) * (of_c[m] - of_r[m]);
+        sum += of_r[m];
         ++frames;
     }
-    return frames > 0 ? std::sqrt(sum / frames) : nan;
+    if (frames == 0) return {nan, nan};
+    return {std::sqrt(squares / frames), sum / frames};
 }
 
 }  // namespace jvari

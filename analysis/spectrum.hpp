@@ -85,9 +85,14 @@ StftDifference multi_resolution_stft_difference(std::span<const double> candidat
 // Spectral centroid of each frame [Hz]: sum f P/sum P over the bins; NaN for a silent frame.
 std::vector<double> centroid_track(const Spectrogram&);
 
-// Root mean square difference of two centroid tracks [Hz], with frames of 2048 rows every 512.
-// Frames more than 60 dB below the reference's strongest are left out.
-double centroid_difference(std::span<const double> candidate, std::span<const double> reference,
-                           double rate);
+// Two centroid tracks: the root mean square of their difference, and the mean of the reference's
+// [Hz]. Frames more than 60 dB below the reference's strongest are left out.
+struct CentroidDifference {
+    double rms, mean;
+    double relative() const { return rms / mean; }
+};
+CentroidDifference centroid_difference(std::span<const double> candidate,
+                                       std::span<const double> reference, double rate, int window,
+                                       int hop);
 
 }  // namespace jvari

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "analysis/error.hpp"
@@ -30,33 +29,6 @@ private:
 
 namespace {
 constexpr double quietest = 1e-6;  // 60 dB below the reference's strongest frame, or its start
-
-// Root mean square difference of the centroid tracks over the mean centroid; frames that are not
-// too quiet.
-double centroid_relative(Pair& p) {
-    constexpr int window = 1024, hop = 256;
-    if (p.run.size() < p.reference.size()) return HUGE_VAL;
-    const Spectrogram of_run = spectrogram(p.run.first(p.reference.size()), p.rate, window, hop);
-    const Spectrogram of_reference = spectrogram(p.reference, p.rate, window, hop);
-    const std::vector<double> track = centroid_track(of_run),
-                              true_track = centroid_track(of_reference);
-    std::vector<double> power;
-    for (int m = 0; m < of_reference.frames; ++m) {
-        const auto frame = of_reference.frame(m);
-        power.push_back(std::accumulate(frame.begin(), frame.end(), 0.0));
-    }
-    const double strongest = power.empty() ? 0 : *std::max_element(power.begin(), power.end());
-    double difference = 0, mean = 0;
-    int frames = 0;
-    for (int m = 0; m < of_reference.frames; ++m) {
-        if (!(power[m] > quietest * strongest)) continue;
-        if (!std::isfinite(track[m])) return HUGE_VAL;
-        difference += (track[m] - true_track[m]) * (track[m] - true_track[m]);
-        mean += true_track[m];
-        ++frames;
-    }
-    return frames > 0 ? std::sqrt(difference / frames) / (mean / frames) : store::nan;
-}
 
 // What is still to come of the energy, from each instant on (M. R. Schroeder 1965): the root mean
 // square difference of the two curves [dB], over the first nine tenths of the run and as far as the
@@ -102,9 +74,11 @@ const std::vector<Measure>& measures() {
         {"stft_convergence", "1", "multi-resolution spectral convergence", false, true, HUGE_VAL,
          [](Pair& p) { return p.stft().convergence; }},
         {"centroid_hz", "Hz", "centroid track difference [Hz rms]", false, true, HUGE_VAL,
-         [](Pair& p) { return centroid_difference(p.run, p.reference, p.rate); }},
+         [](Pair& p) { return centroid_difference(p.run, p.reference, p.rate, 2048, 512).rms; }},
         {"centroid_relative", "1", "centroid track, relative difference", false, true, HUGE_VAL,
-         centroid_relative},
+         [](Pair& p) {
+             return centroid_difference(p.run, p.reference, p.rate, 1024, 256).relative();
+         }},
         {"decay_db", "dB", "decay of the energy, difference [dB]", false, true, HUGE_VAL, decay},
     };
     return all;

@@ -15,7 +15,7 @@
 namespace jvari::bench::trim {
 
 namespace {
-constexpr int rounds = 7;
+constexpr int rounds = 7, rounds_of_needs = 5;  // of the clock
 
 std::vector<const Descriptor*> schemes_of(const Request& r, const Scene& scene,
                                           const compare::Catalogue& catalogue) {
@@ -76,8 +76,6 @@ Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
 bool fails(const Verified& v, const Target& target) {
     return !v.within && v.certificate < target.most;
 }
-bool is_no_model(Verdict v) { return v == Verdict::refused || v == Verdict::error; }
-constexpr int rounds_of_needs = 5;
 
 std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimmed,
                            const std::vector<int>& starts) {
@@ -143,7 +141,8 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
         if (!fails(*worst, target)) {
             Model whole = t.last().model;
             whole.left_out = t.path.steps[1].model.left_out;
-            if (is_no_model(judge.judged(whole, 0).verdict)) whole = t.path.steps[1].model;
+            const bool runs = judge.judged(whole, 0).verdict < Verdict::refused;
+            if (!runs) whole = t.path.steps[1].model;
             t.scene = judge.scene_of(t.last().model);
             t.needs = needs_of(judge, whole, t.last().model, by);
             break;
