@@ -1,3 +1,4 @@
+#include "bench/suite/maps.hpp"
 #include "bench/suite/suite.hpp"
 
 #include <fmt/core.h>
