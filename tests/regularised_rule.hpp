@@ -12,8 +12,8 @@ class RegularisedRule : public ExplicitRule {
 public:
     RegularisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : ExplicitRule(laws, theta, levels), smooth_(laws.size()) {}
-    bool acts(const BeforeStep&) const { return !smooth_.empty(); }
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
+    bool acts(const BeforeStep&) const override { return !smooth_.empty(); }
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override {
         for (std::size_t a = 0; a < smooth_.size(); ++a)
             smooth_[a] = at.now[a] > -1e-6
                              ? 0.5 * (at.now[a] + std::sqrt(at.now[a] * at.now[a] + 1e-18))

@@ -9,12 +9,10 @@
 
 #include <algorithm>
 #include <memory>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "schemes/body/body_step.hpp"
-#include "schemes/contact/gradient_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/scheme.hpp"
 #include "schemes/several_strings.hpp"
@@ -224,19 +222,15 @@ std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) 
 
 // The scheme of one string by a rule, or of all strings on a moving body. make as above, body() ->
 // the body in the form of that scheme.
-template <class String, class Rule, class Make, class MakeBody>
+template <class String, class Make, class MakeBody>
 std::unique_ptr<Scheme> on_its_support(const Descriptor& scheme, const Scene& scene,
-                                       const Settings& settings, Make make,
-                                       [[maybe_unused]] MakeBody body) {
-    // no other pairing takes a body (pairings.cpp)
-    if constexpr (std::is_same_v<Rule, GradientRule>) {
-        using All = Instrument<String, decltype(body())>;
-        if (needed_by(scene).has(Feature::moving_body))
-            return driven<Rule>(
-                std::make_unique<All>(scene, each_string<String>(scene, make), body()), scheme,
-                settings);
-    }
-    return driven<Rule>(make(scene), scheme, settings);
+                                       const Settings& settings, const RuleChoice& rule, Make make,
+                                       MakeBody body) {
+    using All = Instrument<String, decltype(body())>;
+    if (needed_by(scene).has(Feature::moving_body))
+        return driven(std::make_unique<All>(scene, each_string<String>(scene, make), body()),
+                      scheme, settings, rule);
+    return driven(make(scene), scheme, settings, rule);
 }
 
 }  // namespace jvari

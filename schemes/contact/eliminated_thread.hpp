@@ -12,10 +12,12 @@
 // + phi theta_cc)^-1 are matrices.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "schemes/contact/contact_gram.hpp"
 
 namespace jvari {
 
@@ -71,6 +73,57 @@ private:
     One one_;
     int contacts_ = 0;
     double span_ = 1;
+};
+
+// What the contacts of a run did.
+struct ContactTally {
+    ForceRange force;
+    double deepest = 0, residual = 0;  // [m]; of an equation, relative
+    long solves = 0, iterations = 0;
+    int most_iterations = 0;
+
+    void note(double force_, double deepest_) noexcept {  // of a contact
+        force.note(force_);
+        deepest = std::max(deepest, deepest_);
+    }
+    void note(int iterations_, double residual_) noexcept {  // of a solve
+        ++solves;
+        if (iterations_ == 0) return;  // closed form
+        iterations += iterations_;
+        most_iterations = std::max(most_iterations, iterations_);
+        residual = std::max(residual, residual_);
+    }
+};
+
+// One contact by the discrete gradient, which loses nothing, and one thread; either may be absent.
+struct ContactAndThread {
+    bool contact = false, thread = false;
+    ContactLaw law;
+    double height = 0, theta = 0;  // of the contact; theta: the thread yielding (48)
+    EliminatedThreads::One of_thread;
+    ContactTally tally;
+
+    // Of contact b and thread c: readings at the older level and at the one that the step is centred
+    // on, increments without forces [m]; F_b, F_c [N] out. False: not converged.
+    template <bool contact, bool thread>
+    [[gnu::always_inline]] bool solve(double y_b, double now_b, double u_b, double y_c, double u_c,
+                                      double& F_b, double& F_c) noexcept {
+        const double v = thread ? of_thread.alone(y_c, u_c) : 0;  // (47)
+        bool converged = true;
+        F_b = 0;
+        if constexpr (contact) {
+            const double eta = height - y_b, b = thread ? -u_b - of_thread.coupling * v : -u_b;
+            if (eta > 0 || eta + b > 0) {
+                const ContactSolution s = solve_contact(law, eta, b, theta);  // (48)
+                F_b = s.force;
+                tally.note(F_b, std::max(height - now_b, eta - s.r));
+                tally.note(s.iterations, s.residual);
+                converged = s.converged;
+            }
+        }
+        F_c = thread ? v - of_thread.answer * F_b : 0;  // (46)
+        return converged;
+    }
 };
 
 }  // namespace jvari

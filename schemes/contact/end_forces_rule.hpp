@@ -12,28 +12,27 @@
 
 namespace jvari {
 
-class EndForcesRule : public PlainRule {
+class EndForcesRule final : public ObstacleRule {
 public:
     static constexpr bool conserves = false;
 
-    EndForcesRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
-        : PlainRule(laws, theta), b_(laws.size()), old_(laws.size()) {
-        take_share(0.5);
-    }
-    void take_share(double share) {
-        share_ = share;
-        part_ = theta_;
+    EndForcesRule(std::span<const ContactLaw> laws, std::span<const double> theta, double share)
+        : ObstacleRule(laws, theta),
+          part_(theta_),
+          share_(share),
+          b_(laws.size()),
+          old_(laws.size()) {
         for (double& x : part_) x *= 1 - share_;
         gram_ = ContactGram(laws_, part_, ContactGram::Force::at_the_end);
     }
-    void set(std::span<const double> theta) noexcept {
+    void set(std::span<const double> theta) noexcept override {
         for (std::size_t i = 0; i < theta_.size(); ++i) {
             theta_[i] = theta[i];
             part_[i] = (1 - share_) * theta[i];
         }
         gram_.set(part_);
     }
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override {
         const std::size_t n = laws_.size();
         for (std::size_t a = 0; a < n; ++a) old_[a] = share_ * laws_[a].force(at.older[a]);
         move(at.b, old_.data(), b_.data());
@@ -46,7 +45,7 @@ public:
 private:
     std::vector<double> part_;  // (1 - share) Theta
     ContactGram gram_;
-    double share_ = 0.5;
+    double share_;
     std::vector<double> b_, old_;  // old_: the older level's part of the force [N]
 };
 

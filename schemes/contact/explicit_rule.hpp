@@ -8,18 +8,20 @@
 
 namespace jvari {
 
-class ExplicitRule : public PlainRule {
+class ExplicitRule : public ObstacleRule {
 public:
-    static constexpr bool conserves = false, iterates = false, centred = true, own_only = true;
+    static constexpr bool conserves = false, own_only = true;
 
     ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
-        : PlainRule(laws, theta) {}
-    bool acts(const BeforeStep& at) const {
+        : ObstacleRule(laws, theta) {}
+    bool iterates() const override { return false; }
+    bool centred() const override { return true; }
+    bool acts(const BeforeStep& at) const override {
         bool touching = false;
         for (std::size_t a = 0; a < laws_.size(); ++a) touching = touching || at.now[a] > 0;
         return touching;
     }
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override {
         for (std::size_t a = 0; a < laws_.size(); ++a) force[a] = laws_[a].force(at.now[a]);
         move(at.b, force, r);
         return {};

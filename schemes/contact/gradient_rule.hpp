@@ -12,22 +12,23 @@
 
 namespace jvari {
 
-class GradientRule : public PlainRule {
+class GradientRule final : public ObstacleRule {
 public:
     static constexpr bool conserves = true;
     using Rigid = RigidRule;
 
     GradientRule(std::span<const ContactLaw> laws, std::span<const double> theta, int)
-        : PlainRule(laws, theta), gram_(laws, theta) {}
-    void set(std::span<const double> theta) noexcept { gram_.set(theta); }
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept {
+        : ObstacleRule(laws, theta), gram_(laws, theta) {}
+    bool is_discrete_gradient() const override { return true; }
+    void set(std::span<const double> theta) noexcept override { gram_.set(theta); }
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override {
         if (laws_.size() != 1) return gram_.solve(at.older, at.b, r, force);
         const ContactSolution s = solve_contact(laws_[0], at.older[0], at.b[0], gram_.theta()[0]);
         *r = s.r;
         *force = s.force;
         return {s.iterations, s.residual, s.converged};
     }
-    std::vector<Fact> facts() const {
+    std::vector<Fact> facts() const override {
         if (gram_.coupled() <= 1) return {};
         return {{facts::coupled_contact_points, static_cast<double>(gram_.coupled())}};
     }

@@ -20,7 +20,7 @@ namespace jvari {
 inline constexpr Option restitution_option{"restitution", "1",
                                            "coefficient of restitution e, 0 to 1"};
 
-class MoreauJeanRule : public PlainRule {
+class MoreauJeanRule final : public ObstacleRule {
 public:
     static constexpr bool conserves = false;
     static constexpr Option options[] = {restitution_option};
@@ -35,26 +35,26 @@ public:
     using Rigid = MoreauJeanRule;
 
     MoreauJeanRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
-        : PlainRule(laws, theta), w_(laws.size(), 0.0), levels_(levels) {}
+        : ObstacleRule(laws, theta), w_(laws.size(), 0.0), levels_(levels) {}
     void choose(const Settings& settings) {
         e_ = number_option(settings, restitution_option);
         if (!(e_ >= 0 && e_ <= 1))
             throw Refusal("option restitution: expected a number from 0 to 1");
     }
-    int dofs() const { return levels_ == 1 ? static_cast<int>(w_.size()) : 0; }
-    void begin(const double*) {
+    int dofs() const override { return levels_ == 1 ? static_cast<int>(w_.size()) : 0; }
+    void begin(const double*) override {
         std::fill(w_.begin(), w_.end(), 0.0);
         lost_ = 0;
     }
-    bool acts(const BeforeStep&) const { return !w_.empty(); }  // it follows the speed
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept;
+    bool acts(const BeforeStep&) const override { return !w_.empty(); }  // it follows the speed
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override;
     // from rest: y^{-1} = y^1, a two-point step
-    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept {
+    GramSolution start(const BeforeStep& at, double* r, double* force) noexcept override {
         return impact(at, r, force, [&](std::size_t a) { return -at.older[a]; });
     }
-    double potential(int, double) const { return 0; }
-    double lost() const { return lost_; }  // in the last step [J]
-    std::vector<Fact> facts() const { return {{facts::rigid_barrier, 1}}; }
+    double potential(int, double) const override { return 0; }
+    double lost() const override { return lost_; }
+    std::vector<Fact> facts() const override { return {{facts::rigid_barrier, 1}}; }
 
 private:
     template <class Gap>

@@ -1,5 +1,5 @@
-// What an obstacle rule is: how the contacts' forces over one step are found. A new rule is a class
-// of this kind and a row of the table.
+// What an obstacle rule is: how the contacts' forces over one step are found. A new rule derives
+// from this class and is a row of the table (rules.hpp).
 //
 // Over a step the readings of the contacts move by r = -b + Theta F: without forces by -b, and by
 // the compliances Theta between them (van Walstijn et al. 2016, eq 48; Issanchou et al. 2016, eq
@@ -17,7 +17,9 @@
 // is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al. 2016, eqs 20-21).
 #pragma once
 
-#include <concepts>
+#include <algorithm>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,47 +39,42 @@ struct BeforeStep {       // of each contact
     const double* b;
 };
 
-template <class Rule>
-concept ObstacleRule = requires(Rule rule, const Rule known, const BeforeStep& at,
-                                std::span<const double> theta, std::span<const ContactLaw> laws,
-                                double* out, const double* eta) {
-    // theta: row-major between the contacts [m/N]; levels that a step spans
-    Rule(laws, theta, 1);
-    { Rule::conserves } -> std::convertible_to<bool>;  //
-    { Rule::iterates } -> std::convertible_to<bool>;   // whether it tells of iterations
-    { Rule::centred } -> std::convertible_to<bool>;    // how two-point steps fill `now`
-    { known.dofs() } -> std::same_as<int>;             // state of its own
-    // other compliances, coupled where the first ones were
-    rule.set(theta);
-    rule.begin(eta);  // at rest at t = 0
-    // false: no force, and nothing to be solved
-    { known.acts(at) } -> std::same_as<bool>;
-    // r [m], and F on the string [N]. Allocates nothing
-    { rule.solve(at, out, out) } -> std::same_as<GramSolution>;
-    // of a contact at a penetration [J]
-    { known.potential(1, 0.0) } -> std::same_as<double>;
-    { known.facts() } -> std::same_as<std::vector<Fact>>;  // beside those of obstacle.hpp
-};
-
-// What most rules are: without state, with the laws and compliances that they were made with, and
-// acting where a contact is closed before the step or would be after it.
-struct PlainRule {
-    static constexpr bool iterates = true, centred = false;
-    PlainRule(std::span<const ContactLaw> laws, std::span<const double> theta)
+// Without state, and acting where a contact is closed before the step or would be after it, unless
+// a rule says else.
+class ObstacleRule {
+public:
+    // theta: row-major between the contacts [m/N]
+    ObstacleRule(std::span<const ContactLaw> laws, std::span<const double> theta)
         : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {}
-    int dofs() const { return 0; }
-    void set(std::span<const double> theta) noexcept {
+    virtual ~ObstacleRule() = default;
+
+    virtual bool iterates() const { return true; }  // whether its iterations are reported
+    virtual bool centred() const { return false; }  // how two-point steps fill `now`
+    // of one contact without loss the closed form of one_contact.hpp
+    virtual bool is_discrete_gradient() const { return false; }
+    virtual int dofs() const { return 0; }  // state of its own
+    // other compliances, coupled where the first ones were. Allocates nothing
+    virtual void set(std::span<const double> theta) noexcept {
         std::copy(theta.begin(), theta.end(), theta_.begin());
     }
-    void begin(const double*) {}
-    bool acts(const BeforeStep& at) const {
+    virtual void begin(const double*) {}  // eta of each contact, at rest at t = 0
+    // false: no force, and nothing to be solved
+    virtual bool acts(const BeforeStep& at) const {
         bool touching = false;
         for (std::size_t a = 0; a < laws_.size(); ++a)
             touching = touching || at.older[a] > 0 || at.older[a] + at.b[a] > 0;
         return touching;
     }
-    double potential(int a, double eta) const { return laws_[a].potential(eta); }
-    std::vector<Fact> facts() const { return {}; }
+    // r [m], and F on the string [N]. Allocates nothing
+    virtual GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept = 0;
+    // the first half of a three-point step, from rest, with half of Theta
+    virtual GramSolution start(const BeforeStep& at, double* r, double* force) noexcept {
+        return solve(at, r, force);
+    }
+    // of a contact at a penetration [J]
+    virtual double potential(int a, double eta) const { return laws_[a].potential(eta); }
+    virtual double lost() const { return 0; }               // in the last step [J]
+    virtual std::vector<Fact> facts() const { return {}; }  // beside those of obstacle.hpp
 
 protected:
     void move(const double* b, const double* force, double* r) const noexcept {  // r = -b + Theta F
@@ -91,10 +88,17 @@ protected:
     std::vector<double> theta_;
 };
 
-// What a rule may have beside that: start(at, r, force), the first half of a three-point step, from
-// rest, with half of Theta, where that is not solve(); `Rigid`, the rule for barriers that do not
-// give way; `own_only`, where nothing can stand in series with its contacts; options, which it
-// reads by choose(settings); features that it approximates, or leaves out.
+// levels: that a step spans
+using MakeRule = std::function<std::shared_ptr<ObstacleRule>(
+    std::span<const ContactLaw>, std::span<const double> theta, int levels)>;
+struct RuleChoice {  // by which the contacts of a string act
+    MakeRule make;
+    MakeRule rigid = {};  // where the barriers do not give way
+};
+
+// What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not give
+// way; `own_only`, where nothing can stand in series with its contacts; options, which it reads by
+// choose(settings); features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;
@@ -103,6 +107,21 @@ template <class Rule>
 concept OwnOnly = requires {
     Rule::own_only;
 };
+
+template <class Rule>
+MakeRule rule_with(const Settings& settings) {
+    return [settings](std::span<const ContactLaw> laws, std::span<const double> theta, int levels) {
+        auto rule = std::make_unique<Rule>(laws, theta, levels);
+        if constexpr (requires { rule->choose(settings); }) rule->choose(settings);
+        return rule;
+    };
+}
+template <class Rule>
+RuleChoice rule_of(const Settings& settings) {
+    if constexpr (TakesRigid<Rule>)
+        return {rule_with<Rule>(settings), rule_with<typename Rule::Rigid>(settings)};
+    else return {rule_with<Rule>(settings)};
+}
 
 template <class Rule>
 constexpr std::span<const Option> options_of() {

@@ -18,20 +18,20 @@ constexpr double no_psi = 1e-150;                        // [sqrt(J)] its square
 QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws,
                                          std::span<const double> theta, int levels,
                                          Quadratisation variant)
-    : variant_(variant),
+    : ObstacleRule(laws, theta),
+      variant_(variant),
       levels_(levels),
       c_(levels == 1 ? 0.5 : 1),
-      theta_(theta.begin(), theta.end()),
       system_(laws.size()) {
     const std::size_t n = laws.size();
-    for (const ContactLaw& law : laws) laws_.push_back(QuadratisedLaw::make(law, variant, c_));
+    for (const ContactLaw& law : laws) psi_of_.push_back(QuadratisedLaw::make(law, variant, c_));
     for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_})
         v->assign(n, 0.0);
     set_.assign(n, 0);
 }
 
 void QuadratisedContacts::begin(const double* eta) {
-    for (int a = 0; a < contacts(); ++a) psi_[a] = laws_[a].psi(eta[a]);
+    for (int a = 0; a < contacts(); ++a) psi_[a] = psi_of_[a].psi(eta[a]);
     seen_ = {};
 }
 
@@ -45,7 +45,7 @@ bool QuadratisedContacts::solve_linearly() noexcept {
     many_ = 0;
     for (int a = 0; a < contacts(); ++a) {
         next_[a] = psi_[a];
-        const double gamma = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
+        const double gamma = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
         gamma_[a] = gamma;
         scale_[a] = std::sqrt(c_) * gamma;
         if (gamma != 0) set_[many_++] = a;
@@ -73,13 +73,13 @@ bool QuadratisedContacts::release() noexcept {
     const int n = contacts();
     for (int a = 0; a < n; ++a) {  // a first guess: each contact alone
         if (psi_[a] < no_psi) psi_[a] = 0;
-        gamma_[a] = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
+        gamma_[a] = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
         next_[a] = 0;
         f_[a] = gamma_[a] > 0 || psi_[a] > 0
-                    ? std::max(
-                          solve_quadratised(laws_[a], eta_[a], psi_[a], free_[a], theta_[a * n + a])
-                              .force,
-                          0.0)
+                    ? std::max(solve_quadratised(psi_of_[a], eta_[a], psi_[a], free_[a],
+                                                 theta_[a * n + a])
+                                   .force,
+                               0.0)
                     : 0;
         if (psi_[a] > 0) f_[a] = std::max(f_[a], std::numeric_limits<double>::min());
     }
@@ -159,7 +159,7 @@ GramSolution QuadratisedContacts::solve(const BeforeStep& at, double* r, double*
     bool solved = true;
     if (contacts() == 1) {  // in closed form
         const QuadratisedStep s =
-            solve_quadratised(laws_[0], eta_[0], psi_[0], free_[0], theta_[0]);
+            solve_quadratised(psi_of_[0], eta_[0], psi_[0], free_[0], theta_[0]);
         f_[0] = s.force;
         next_[0] = s.psi;
     } else {
@@ -175,7 +175,7 @@ GramSolution QuadratisedContacts::start(const BeforeStep& at, double* r, double*
         eta_[a] = at.now[a];
         f_[a] = 0;
         next_[a] = psi_[a];
-        gamma_[a] = eta_[a] > 0 ? laws_[a].gamma(eta_[a]) : 0;
+        gamma_[a] = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
         scale_[a] = std::sqrt(2.0) * gamma_[a];  // of F/2 by 2 Theta
         if (gamma_[a] > 0) set_[many_++] = a;
     }
@@ -199,7 +199,7 @@ void QuadratisedContacts::end(const BeforeStep& at, double* r, double* force) no
     for (int a = 0; a < n; ++a) {
         force[a] = f_[a];
         psi_[a] = next_[a];
-        const double newer = laws_[a].psi(at.older[a] - r[a]), now = laws_[a].psi(at.now[a]);
+        const double newer = psi_of_[a].psi(at.older[a] - r[a]), now = psi_of_[a].psi(at.now[a]);
         seen_.note(psi_[a], levels_ == 1 ? newer : std::sqrt(0.5 * (newer * newer + now * now)));
     }
 }

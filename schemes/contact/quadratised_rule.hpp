@@ -23,22 +23,20 @@
 
 namespace jvari {
 
-class QuadratisedContacts {
+class QuadratisedContacts : public ObstacleRule {
 public:
     QuadratisedContacts(std::span<const ContactLaw>, std::span<const double> theta, int levels,
                         Quadratisation);
 
-    int dofs() const { return static_cast<int>(laws_.size()); }  // psi
-    void set(std::span<const double> theta) noexcept {
-        std::copy(theta.begin(), theta.end(), theta_.begin());
-    }
-    void begin(const double* eta);
-    bool acts(const BeforeStep&) const;
-    GramSolution solve(const BeforeStep&, double* r, double* force) noexcept;
-    GramSolution start(const BeforeStep&, double* r, double* force) noexcept;
+    bool iterates() const override { return variant_ == Quadratisation::released; }
+    int dofs() const override { return contacts(); }  // psi
+    void begin(const double* eta) override;
+    bool acts(const BeforeStep&) const override;
+    GramSolution solve(const BeforeStep&, double* r, double* force) noexcept override;
+    GramSolution start(const BeforeStep&, double* r, double* force) noexcept override;
     // of the half step after, in three-point steps
-    double potential(int a, double) const { return 0.5 * psi_[a] * psi_[a]; }
-    std::vector<Fact> facts() const { return seen_.list(); }
+    double potential(int a, double) const override { return 0.5 * psi_[a] * psi_[a]; }
+    std::vector<Fact> facts() const override { return seen_.list(); }
 
 private:
     bool solve_linearly() noexcept;
@@ -50,11 +48,10 @@ private:
     void end(const BeforeStep&, double* r, double* force) noexcept;
     int contacts() const { return static_cast<int>(laws_.size()); }
 
-    std::vector<QuadratisedLaw> laws_;
+    std::vector<QuadratisedLaw> psi_of_;
     Quadratisation variant_;
     int levels_;
     double c_;
-    std::vector<double> theta_;
     std::vector<double> psi_, next_;      // [sqrt(J)]
     std::vector<double> eta_, free_, f_;  // of the step in hand
     std::vector<double> gamma_, scale_, df_, work_;
@@ -68,10 +65,10 @@ private:
 // place of the older level.
 template <Quadratisation variant, bool in_the_middle = false>
 struct QuadratisedRule : QuadratisedContacts {
-    static constexpr bool conserves = true, iterates = variant == Quadratisation::released,
-                          centred = in_the_middle;
+    static constexpr bool conserves = true;
     QuadratisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : QuadratisedContacts(laws, theta, levels, variant) {}
+    bool centred() const override { return in_the_middle; }
 };
 
 }  // namespace jvari

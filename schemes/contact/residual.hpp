@@ -1,11 +1,24 @@
-// What a string lacks at its points, as a step has it: C with a ladder beside it (compliance.hpp),
-// by the rule at midpoints (obstacle.hpp).
+// What a string lacks at its points stands in series with them: springs, and beside them a ladder
+// (compliance.hpp). One form for any number of points; 1 and 2 are unrolled. The equations are those
+// of docs/compliance-matching.md, "The step".
 //
-// The ladder stands for the energy that the cut modes carry away.
-// C alone would keep all of a blow, and alternate from step to step for ever.
+//     symbol        meaning                                              unit        equation
+//     C             compliance of the springs                            m/N         1
+//     R_0           what resists without masses: `damper`                kg/s        1
+//     V, B, a       patterns; `branch` and `share` of the mass of each   1, kg/s, 1  1, 2
+//     W, K          (R C/h + 1/2)^-1 with R = R_0 + V' B V; C W          1, m/N      3
+//     D, P          stretch C P of the springs, their forces             m, N        4, 5
+//     v             velocities of the masses                             m/s         2
+//     Q, H          P - V' B v; K Q                                      N, m        4, 6
+//     F, h          mean forces over a step, its span                    N, s        4
+//
+// The ladder stands for the energy that the cut modes carry away. C alone would keep all of a blow,
+// and alternate from step to step for ever.
 #pragma once
 
+#include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "schemes/contact/compliance.hpp"
@@ -24,95 +37,107 @@ struct MassStep {
         if (mass > 0)
             branch = 1 / (1 / resistance + 0.5 * span / mass), share = branch * span / mass;
     }
-    void follow(double moved, double& v) const { v += share * (moved / span - v); }
-    double lost(double moved, double v) const {  // in a step, of v before it [J]
-        const double behind = moved / span - v;
+    double behind(double moved, double v) const { return moved / span - v; }  // [m/s]
+    void follow(double behind, double& v) const { v += share * behind; }      // (2)
+    double lost(double behind) const {                                        // in a step [J] (7)
         return branch * span * (1 - 0.5 * share) * behind * behind;
     }
 };
 
-struct Residual {
-    std::size_t points = 0;
-    std::vector<double> C, W, K;   // points x points [m/N], [1], [m/N]
-    std::vector<double> damper;    // points x points: what resists without masses [kg/s]
-    std::vector<double> V;         // patterns x points [1]
-    std::vector<MassStep> masses;  // of each pattern
+class Residual {
+public:
+    // levels: how many of them a step spans. Where they are two, every other step is a chain of its
+    // own, with a state of its own.
+    Residual(const MissingMatrix&, double span, int levels);
 
-    Residual(const MissingMatrix&, double span);
+    double K(std::size_t i) const { return K_[i]; }  // row-major over the points
+    // Of each point; level 0: that the next step starts from, 1: the one after it.
+    const double* yields(int level) const { return state_[level].D.data(); }  // D [m]
+    const double* force(int level) const { return state_[level].P.data(); }   // P [N]
+    const double* pulled() const { return state_[0].H.data(); }  // of the next step [m]
+    int centre() const { return levels_ - 1; }  // the level that it is centred on, or starts from
 
-    static double times(const std::vector<double>& m, std::size_t a, const double* x,
-                        std::size_t n) {
+    void rest() noexcept {
+        for (State& s : state_)
+            for (auto* x : {&s.P, &s.v, &s.D, &s.Q, &s.H}) std::fill(x->begin(), x->end(), 0.0);
+    }
+    void follow(const Residual& first) noexcept {  // after it made the first half step
+        rest();
+        state_[1].P = first.state_[0].P;
+        state_[1].v = first.state_[0].v;
+        prepare<0>(state_[1], state_[1].P.data(), state_[1].Q.data());
+    }
+    void step(const double* F) noexcept {
+        points_ == 1 ? step<1>(F) : points_ == 2 ? step<2>(F) : step<0>(F);
+    }
+    template <int few>
+    [[gnu::always_inline]] void step(const double* F) noexcept {
+        const std::size_t n = few > 0 ? few : points_;
+        State& s = state_[0];
+        double local[3][few > 0 ? few : 1];  // in registers
+        double *Q = few > 0 ? local[0] : s.Q.data(), *moved = few > 0 ? local[1] : moved_.data(),
+               *P = few > 0 ? local[2] : s.P.data();
+        for (std::size_t a = 0; a < n; ++a) Q[a] = F[a] - s.Q[a];
+        for (std::size_t a = 0; a < n; ++a) {
+            moved_[a] = moved[a] = times(K_, a, Q, n);    // (4)
+            s.P[a] = P[a] = s.P[a] + times(W_, a, Q, n);  // (5)
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            behind_[k] = masses_[k].behind(times(V_, k, moved, n), s.v[k]);
+            masses_[k].follow(behind_[k], s.v[k]);
+        }
+        prepare<few>(s, P, Q);
+        if (levels_ == 2) std::swap(state_[0], state_[1]);
+    }
+
+    double stored(int level) const {  // [J] (7)
+        const State& s = state_[level];
+        double sum = 0;
+        for (std::size_t a = 0; a < points_; ++a)
+            sum += 0.5 * (s.P[a] * s.D[a] + masses_[a].mass * s.v[a] * s.v[a]);
+        return sum;
+    }
+    double lost() const {  // in the last step [J] (7)
+        double sum = 0;
+        for (std::size_t a = 0; a < points_; ++a)
+            sum += moved_[a] * times(damper_, a, moved_.data(), points_);
+        sum *= rate_;
+        for (std::size_t k = 0; k < points_; ++k) sum += masses_[k].lost(behind_[k]);
+        return sum;
+    }
+
+private:
+    struct State {
+        std::vector<double> P, v, D, Q, H;  // of points, of patterns (v)
+    };
+    [[gnu::always_inline]] static double times(const std::vector<double>& m, std::size_t a,
+                                               const double* x, std::size_t n) {
         double sum = 0;
         for (std::size_t b = 0; b < n; ++b) sum += m[a * n + b] * x[b];
         return sum;
     }
-    // D of point a [m]
-    double yield(std::size_t a, const double* P) const { return times(C, a, P, points); }
-    // at point a by what moves with v [N]
-    double pulled(std::size_t a, const double* v, std::size_t n) const {
-        double sum = 0;
-        for (std::size_t k = 0; k < n; ++k) sum += V[k * n + a] * masses[k].branch * v[k];
-        return sum;
-    }
-    double damped(const double* speed, std::size_t n) const {  // by the damper without masses [W]
-        double sum = 0;
-        for (std::size_t a = 0; a < n; ++a) sum += speed[a] * times(damper, a, speed, n);
-        return sum;
-    }
-    double stored(const double* P, const double* v) const {  // [J]
-        double sum = 0;
-        for (std::size_t a = 0; a < points; ++a)
-            sum += 0.5 * (P[a] * yield(a, P) + masses[a].mass * v[a] * v[a]);
-        return sum;
-    }
-};
-
-// The same of one contact b and a thread c, either of which may be absent, with its state: D, v of
-// the patterns, and H of the next step, in which D+ - D = K F - H.
-struct ResidualPair {
-    double C_be = 0, C_ce = 0;            // on b and c, of the pluck [m/N]
-    double K_bb = 0, K_bc = 0, K_cc = 0;  // [m/N]
-    double W_bb = 0, W_bc = 0, W_cb = 0, W_cc = 0;
-    double C_bb = 0;                                     // [m/N]
-    double stiff_bb = 0, stiff_bc = 0, stiff_cc = 0;     // C^-1 [N/m]
-    double damper_bb = 0, damper_bc = 0, damper_cc = 0;  // [kg/s]
-    // of the patterns; one that is alone is 1
-    double b_[2] = {}, c_[2] = {};
-    MassStep m_[2];                                         // of the patterns
-    double D_b = 0, D_c = 0, v_[2] = {}, H_b = 0, H_c = 0;  // [m], [m/s]; change from step to step
-
-    ResidualPair() = default;
-    ResidualPair(const MissingMatrix&, double span);
-    void clear() { D_b = D_c = v_[0] = v_[1] = H_b = H_c = 0; }
-    double P_b() const { return stiff_bb * D_b + stiff_bc * D_c; }  // of the springs [N]
-    double P_c() const { return stiff_bc * D_b + stiff_cc * D_c; }
-    double stored() const {  // [J]
-        return 0.5 * (P_b() * D_b + P_c() * D_c + m_[0].mass * v_[0] * v_[0] +
-                      m_[1].mass * v_[1] * v_[1]);
-    }
-    template <bool b = true, bool c = true>
-    [[gnu::always_inline]] void take(double F_b, double F_c) {
-        constexpr bool both = b && c;
-        const double moved_b = b ? K_bb * F_b - H_b + (c ? K_bc * F_c : 0) : 0,
-                     moved_c = c ? K_cc * F_c - H_c + (b ? K_bc * F_b : 0) : 0;
-        D_b += moved_b, D_c += moved_c;
-        double pulls[2];
-        for (int k = 0; k < 1 + both; ++k) {
-            m_[k].follow(both ? b_[k] * moved_b + c_[k] * moved_c : moved_b + moved_c, v_[k]);
-            pulls[k] = m_[k].branch * v_[k];
+    // D, Q and H of what P and v are
+    template <int few>
+    [[gnu::always_inline]] void prepare(State& s, const double* P, double* Q) noexcept {
+        const std::size_t n = few > 0 ? few : points_;
+        for (std::size_t a = 0; a < n; ++a) {
+            double resisted = 0;
+            for (std::size_t k = 0; k < n; ++k)
+                resisted += V_[k * n + a] * masses_[k].branch * s.v[k];
+            s.D[a] = times(C_, a, P, n);
+            s.Q[a] = Q[a] = P[a] - resisted;
         }
-        const double B_b = both ? b_[0] * pulls[0] + b_[1] * pulls[1] : pulls[0];
-        const double B_c = both ? c_[0] * pulls[0] + c_[1] * pulls[1] : pulls[0];
-        if constexpr (b) H_b = W_bb * D_b - K_bb * B_b + (c ? W_cb * D_c - K_bc * B_c : 0);
-        if constexpr (c) H_c = W_cc * D_c - K_cc * B_c + (b ? W_bc * D_b - K_bc * B_b : 0);
+        for (std::size_t a = 0; a < n; ++a) s.H[a] = times(K_, a, Q, n);
     }
-    // in the step that they are taken for, before they are [J]
-    double lost(double F_b, double F_c) const {
-        const double b = K_bb * F_b + K_bc * F_c - H_b, c = K_bc * F_b + K_cc * F_c - H_c;
-        double sum = (damper_bb * b * b + 2 * damper_bc * b * c + damper_cc * c * c) / m_[0].span;
-        for (int k = 0; k < 2; ++k) sum += m_[k].lost(b_[k] * b + c_[k] * c, v_[k]);
-        return sum;
-    }
+
+    std::size_t points_;
+    int levels_;
+    double rate_;                     // 1/span [1/s]
+    std::vector<double> C_, W_, K_;   // points x points
+    std::vector<double> damper_, V_;  // V: patterns x points
+    std::vector<MassStep> masses_;    // of each pattern
+    State state_[2];
+    std::vector<double> moved_, behind_;  // in the last step: of points [m], of patterns [m/s]
 };
 
 }  // namespace jvari

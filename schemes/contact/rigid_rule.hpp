@@ -29,23 +29,23 @@
 
 namespace jvari {
 
-class RigidRule : public PlainRule {
+class RigidRule final : public ObstacleRule {
 public:
     static constexpr bool conserves = true;
 
     RigidRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
-        : PlainRule(laws, theta), stored_(laws.size()), levels_(levels) {}
-    int dofs() const { return levels_ * static_cast<int>(stored_.size()); }
-    void begin(const double*) { std::fill(stored_.begin(), stored_.end(), Levels{}); }
-    bool acts(const BeforeStep& at) const {
+        : ObstacleRule(laws, theta), stored_(laws.size()), levels_(levels) {}
+    int dofs() const override { return levels_ * static_cast<int>(stored_.size()); }
+    void begin(const double*) override { std::fill(stored_.begin(), stored_.end(), Levels{}); }
+    bool acts(const BeforeStep& at) const override {
         bool touching = false;
         for (std::size_t a = 0; a < stored_.size(); ++a)
             touching =
                 touching || stored_[a].older > 0 || stored_[a].now > 0 || at.older[a] + at.b[a] > 0;
         return touching;
     }
-    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept;
-    double potential(int a, double) const {
+    GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override;
+    double potential(int a, double) const override {
         return levels_ == 1 ? stored_[a].older : 0.5 * (stored_[a].older + stored_[a].now);
     }
 

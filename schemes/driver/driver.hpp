@@ -28,6 +28,7 @@ public:
     void count(const double* force) noexcept {
         for (std::size_t p = 0; p < sum_.size(); ++p) sum_[p] += force[p];
     }
+    double* sum() noexcept { return sum_.data(); }  // of each point
     // last: the forces of the step in hand
     const double* take(const double* last, bool at_start) noexcept {
         for (std::size_t p = 0; p < sum_.size(); ++p) {
@@ -43,30 +44,27 @@ private:
     int levels_, steps_;
 };
 
-template <StringStep String, ObstacleRule Rule>
+template <StringStep String>
 class Driver final : public Scheme {
 public:
     static constexpr int levels = String::levels;
 
-    Driver(std::unique_ptr<String> string, int steps_per_row)
+    Driver(std::unique_ptr<String> string, int steps_per_row, const MakeRule& make_rule)
         : string_(std::move(string)),
           steps_(steps_per_row),
-          means_(points().count(), levels, steps_per_row) {
-        obstacle_ = {points().contacts, points().threads, points().theta, levels * points().dt,
-                     levels};
+          means_(points().count(), levels, steps_per_row),
+          obstacle_(points().contacts, points().threads, points().theta, levels * points().dt,
+                    levels, make_rule, series()) {
         if constexpr (levels == 2) {
             std::vector<double> theta = points().start_theta;
             for (double x : points().theta)
                 if (points().start_theta.empty()) theta.push_back(0.5 * x);
-            start_ = obstacle_.halved(string_->thread_start(), theta);
-        }
-        if (points().series) {
-            obstacle_.put_in_series(*points().series, levels);
-            if constexpr (levels == 2) start_.put_in_series(*points().series, 1);
+            start_ = obstacle_.halved(string_->thread_start(), theta, series());
         }
         for (auto* v : {&older_, &free_, &now_, &force_}) v->assign(points().count(), 0.0);
         plucked_in_series_ = points().series && !points().series->pluck.empty();
         dt_ = points().dt;
+        if constexpr (fuses) string_->fuse(obstacle_.one(), obstacle_.series(), steps_);
         Driver::reset();
     }
 
@@ -78,13 +76,13 @@ public:
         obstacle_.clear();
         string_->reset();
         if constexpr (levels == 2) {
-            start_.clear();
+            start_->clear();
             const ReadingsBeforeStep at = with_pluck(string_->readings(), 0, 0, 1);
-            start_.begin(at.older);
-            if constexpr (stretches) start_.set(string_->theta());
-            if (!start_.start(at, force_.data())) status_ = {Outcome::not_converged, 0};
+            start_->begin(at.older);
+            if constexpr (stretches) start_->set(string_->theta());
+            if (!start_->start(at, force_.data())) status_ = {Outcome::not_converged, 0};
             string_->start(force_.data(), 0);
-            obstacle_.follow(start_);
+            obstacle_.follow(*start_);
         } else {
             string_->reading(0, now_.data());
             obstacle_.begin(now_.data());
@@ -94,6 +92,17 @@ public:
 
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
+            if constexpr (fuses)
+                if (const FusedRows made =
+                        out.energy ? FusedRows{} : string_->fused_rows(out, row, means_.sum());
+                    made.steps > 0) {
+                    if (made.stopped) return {};
+                    done_ += made.steps;
+                    if (!made.converged) status_ = {Outcome::not_converged, done_ - 1};
+                    else if (string_->failed()) status_ = {Outcome::diverged, done_ - 1};
+                    row += made.rows - 1;
+                    continue;
+                }
             write(out, row);
             for (int i = 0; i < steps_ && status_.outcome == Outcome::ok; ++i) {
                 step(out.energy != nullptr, i + 1 == steps_);
@@ -101,13 +110,6 @@ public:
             }
         }
         return status_;
-    }
-
-    template <class Tell>
-    void tell(Tell tell) {  // its rule, before the first step
-        tell(obstacle_.rule());
-        tell(start_.rule());
-        reset();
     }
 
     int dofs() const override { return string_->dofs() + obstacle_.dofs(); }
@@ -125,7 +127,12 @@ public:
 private:
     // With tension modulation Theta changes in every step.
     static constexpr bool stretches = requires(const String s) { s.theta(); };
+    // One that has a kernel for rows without an energy probe.
+    static constexpr bool fuses = requires(String s, const Block& out, double* sum) {
+        s.fused_rows(out, 0, sum);
+    };
     const StringPoints& points() const { return string_->points(); }
+    const MissingMatrix* series() const { return points().series ? &*points().series : nullptr; }
 
     void step(bool probed, bool last_of_row) noexcept {
         string_->approach(last_of_row);
@@ -189,10 +196,10 @@ private:
         const double* means = means_.take(force_.data(), done_ == 0);
         for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = string_->tap(k, means);
         if (points().series) {
-            obstacle_.forces(0, now_.data());
+            const double F_e = plucked_in_series_ ? pluck_at(done_) : 0;
             for (int k = 0; k < out.taps; ++k)
                 out.tap[k * out.stride + row] +=
-                    points().series->on_tap(k, now_.data(), pluck_at(done_));
+                    points().series->on_tap(k, obstacle_.forces(0), F_e);
         }
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
@@ -203,38 +210,27 @@ private:
     bool plucked_in_series_ = false;
     double dt_ = 0;
     RowForces means_;
-    Obstacle<Rule> obstacle_, start_;
+    Obstacle obstacle_;
+    std::optional<Obstacle> start_;  // of three-point schemes
     std::vector<double> older_, free_, now_, force_;
     long done_ = 0;                         // steps
     double supplied_ = 0, dissipated_ = 0;  // since the last row [J]
     Status status_;
 };
 
-template <ObstacleRule Rule, StringStep String, class Tell>
-std::unique_ptr<Scheme> driven_as_told(std::unique_ptr<String> string, const Settings& settings,
-                                       Tell tell) {
-    auto made = std::make_unique<Driver<String, Rule>>(std::move(string), steps_per_row(settings));
-    made->tell(tell);
-    return made;
-}
-
-// The scheme of a string and a rule, which reads its options. Rigid barriers use the rule's limit,
-// Rule::Rigid.
-template <ObstacleRule Rule, StringStep String>
+// The scheme of a string and a rule. Rigid barriers use the rule's limit.
+template <StringStep String>
 std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme,
-                               const Settings& settings) {
-    const auto choose = [&settings](auto& rule) {
-        if constexpr (requires { rule.choose(settings); }) rule.choose(settings);
-    };
-    if constexpr (TakesRigid<Rule>)
-        if (string->points().contacts.any_rigid()) {
-            std::vector<double> start(string->points().count());
-            string->reset();
-            string->reading(0, start.data());
-            refuse_rigid(scheme, string->points(), start.data());
-            return driven_as_told<typename Rule::Rigid>(std::move(string), settings, choose);
-        }
-    return driven_as_told<Rule>(std::move(string), settings, choose);
+                               const Settings& settings, const RuleChoice& rule) {
+    const bool stiff = rule.rigid && string->points().contacts.any_rigid();
+    if (stiff) {
+        std::vector<double> start(string->points().count());
+        string->reset();
+        string->reading(0, start.data());
+        refuse_rigid(scheme, string->points(), start.data());
+    }
+    return std::make_unique<Driver<String>>(std::move(string), steps_per_row(settings),
+                                            stiff ? rule.rigid : rule.make);
 }
 
 }  // namespace jvari

@@ -35,11 +35,10 @@ struct ExplicitUpdate {
 constexpr Option options[] = {compliance_option, profile_points_option, grid_option,
                               over_limit_option};
 
-template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
-                             const Settings& settings) {
+std::unique_ptr<Scheme> explicit_scheme(const Descriptor& descriptor, const Scene& scene,
+                                        const Settings& settings, const RuleChoice& rule) {
     using OfOne = ThreePointString<ExplicitUpdate>;
-    return on_three_point_support<OfOne, Rule>(descriptor, scene, settings, [&](const Scene& one) {
+    return on_three_point_support<OfOne>(descriptor, scene, settings, rule, [&](const Scene& one) {
         const double dt = 1 / settings.sample_rate;
         const String& s = one.strings.front();
         const LossFit loss = fit_losses(s);
@@ -51,6 +50,11 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
             g, dt, m, m4, ExplicitUpdate{FivePoint(g, dt, m, m4, divisor), 1 / divisor},
             std::vector<Fact>{{facts::spacing_over_limit, g.grid.dx / limit}});
     });
+}
+template <class Rule>
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
+    return explicit_scheme(descriptor, scene, settings, rule_of<Rule>(settings));
 }
 
 double grid_margin(const Scene& scene, const Settings& settings) {

@@ -44,8 +44,8 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
     const double own = std::floor(s.length / explicit_spacing_limit(s, {}, dt));
     const Grid grid = grid_of(descriptor, s, number_option(settings, grid_option, own));
     const GridString g = on_grid(descriptor, scene, settings, grid, fit_losses(s));
-    return driven<typename AtTheMiddle<Rule>::type>(std::make_unique<MidpointString>(g, dt),
-                                                    descriptor, settings);
+    return driven(std::make_unique<MidpointString>(g, dt), descriptor, settings,
+                  rule_of<typename AtTheMiddle<Rule>::type>(settings));
 }
 }  // namespace
 

@@ -46,14 +46,13 @@ double spacing_limit(const String& s, double dt, double theta) {  // theta 0: th
     return theta != 0 ? theta_spacing_limit(s, dt, theta) : theta_spacing_limit(s, dt);
 }
 
-template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
-                             const Settings& settings) {
+std::unique_ptr<Scheme> theta_scheme(const Descriptor& descriptor, const Scene& scene,
+                                     const Settings& settings, const RuleChoice& rule) {
     using OfOne = ThreePointString<ThetaUpdate>;
     const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
     if (asked != 0 && !(asked > 0.5))
         throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
-    return on_three_point_support<OfOne, Rule>(descriptor, scene, settings, [&](const Scene& one) {
+    return on_three_point_support<OfOne>(descriptor, scene, settings, rule, [&](const Scene& one) {
         const String& s = one.strings.front();
         const double limit = spacing_limit(s, dt, asked);
         const Grid grid = grid_for(descriptor, s, settings, limit);
@@ -68,6 +67,11 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
             g, dt, m, 0.0, std::move(update),
             std::vector<Fact>{{facts::spacing_over_limit, grid.dx / limit}, {facts::theta, theta}});
     });
+}
+template <class Rule>
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
+    return theta_scheme(descriptor, scene, settings, rule_of<Rule>(settings));
 }
 
 double grid_margin(const Scene& scene, const Settings& settings) {

@@ -248,10 +248,11 @@ private:
 
 // A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one
 // string) -> unique_ptr<String>.
-template <class String, class Rule, class Make>
+template <class String, class Make>
 std::unique_ptr<Scheme> on_three_point_support(const Descriptor& scheme, const Scene& scene,
-                                               const Settings& settings, Make make) {
-    return on_its_support<String, Rule>(scheme, scene, settings, make, [&] {
+                                               const Settings& settings, const RuleChoice& rule,
+                                               Make make) {
+    return on_its_support<String>(scheme, scene, settings, rule, make, [&] {
         return ThreePointBody(scene.body->modes, 1 / settings.sample_rate);
     });
 }

@@ -192,9 +192,11 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
     const Weights w = weights_of(settings);
-    return driven_as_told<EndForcesRule>(
-        std::make_unique<GeneralisedAlphaModes>(descriptor, scene, settings, w), settings,
-        [&w](EndForcesRule& rule) { rule.take_share(w.f); });
+    const MakeRule make = [share = w.f](auto laws, auto theta, int) {
+        return std::make_unique<EndForcesRule>(laws, theta, share);
+    };
+    return driven(std::make_unique<GeneralisedAlphaModes>(descriptor, scene, settings, w),
+                  descriptor, settings, {make});
 }
 }  // namespace
 

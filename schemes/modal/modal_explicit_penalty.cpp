@@ -79,9 +79,8 @@ private:
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
-    return driven<ExplicitRule>(
-        std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings)), descriptor,
-        settings);
+    return driven(std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings)),
+                  descriptor, settings, rule_of<ExplicitRule>(settings));
 }
 
 double margin_of(const Scene& scene, const Settings& settings) try {

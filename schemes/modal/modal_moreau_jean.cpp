@@ -21,9 +21,9 @@ double static_gain(double omega0, double sigma, double dt) {  // over dt^2/m
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
-    return driven<MoreauJeanRule>(std::make_unique<ThreePointModes>(
-                                      problem_of_modes(descriptor, scene, settings, static_gain)),
-                                  descriptor, settings);
+    return driven(std::make_unique<ThreePointModes>(
+                      problem_of_modes(descriptor, scene, settings, static_gain)),
+                  descriptor, settings, rule_of<MoreauJeanRule>(settings));
 }
 constexpr Option options[] = {compliance_option, profile_points_option, restitution_option};
 }  // namespace

@@ -14,23 +14,6 @@
 namespace jvari {
 
 namespace {
-using Made = std::unique_ptr<Scheme>;
-using Make = Made (*)(const Descriptor&, const Scene&, const Settings&);
-
-template <int levels, Quadratisation variant>  // of the recursion
-Made made(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
-    matched_without_loss(descriptor, scene, settings);
-    using Rule = QuadratisedRule<variant>;
-    if constexpr (levels == 2)
-        return driven<Rule>(
-            std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point),
-            descriptor, settings);
-    else
-        return driven<Rule>(
-            std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
-            descriptor, settings);
-}
-
 constexpr Option levels_option{"levels", "2", "time levels of the recursion", {"2", "3"}};
 constexpr Option variant_option{
     "variant",
@@ -40,13 +23,19 @@ constexpr Option variant_option{
 constexpr Option options[] = {levels_option, variant_option, compliance_option,
                               profile_points_option};
 
-Made made_as_chosen(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> quadratised_modes(const Descriptor& descriptor, const Scene& scene,
+                                          const Settings& settings) {
     using enum Quadratisation;
-    const bool three = choice_option(settings, levels_option) == "3",
-               pulls = choice_option(settings, variant_option) == "raw";
-    const Make make = three ? (pulls ? made<3, raw> : made<3, released>)
-                            : (pulls ? made<2, raw> : made<2, released>);
-    return make(descriptor, scene, settings);
+    matched_without_loss(descriptor, scene, settings);
+    const RuleChoice rule = choice_option(settings, variant_option) == "raw"
+                                ? rule_of<QuadratisedRule<raw>>(settings)
+                                : rule_of<QuadratisedRule<released>>(settings);
+    if (choice_option(settings, levels_option) == "3")
+        return driven(
+            std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
+            descriptor, settings, rule);
+    return driven(std::make_unique<TwoPointModes>(descriptor, scene, settings, exact_two_point),
+                  descriptor, settings, rule);
 }
 }  // namespace
 
@@ -56,7 +45,7 @@ extern const Descriptor modal_quadratised = {
     .represents = modal_features_of_points,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made_as_chosen,
+    .make = quadratised_modes,
     .options = options,
     .approximates = modal_approximates_elastic};
 

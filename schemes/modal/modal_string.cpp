@@ -46,10 +46,4 @@ PluckSteps pluck_steps(const Pluck& pluck, double dt) {
     return {static_cast<long>(first), static_cast<long>(last - first)};
 }
 
-bool touches_once_without_loss(const String& s) {
-    if (s.barriers.empty()) return true;
-    const auto* lumped = std::get_if<LumpedBarrier>(&s.barriers.front());
-    return s.barriers.size() == 1 && lumped && lumped->contact_loss == 0;
-}
-
 }  // namespace jvari

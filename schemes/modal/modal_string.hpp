@@ -34,9 +34,6 @@ struct PluckSteps {
 };
 PluckSteps pluck_steps(const Pluck&, double dt);
 
-// one lumped barrier at most: what the kernels of one contact take
-bool touches_once_without_loss(const String&);
-
 // What a tap of displacement, velocity or nut force reads of the modes' displacements or
 // velocities; none of contact forces.
 std::vector<double> tap_weights(const Tap&, const Modes&, const String&);

@@ -200,10 +200,9 @@ private:
 
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
-    return std::make_unique<Driver<StretchingString, GradientRule>>(
-        std::make_unique<StretchingString>(
-            problem_of_modes(descriptor, scene, settings, impulse_gain)),
-        steps_per_row(settings));
+    return driven(std::make_unique<StretchingString>(
+                      problem_of_modes(descriptor, scene, settings, impulse_gain)),
+                  descriptor, settings, rule_of<GradientRule>(settings));
 }
 }  // namespace
 

@@ -15,9 +15,8 @@ template <class Rule>
 std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
-    return driven<Rule>(
-        std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
-        descriptor, settings);
+    return driven(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
+                  descriptor, settings, rule_of<Rule>(settings));
 }
 }  // namespace
 

@@ -6,6 +6,7 @@
 namespace jvari {
 
 template class ThreePointModesBy<ThreePointPass>;
+template class Driver<ThreePointModes>;
 
 void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings& settings,
               ModalGain gain) {

@@ -27,7 +27,7 @@
 
 #include "scenes/excitation.hpp"
 #include "schemes/body/body_modes.hpp"
-#include "schemes/driver/string_step.hpp"
+#include "schemes/driver/driver.hpp"
 #include "schemes/modal/kernels/three_point_pass.hpp"
 #include "schemes/modal/modal_string.hpp"
 #include "schemes/modal/three_point.hpp"
@@ -305,5 +305,6 @@ private:
 
 extern template class ThreePointModesBy<ThreePointPass>;
 using ThreePointModes = ThreePointModesBy<ThreePointPass>;
+extern template class Driver<ThreePointModes>;
 
 }  // namespace jvari

@@ -11,6 +11,8 @@
 
 namespace jvari {
 
+template class Driver<TwoPointModes>;
+
 namespace {
 using Column = TwoPointColumn;
 
@@ -93,6 +95,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         for (const AlignedVector& g : g_) pluck_.theta.push_back(gram(g, g_e_));
         const PluckSteps steps = pluck_steps(*s.pluck, dt_);
         pluck_.first = steps.first;
+        pluck_.steps = steps.count;
         for (long n = steps.first; n < steps.first + steps.count; ++n)
             pluck_.mean.push_back(0.5 *
                                   (force(*s.pluck, n * dt_) + force(*s.pluck, (n + 1) * dt_)));
@@ -113,7 +116,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         for (const AlignedVector* b : all) p_.theta.push_back(gram(*a, *b));
 
     for (const Tap& tap : scene.taps) {
-        TapOfModes t{tap.quantity, {}, {}};
+        TapOfModes t;
         if (const auto w = tap_weights(tap, modes, s); !w.empty()) t.on_y = scaled(w);
         if (tap.quantity == Quantity::velocity) {  // p/m = 2q/dt, q = J u/2 + A y
             t.on_u = t.on_y;
@@ -121,6 +124,11 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
                 t.on_u[i] *= J_[i] / dt_;
                 t.on_y[i] *= 2 * A[i] / dt_;
             }
+        }
+        std::vector<double> one(p_.count());  // 1 N of each point
+        for (int p = 0; t.on_y.empty() && p < p_.count(); one[p++] = 0) {
+            one[p] = 1;
+            t.on_mean.push_back(heard_force(tap.quantity, p_, one.data()));
         }
         taps_.push_back(std::move(t));
     }
@@ -131,6 +139,14 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         const bool barrier = p_.contacts.count() == 1, thread = !p_.threads.empty();
         if (barrier) put(Column::g_b, g_.front());
         if (thread) put(Column::g_c, g_.back());
+        const auto theta = [&](std::size_t a, std::size_t b) {
+            return p_.theta[a * g_.size() + b];
+        };
+        const auto of_pluck = [&](std::size_t a) { return s.pluck ? pluck_.theta[a] : 0; };
+        const std::size_t last = g_.size() - 1;
+        if (barrier) m_.theta_bb = theta(0, 0), m_.theta_be = of_pluck(0);
+        if (thread) m_.theta_cc = theta(last, last), m_.theta_ce = of_pluck(last);
+        if (barrier && thread) m_.theta_bc = theta(0, last);
         unplucked_ = two_point_pass(barrier, thread, false);
         plucked_ = two_point_pass(barrier, thread, true);
     }
@@ -144,7 +160,7 @@ void TwoPointModes::put(Column column, const AlignedVector& values) {
 void TwoPointModes::reset() noexcept {
     put(Column::y, y0_);
     put(Column::u, u0_);
-    step_ = 0;
+    m_.step = 0;
     sum_ = 0;
     m_.y_b = m_.u_b = m_.y_c = m_.u_c = 0;
     if (!unplucked_) return;
@@ -154,8 +170,8 @@ void TwoPointModes::reset() noexcept {
 }
 
 void TwoPointModes::approach(bool) noexcept {
-    const long k = step_ - pluck_.first;
-    F_e_ = k < 0 || k >= static_cast<long>(pluck_.mean.size()) ? 0 : pluck_.mean[k];
+    const long k = m_.step - pluck_.first;
+    F_e_ = k < 0 || k >= pluck_.steps ? 0 : pluck_.mean[k];
     sum_ = 0;
     const std::size_t contacts = p_.contacts.laws.size();
     for (std::size_t a = 0; a < g_.size(); ++a) {
@@ -163,8 +179,8 @@ void TwoPointModes::approach(bool) noexcept {
             older_[a] = a < contacts ? m_.y_b : m_.y_c;
             free_[a] = a < contacts ? m_.u_b : m_.u_c;
         } else {
-            older_[a] = two_point_dot(g_[a].data(), m_, Column::y);
-            free_[a] = two_point_dot(g_[a].data(), m_, Column::u);
+            older_[a] = dot_(g_[a].data(), m_, Column::y);
+            free_[a] = dot_(g_[a].data(), m_, Column::u);
         }
         sum_ += older_[a];
         if (F_e_ != 0) free_[a] += pluck_.theta[a] * F_e_;
@@ -190,13 +206,13 @@ Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
         spent.dissipated += 0.5 * at(Column::loss, i) * s * s;
         if (F_e_ != 0) spent.supplied += F_e_ * g_e_[i] * s;
     }
-    ++step_;
     if (unplucked_) {
         const std::size_t c = p_.contacts.laws.size();
         (F_e_ != 0 ? plucked_ : unplucked_)(m_, c == 1 ? force[0] : 0,
                                             p_.threads.empty() ? 0 : force[c], F_e_);
         return spent;
     }
+    ++m_.step;
     for (int from = 0; from < m_.modes; from += two_point_line) {
         double *y = m_.stream + two_point_at(Column::y, from),
                *u = m_.stream + two_point_at(Column::u, from);
@@ -212,8 +228,38 @@ Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
     return spent;
 }
 
+void TwoPointModes::fuse(ContactAndThread* touching, Residual* series, int steps_per_row) {
+    if (!unplucked_ || !touching) return;
+    fused_ = two_point_kernel(touching->contact, touching->thread, series && p_.count() > 0);
+    touching_ = touching;
+    in_series_ = series;
+    steps_per_row_ = steps_per_row;
+    m_.summed_again = two_point_summed_again;
+    for (std::size_t k = 0; k < taps_.size(); ++k) {
+        const TapOfModes& of = taps_[k];
+        TwoPointTap t{of.on_y.empty() ? nullptr : of.on_y.data(),
+                      of.on_u.empty() ? nullptr : of.on_u.data()};
+        std::copy(of.on_mean.begin(), of.on_mean.end(), t.on_mean);
+        if (p_.series && !p_.series->taps[k].empty())
+            std::copy_n(p_.series->taps[k].begin(), p_.count(), t.on_P);
+        fused_taps_.push_back(t);
+    }
+}
+
+FusedRows TwoPointModes::fused_rows(const Block& out, int row, double* sum) noexcept {
+    const long k = m_.step - pluck_.first;  // the pluck's steps are 0 .. steps - 1
+    long rows = out.rows - row;
+    if (pluck_.steps > 0 && k < pluck_.steps)
+        rows = std::min(rows, std::max(-k, 0L) / steps_per_row_);
+    if (!fused_ || rows == 0) return {};
+    TwoPointRows r{fused_taps_.data(), row, row + static_cast<int>(rows), steps_per_row_, sum};
+    const bool stopped = !fused_(m_, *touching_, in_series_, out, r);
+    sum_ = m_.y_b + m_.y_c;
+    return {r.end - row, r.steps, r.converged, stopped};
+}
+
 void TwoPointModes::reading(int, double* out) const noexcept {
-    for (std::size_t p = 0; p < g_.size(); ++p) out[p] = two_point_dot(g_[p].data(), m_, Column::y);
+    for (std::size_t p = 0; p < g_.size(); ++p) out[p] = dot_(g_[p].data(), m_, Column::y);
 }
 
 double TwoPointModes::stored() const noexcept {
@@ -226,8 +272,8 @@ double TwoPointModes::stored() const noexcept {
 }
 
 double TwoPointModes::inertia() const {
-    const double a = two_point_dot(body_.on_y.data(), m_, Column::y) +
-                     two_point_dot(body_.on_u.data(), m_, Column::u);
+    const double a =
+        dot_(body_.on_y.data(), m_, Column::y) + dot_(body_.on_u.data(), m_, Column::u);
     return 2 / (dt_ * dt_) * (a + body_.theta_e * F_e_);
 }
 
@@ -237,16 +283,10 @@ double TwoPointModes::momentum() const {  // v = 2q/dt
     return 2 / dt_ * sum;
 }
 
-double TwoPointModes::tap(int k, const double* mean) const noexcept {
-    const TapOfModes& t = taps_[k];
-    if (t.on_y.empty()) return heard_force(t.quantity, p_, mean);
-    const double of_y = two_point_dot(t.on_y.data(), m_, Column::y);
-    return t.on_u.empty() ? of_y : of_y + two_point_dot(t.on_u.data(), m_, Column::u);
-}
-
 std::vector<Fact> TwoPointModes::facts() const {
-    return compliance_ > 0 ? std::vector<Fact>{{facts::static_compliance, compliance_}}
-                           : std::vector<Fact>{};
+    std::vector<Fact> f = {{facts::start_phase_offset, offset_}};
+    if (compliance_ > 0) f.push_back({facts::static_compliance, compliance_});
+    return f;
 }
 
 }  // namespace jvari

@@ -11,7 +11,7 @@
 // On a body that moves (schemes/body) its acceleration is one more force.
 #pragma once
 
-#include "schemes/driver/string_step.hpp"
+#include "schemes/driver/driver.hpp"
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/modal_string.hpp"
 
@@ -39,7 +39,14 @@ public:
     void reading(int, double* out) const noexcept;
     double stored() const noexcept;  // (49)
     bool failed() const { return !(std::abs(sum_) < modal_overflow); }
-    double tap(int k, const double* mean) const noexcept;
+    double tap(int k, const double* mean) const noexcept {
+        const TapOfModes& t = taps_[k];
+        double sum = 0;
+        if (!t.on_y.empty()) sum += dot_(t.on_y.data(), m_, TwoPointColumn::y);
+        if (!t.on_u.empty()) sum += dot_(t.on_u.data(), m_, TwoPointColumn::u);
+        for (std::size_t p = 0; p < t.on_mean.size(); ++p) sum += t.on_mean[p] * mean[p];
+        return sum;
+    }
     int dofs() const { return 2 * m_.modes; }
     std::vector<Fact> facts() const;
     std::vector<FreeMode> free_modes() const { return free_modes_; }
@@ -48,23 +55,20 @@ public:
     double momentum() const;  // sum mu_i v_i' [kg m/s]
     double pluck() const { return F_e_; }
 
-    // ---- For the kernel of one contact, which makes whole rows (modal_two_point.cpp).
+    // touching: nullptr where the contacts are more, or act by another rule
+    void fuse(ContactAndThread* touching, Residual* series, int steps_per_row);
+    FusedRows fused_rows(const Block&, int row, double* sum) noexcept;
 
+private:
     struct TapOfModes {
-        Quantity quantity;
-        AlignedVector on_y, on_u;  // on_u: velocity only
+        AlignedVector on_y, on_u;     // on_u: velocity only
+        std::vector<double> on_mean;  // of each point's force; of contact forces only
     };
     struct PluckForce {
         std::vector<double> mean;   // in the step first + n [N]
         std::vector<double> theta;  // of each point [m/N]
-        long first = 0;
+        long first = 0, steps = 0;
     };
-    const TwoPointStream& stream() const { return m_; }
-    const PluckForce& pluck_force() const { return pluck_; }
-    const std::vector<TapOfModes>& taps() const { return taps_; }
-    double start_phase_offset() const { return offset_; }  // [rad]
-
-private:
     // what a body that moves reads of the string, and pushes: empty without one
     struct AtBody {
         // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
@@ -88,16 +92,23 @@ private:
     PluckForce pluck_;
     AtBody body_;
     // fused, of one contact and a thread at most, on no body
+    const TwoPointDot dot_ = two_point_dot();
     TwoPointPass unplucked_ = nullptr, plucked_ = nullptr;
+    TwoPointKernel fused_ = nullptr;  // with the obstacle's steps
+    std::vector<TwoPointTap> fused_taps_;
+    long steps_per_row_ = 1;
+    ContactAndThread* touching_ = nullptr;
+    Residual* in_series_ = nullptr;
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;
     std::vector<double> older_, free_;
     // of one contact under a steady force, relative to the true one of the same modes; else 0
     double compliance_ = 0;
-    double offset_ = 0;
-    long step_ = 0;
+    double offset_ = 0;  // of the phase of a start from rest [rad]
     // of the step: the pluck's force [N]; the points' readings added up [m]
     double F_e_ = 0, sum_ = 0;
 };
+
+extern template class Driver<TwoPointModes>;
 
 }  // namespace jvari

@@ -50,15 +50,19 @@ ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& sce
 }
 
 namespace {
-template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
-                             const Settings& settings) {
-    return on_its_support<ThreePointModes, Rule>(
-        descriptor, scene, settings,
+std::unique_ptr<Scheme> spatial_scheme(const Descriptor& descriptor, const Scene& scene,
+                                       const Settings& settings, const RuleChoice& rule) {
+    return on_its_support<ThreePointModes>(
+        descriptor, scene, settings, rule,
         [&](const Scene& one) {
             return std::make_unique<ThreePointModes>(spatial_problem(descriptor, one, settings));
         },
         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
+}
+template <class Rule>
+std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+                             const Settings& settings) {
+    return spatial_scheme(descriptor, scene, settings, rule_of<Rule>(settings));
 }
 
 }  // namespace

@@ -533,9 +533,9 @@ TEST(Radiation, AMassTakesFromAStepWhatItStoresAndLoses) {
     const MassStep in_step(mass, mass / span, span);
     double v = 0.3;
     for (const double moved : {1e-5, -3e-6, 4e-5}) {
-        const double before = v, force = in_step.branch * (moved / span - v),
-                     lost = in_step.lost(moved, v);
-        in_step.follow(moved, v);
+        const double before = v, behind = in_step.behind(moved, v), force = in_step.branch * behind,
+                     lost = in_step.lost(behind);
+        in_step.follow(behind, v);
         EXPECT_GE(lost, 0);
         EXPECT_NEAR(force * moved, lost + 0.5 * mass * (v * v - before * before), 1e-15 * mass);
     }

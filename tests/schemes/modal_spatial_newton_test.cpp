@@ -83,9 +83,9 @@ Run in_form(const std::string& form, const Scene& scene, const Settings& setting
             RunOptions options = {}) {
     if (form == "restricted") return run(modal_spatial_newton, scene, settings, options);
     using String = ThreePointModesBy<DenseForm>;
-    Driver<String, GradientRule> scheme(
+    Driver<String> scheme(
         std::make_unique<String>(spatial_problem(modal_spatial_newton, scene, settings)),
-        steps_per_row(settings));
+        steps_per_row(settings), rule_with<GradientRule>(settings));
     return run(scheme, scene, settings, options);
 }
 Run steps(const Scene& scene, double rate, double tap_rate, int modes,

@@ -38,7 +38,7 @@ void balances(int levels, bool threaded, double beta) {
     for (int draw = 0; draw < 200; ++draw) {
         const Points p = points_of(random, threaded, beta);
         const int n = p.count();
-        Obstacle<Rule> obstacle(p.contacts, p.threads(), p.theta, span, levels);
+        Obstacle obstacle(p.contacts, p.threads(), p.theta, span, levels, rule_with<Rule>({}));
         std::vector<double> older(n), now(n), free(n), force(n), newer(n);
         for (int k = 0; k < n; ++k) {
             older[k] = 1e-4 * unit(random);
@@ -88,8 +88,9 @@ TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h -
     const int n = p.count();
     std::vector<double> half = p.theta;
     for (double& theta : half) theta *= 0.5;
-    Obstacle<GradientRule> start = Obstacle<GradientRule>(p.contacts, p.threads(), p.theta, span, 2)
-                                       .halved(ThreadStart::taut, half);
+    Obstacle start =
+        Obstacle(p.contacts, p.threads(), p.theta, span, 2, rule_with<GradientRule>({}))
+            .halved(ThreadStart::taut, half, nullptr);
     const std::vector<double> older(n, 2e-4), free(n, -3e-4);
     std::vector<double> force(n);
     start.begin(older.data());
@@ -110,7 +111,7 @@ TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is ne
     two.add({1e8, 1}, 0, 0);
     const auto force = [&]<class Rule>(Rule*, const Contacts& contacts,
                                        std::span<const double> compliances) {
-        Obstacle<Rule> obstacle(contacts, {}, compliances, span, 1);
+        Obstacle obstacle(contacts, {}, compliances, span, 1, rule_with<Rule>({}));
         obstacle.begin(older);
         double F[2] = {};
         EXPECT_TRUE(obstacle.solve({older, older, free}, F));

@@ -28,8 +28,8 @@ Points points_of(std::mt19937& random, int contacts, double k, bool thread) {
 
 // Points that are pushed about at random, towards their barriers more often than away. Calls
 // each(step, y before, r, forces).
-template <class Rule, class Each>
-void walk(Obstacle<Rule>& obstacle, const Points& p, Each each) {
+template <class Each>
+void walk(Obstacle& obstacle, const Points& p, Each each) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
     const int n = p.count();
@@ -53,7 +53,7 @@ TEST(RigidRule, ItGivesBackAllThatItTakesNeverPullsAndLetsNothingThrough) {
         for (const int contacts : {1, many}) {
             std::mt19937 random(3);
             const Points p = points_of(random, contacts, rigid, threaded);
-            Obstacle<RigidRule> obstacle(p.contacts, p.threads(), p.theta, span, 1);
+            Obstacle obstacle(p.contacts, p.threads(), p.theta, span, 1, rule_with<RigidRule>({}));
             int strikes = 0, throws_back = 0;
             // no wall is touched yet
             double before =
@@ -89,8 +89,8 @@ TEST(RigidRule, IsWhatTheDiscreteGradientTendsToAsTheBarrierStiffens) {
         const auto motion = [&](auto* rule, double k) {
             std::mt19937 random(3);
             const Points p = points_of(random, contacts, k, true);
-            Obstacle<std::remove_pointer_t<decltype(rule)>> obstacle(p.contacts, p.threads(),
-                                                                     p.theta, span, 1);
+            Obstacle obstacle(p.contacts, p.threads(), p.theta, span, 1,
+                              rule_with<std::remove_pointer_t<decltype(rule)>>({}));
             std::vector<double> all;
             walk(obstacle, p, [&](int step, const auto& y, const auto&, const auto&) {
                 if (step < 60) all.insert(all.end(), y.begin(), y.end());

@@ -12,15 +12,14 @@
 // numbers c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative
 // precision at any rate.
 //
-// Whoever drives the string calls the pass. One contact by the discrete gradient, with a thread,
-// has whole steps in one kernel, points and pass. With what the string lacks in series
-// (contact/residual.hpp) they are the same: theta counts its K in.
+// A scheme calls the pass. Where one contact by the discrete gradient and a thread are all that it
+// touches, a kernel makes whole steps of it: those of obstacle.hpp with what is in series, and the
+// pass.
 #pragma once
 
 #include <cstddef>
-#include <span>
 
-#include "schemes/contact/contact.hpp"
+#include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/residual.hpp"
 #include "schemes/scheme.hpp"
 
@@ -43,59 +42,38 @@ struct TwoPointStream {
     double* stream = nullptr;
     const double* g_e = nullptr;                // pluck; nullptr where the scene has none
     double y_b = 0, y_c = 0, u_b = 0, u_c = 0;  // dots of the present state
+    // theta_zw = g_z.g_w
+    double theta_bb = 0, theta_bc = 0, theta_cc = 0, theta_be = 0, theta_ce = 0;
+    long step = 0;
+    long summed_again = 1;  // steps from one sum of g_z.y to the next
 };
+constexpr long two_point_summed_again = 16;  // in whole steps
+
 using TwoPointPass = void (*)(TwoPointStream&, double F_b, double F_c, double F_e);
 TwoPointPass two_point_pass(bool barrier, bool thread, bool pluck);
 
-// Sum of w and a column, over the padded modes.
-double two_point_dot(const double* w, const TwoPointStream&, TwoPointColumn);
-
-// ---- Rows of one contact at most, and a thread.
-
-constexpr long two_point_summed_again = 16;  // steps from one sum of g_z.y to the next
-
 struct TwoPointTap {                                // what a tap hears of a row:
     const double *on_y = nullptr, *on_u = nullptr;  // weights on the modes; nullptr: none
-    // of the means of the forces of contact and thread since the last row
-    double on_b = 0, on_c = 0;
-    // of the springs in series with them, and of the pluck at the instant
-    double on_P_b = 0, on_P_c = 0, on_e = 0;
+    // of the means of the forces of contact and thread, as far as there are any, and of the springs
+    // in series with them
+    double on_mean[2] = {}, on_P[2] = {};
 };
-
-struct TwoPoint : TwoPointStream {
-    ContactLaw barrier;
-    double h_b = 0;
-    double k_c = 0, r_c = 0, h_c = 0;
-    double dt = 0;
-    double theta = 0, theta_bc = 0, theta_cc = 0, theta_be = 0, theta_ce = 0;  // theta_ze = g_z.g_e
-    // theta_zw = g_z.g_w, of the modes alone
-    double own_bb = 0, own_bc = 0, own_cc = 0;
-    // 1/(1 + phi_c theta_cc)  (47)
-    double phi_c = 0, inverse_c = 1, beta_c = 0;
-
-    const double* pluck = nullptr;  // mean force of step pluck_first + n, n < pluck_steps [N]
-    // force at the instant pluck_first + n, n <= pluck_steps [N]; where something is in series
-    const double* pluck_now = nullptr;
-    long pluck_first = 0, pluck_steps = 0;
-    std::span<const TwoPointTap> taps;
-    int steps_per_row = 1;
-
-    // what changes from step to step
-    ResidualPair series;
-    long step = 0;
-    double impulse_b = 0, impulse_c = 0;         // sums of forces since the last row [N]
-    double supplied = 0, dissipated = 0;         // since the last row [J]
-    ForceRange range;                            // over the run
-    double depth = 0;                            // [m]
-    double iterations = 0, iterations_most = 0;  // of the contact solver
-    Status status;
+struct TwoPointRows {
+    const TwoPointTap* taps;
+    int first, end;  // rows of the block
+    long steps_per_row;
+    double* sum;            // of the points' forces since the last row [N]
+    long steps = 0;         // made
+    bool converged = true;  // the last of them
 };
+// Rows without a pluck, in the widest vector instructions of this machine, from the dots y_b ..
+// u_c. False: the caller wants no more.
+using TwoPointKernel = bool (*)(TwoPointStream&, ContactAndThread&, Residual*, const Block&,
+                                TwoPointRows&);
+TwoPointKernel two_point_kernel(bool barrier, bool thread, bool in_series);
 
-// Writes the taps of a row and makes its steps, in the widest vector instructions of this machine,
-// from the dots y_b .. u_c. False: the caller wants no more.
-using TwoPointRow = bool (*)(TwoPoint&, const Block&, int row);
-enum class ContactKind { none, linear, power };
-enum class Compliance { own, matched };  // the modes' own, or with C in series
-TwoPointRow two_point_row(ContactKind, bool thread, Compliance);
+// Sum of w and a column, over the padded modes.
+using TwoPointDot = double (*)(const double* w, const TwoPointStream&, TwoPointColumn);
+TwoPointDot two_point_dot();
 
 }  // namespace jvari
