@@ -2,13 +2,7 @@
 // figures are ours (scenes/sitar_c5.toml says which).
 #pragma once
 
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "schemes/registry.hpp"
-#include "schemes/run.hpp"
+#include "tests/runs.hpp"
 
 namespace jvari {
 
@@ -46,29 +40,9 @@ inline Tap tap(Quantity q, double position = 0) {
     return t;
 }
 
-inline const Descriptor& scheme_named(const std::string& name) {
-    for (const Descriptor& d : schemes())
-        if (name == d.name) return d;
-    throw std::runtime_error("no scheme " + name);
-}
-
-using SchemeOptions = std::vector<std::pair<std::string, std::string>>;
-
-inline Run run_sitar(const char* name, const Scene& scene, const SchemeOptions& options = {},
-                     double sample_rate = 44100, double tap_rate = 44100) {
-    Settings settings;
-    settings.sample_rate = sample_rate;
-    settings.tap_rate = tap_rate;
-    settings.options = options;
-    RunOptions run_options;
-    run_options.energy = true;
-    return run(scheme_named(name), scene, settings, run_options);
-}
-
-inline std::optional<double> fact(const std::vector<Fact>& facts, const std::string& name) {
-    for (const Fact& f : facts)
-        if (f.name == name) return f.value;
-    return std::nullopt;
+inline Run run_sitar(const std::string& form, const Scene& scene, double sample_rate = 44100,
+                     double tap_rate = 44100) {
+    return play(form, scene, {sample_rate, tap_rate, 0, {}}, {.energy = true});
 }
 
 }  // namespace jvari

@@ -11,121 +11,98 @@
 namespace {
 using namespace jvari;
 
-void each_string(Scene& scene, auto change) {
+void strings(Scene& scene, auto change) {
     for (String& s : scene.strings) change(s);
 }
-void each_lumped(Scene& scene, auto change) {
-    each_string(scene, [&](String& s) {
+void lumped(Scene& scene, auto change) {
+    strings(scene, [&](String& s) {
         for (Barrier& b : s.barriers)
-            if (auto* lumped = std::get_if<LumpedBarrier>(&b)) change(*lumped);
+            if (auto* barrier = std::get_if<LumpedBarrier>(&b)) change(*barrier);
     });
 }
-template <class Law>
-void each_law(Scene& scene, auto change) {
-    each_string(scene, [&](String& s) {
-        if (auto* law = std::get_if<Law>(&s.damping)) change(*law);
+void powers(Scene& scene, auto change) {
+    lumped(scene, [&](LumpedBarrier& b) {
+        if (b.exponent != 1) change(b);
     });
 }
-void second_barrier(Scene& scene, auto change) {
-    each_string(scene, [&](String& s) {
+void second(Scene& scene, auto change) {
+    strings(scene, [&](String& s) {
         if (s.barriers.size() > 1) change(std::get<LumpedBarrier>(s.barriers[1]));
     });
 }
+template <class Law>
+void laws(Scene& scene, auto change) {
+    strings(scene, [&](String& s) {
+        if (auto* law = std::get_if<Law>(&s.damping)) change(*law);
+    });
+}
+template <class Part>
+void parts(Scene& scene, std::optional<Part> String::*part, auto change) {
+    strings(scene, [&](String& s) {
+        if (s.*part) change(*(s.*part));
+    });
+}
+void body(Scene& scene, auto change) {
+    if (scene.body)
+        for (BodyMode& m : scene.body->modes) change(m);
+}
+void swap_barriers(Scene& scene) {
+    if (scene.strings.size() > 1) std::swap(scene.strings[0].barriers, scene.strings[1].barriers);
+}
+
+using Air = QualityFactorDamping;
+using Poly = PolynomialDamping;
 
 struct Deaf {
-    const char *name, *of;
+    const char* name;
     void (*change)(Scene&);
+    const char* of = "modal_two_point";
     double nut = 1;  // factor of the force at the nut of a string in contact
 };
 
+constexpr const char* waveguide = "sitar_waveguide";
 constexpr Deaf table_of[] = {
-    {"sigma1_up", "modal_two_point",
-     [](Scene& s) { each_law<PolynomialDamping>(s, [](auto& d) { d.sigma1 *= 1.2; }); }},
-    {"sigma3_double", "modal_two_point",
-     [](Scene& s) { each_law<PolynomialDamping>(s, [](auto& d) { d.sigma3 *= 2; }); }},
-    {"contact_loss_half", "modal_two_point",
-     [](Scene& s) { each_lumped(s, [](auto& b) { b.contact_loss *= 0.5; }); }},
-    {"exponent_up", "modal_two_point",
+    {"sigma1_up", [](Scene& s) { laws<Poly>(s, [](auto& d) { d.sigma1 *= 1.2; }); }},
+    {"sigma3_double", [](Scene& s) { laws<Poly>(s, [](auto& d) { d.sigma3 *= 2; }); }},
+    {"contact_loss_half", [](Scene& s) { lumped(s, [](auto& b) { b.contact_loss *= 0.5; }); }},
+    {"exponent_up", [](Scene& s) { powers(s, [](auto& b) { b.exponent *= 1.05; }); }},
+    {"power_stiffness_up", [](Scene& s) { powers(s, [](auto& b) { b.stiffness.k *= 1.2; }); }},
+    {"power_stiffness_triple", [](Scene& s) { powers(s, [](auto& b) { b.stiffness.k *= 3; }); }},
+    {"bending_up", [](Scene& s) { strings(s, [](auto& x) { x.bending_stiffness *= 1.01; }); }},
+    {"thread_height_ignored",
+     [](Scene& s) { parts(s, &String::thread, [](auto& t) { t.height = 0; }); }},
+    {"pluck_start_ignored",
+     [](Scene& s) { parts(s, &String::pluck, [](auto& p) { p.start = 0; }); }},
+    {"second_barrier_lower", [](Scene& s) { second(s, [](auto& b) { b.height -= 1e-4; }); }},
+    {"second_barrier_softer", [](Scene& s) { second(s, [](auto& b) { b.stiffness.k *= 0.5; }); }},
+    {"barriers_swapped", swap_barriers},
+    {"diameter_up", [](Scene& s) { laws<Air>(s, [](auto& d) { d.diameter *= 1.2; }); }},
+    {"air_viscosity_up", [](Scene& s) { laws<Air>(s, [](auto& d) { d.air_viscosity *= 1.2; }); }},
+    {"air_density_up", [](Scene& s) { laws<Air>(s, [](auto& d) { d.air_density *= 1.2; }); }},
+    {"viscoelastic_ignored",
+     [](Scene& s) { laws<Air>(s, [](auto& d) { d.viscoelastic_angle = 0; }); }},
+    {"thermoelastic_ignored",
+     [](Scene& s) { laws<Air>(s, [](auto& d) { d.thermoelastic_loss = 0; }); }},
+    {"measured_decay_up",
      [](Scene& s) {
-         each_lumped(s, [](auto& b) { b.exponent = b.exponent == 1 ? 1 : 1.05 * b.exponent; });
-     }},
-    {"power_stiffness_up", "modal_two_point",
-     [](Scene& s) { each_lumped(s, [](auto& b) { b.stiffness.k *= b.exponent == 1 ? 1 : 1.2; }); }},
-    {"power_stiffness_triple", "modal_two_point",
-     [](Scene& s) { each_lumped(s, [](auto& b) { b.stiffness.k *= b.exponent == 1 ? 1 : 3; }); }},
-    {"bending_up", "modal_two_point",
-     [](Scene& s) { each_string(s, [](String& x) { x.bending_stiffness *= 1.01; }); }},
-    {"thread_height_ignored", "modal_two_point",
-     [](Scene& s) {
-         each_string(s, [](String& x) {
-             if (x.thread) x.thread->height = 0;
-         });
-     }},
-    {"pluck_start_ignored", "modal_two_point",
-     [](Scene& s) {
-         each_string(s, [](String& x) {
-             if (x.pluck) x.pluck->start = 0;
-         });
-     }},
-    {"second_barrier_lower", "modal_two_point",
-     [](Scene& s) { second_barrier(s, [](auto& b) { b.height -= 1e-4; }); }},
-    {"second_barrier_softer", "modal_two_point",
-     [](Scene& s) { second_barrier(s, [](auto& b) { b.stiffness.k *= 0.5; }); }},
-    {"barriers_swapped", "modal_two_point",
-     [](Scene& s) {
-         if (s.strings.size() > 1) std::swap(s.strings[0].barriers, s.strings[1].barriers);
-     }},
-    {"diameter_up", "modal_two_point",
-     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.diameter *= 1.2; }); }},
-    {"air_viscosity_up", "modal_two_point",
-     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.air_viscosity *= 1.2; }); }},
-    {"air_density_up", "modal_two_point",
-     [](Scene& s) { each_law<QualityFactorDamping>(s, [](auto& d) { d.air_density *= 1.2; }); }},
-    {"viscoelastic_ignored", "modal_two_point",
-     [](Scene& s) {
-         each_law<QualityFactorDamping>(s, [](auto& d) { d.viscoelastic_angle = 0; });
-     }},
-    {"thermoelastic_ignored", "modal_two_point",
-     [](Scene& s) {
-         each_law<QualityFactorDamping>(s, [](auto& d) { d.thermoelastic_loss = 0; });
-     }},
-    {"measured_decay_up", "modal_two_point",
-     [](Scene& s) {
-         each_law<TableDamping>(s, [](auto& d) {
+         laws<TableDamping>(s, [](auto& d) {
              for (double& x : d.decay_rate) x *= 1.5;
          });
      }},
-    {"body_mass_up", "modal_two_point",
-     [](Scene& s) {
-         if (s.body)
-             for (BodyMode& m : s.body->modes) m.mass *= 1.1;
-     }},
-    {"body_damping_double", "modal_two_point",
-     [](Scene& s) {
-         if (s.body)
-             for (BodyMode& m : s.body->modes) m.damping *= 2;
-     }},
-    {"rotation_double", "sitar_waveguide",
-     [](Scene& s) {
-         each_string(s, [](String& x) {
-             if (x.polarisation) x.polarisation->rotation *= 2;
-         });
-     }},
-    {"rotation_of_the_wrong_sign", "sitar_waveguide",
-     [](Scene& s) {
-         each_string(s, [](String& x) {
-             if (x.polarisation) x.polarisation->rotation *= -1;
-         });
-     }},
-    {"pluck_angle_of_the_wrong_sign", "sitar_waveguide",
-     [](Scene& s) {
-         each_string(s, [](String& x) {
-             if (x.polarisation) x.polarisation->pluck_angle *= -1;
-         });
-     }},
-    {"axial_stiffness_up", "modal_tension",
-     [](Scene& s) { each_string(s, [](String& x) { x.axial_stiffness *= 1.05; }); }},
-    {"nut_up_in_contact", "modal_two_point", [](Scene&) {}, 1.01},
+    {"body_mass_up", [](Scene& s) { body(s, [](auto& m) { m.mass *= 1.1; }); }},
+    {"body_damping_double", [](Scene& s) { body(s, [](auto& m) { m.damping *= 2; }); }},
+    {"rotation_double",
+     [](Scene& s) { parts(s, &String::polarisation, [](auto& p) { p.rotation *= 2; }); },
+     waveguide},
+    {"rotation_of_the_wrong_sign",
+     [](Scene& s) { parts(s, &String::polarisation, [](auto& p) { p.rotation *= -1; }); },
+     waveguide},
+    {"pluck_angle_of_the_wrong_sign",
+     [](Scene& s) { parts(s, &String::polarisation, [](auto& p) { p.pluck_angle *= -1; }); },
+     waveguide},
+    {"axial_stiffness_up", [](Scene& s) { strings(s, [](auto& x) { x.axial_stiffness *= 1.05; }); },
+     "modal_tension"},
+    {"nut_up_in_contact", [](Scene&) {}, "modal_two_point", 1.01},
 };
 
 class Played : public Scheme {

@@ -1,13 +1,8 @@
 // Steps of a collocated contact: few, as long as their errors allow, where the force is no
 // polynomial.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "reference/exact/contact_steps.hpp"
-#include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
-#include "schemes/run.hpp"
+#include "tests/runs.hpp"
 
 namespace jvari {
 namespace {
@@ -75,8 +70,8 @@ TEST(ContactSteps, ASpringsAreAsLongAsASmoothForceAllows) {
 TEST(ContactSteps, AreFewForEachEventOfAParabolaWhoseErrorFollowsTheTolerance) {
     Scene scene = read_scene("sitar_parabola");
     scene.duration = 2e-3;
-    const auto at = [&](const char* tolerance) {
-        return jvari::run(exact_contact, scene, {0, 44100, 0, {{"tolerance", tolerance}}});
+    const auto at = [&](const std::string& tolerance) {
+        return play("exact_contact tolerance=" + tolerance, scene, {0, 44100, 0, {}});
     };
     const auto truth = at("1e-13");
     const struct {
@@ -85,19 +80,11 @@ TEST(ContactSteps, AreFewForEachEventOfAParabolaWhoseErrorFollowsTheTolerance) {
     } runs[] = {{"1e-6", 1e-6, 5.5}, {"1e-9", 1e-9, 9.5}, {"1e-12", 1e-12, 20}};
     constexpr double rounding = 1e-11;  // what 694 events make of it
     for (const auto& r : runs) {
-        const auto found = at(r.tolerance);
-        const auto fact = [&](const std::string& name) {
-            for (const Fact& f : found.facts)
-                if (f.name == name) return f.value;
-            return 0.0;
-        };
-        EXPECT_EQ(fact("events"), 694) << r.tolerance;
-        EXPECT_LT(fact("contact_steps"), r.most * 694) << r.tolerance;
-        EXPECT_LT(relative_difference(found.trace.column(1), truth.trace.column(1)),
-                  r.value + rounding)
-            << r.tolerance;
-        EXPECT_LT(relative_difference(found.trace.column(2), truth.trace.column(2)), r.value)
-            << r.tolerance;
+        const auto met = at(r.tolerance);
+        EXPECT_EQ(fact(met, "events"), 694) << r.tolerance;
+        EXPECT_LT(fact(met, "contact_steps"), r.most * 694) << r.tolerance;
+        EXPECT_LT(apart(met, truth, 1), r.value + rounding) << r.tolerance;
+        EXPECT_LT(apart(met, truth, 2), r.value) << r.tolerance;
     }
 }
 

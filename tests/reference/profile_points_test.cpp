@@ -1,23 +1,14 @@
 // Profiles under the references: the rule that makes points of them, the scheme that shares those
 // points, and closed forms of strings against long obstacles.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <numbers>
 
 #include "reference/profile_points.hpp"
-#include "reference/references.hpp"
-#include "schemes/run.hpp"
-#include "tests/run_figures.hpp"
+#include "tests/runs.hpp"
 
 namespace jvari {
-
-extern const Descriptor modal_spatial_newton;
-
 namespace {
 
 using std::numbers::pi;
-using Options = std::vector<std::pair<std::string, std::string>>;
 
 String ideal_string() {
     String s;
@@ -85,11 +76,8 @@ TEST(ProfilePoints, RefuseWhatComesToNoneOrTooMany) {
     EXPECT_THROW(with_points(s, 9, {0}), Refusal);
     s.barriers.push_back(s.barriers[0]);
     EXPECT_THROW(with_points(s, 9, {most_points / 2 + 1}), Refusal);
-    const auto reason = [&](const char* nodes) -> std::string {
-        try {
-            run(sundials, scene_of(s, 1e-3), {0, 44100, 9, {{"nodes", nodes}}});
-        } catch (const Refusal& refusal) { return refusal.what(); }
-        return "accepted";
+    const auto reason = [&](const std::string& nodes) {
+        return refusal("sundials nodes=" + nodes, scene_of(s, 1e-3), {0, 44100, 9, {}});
     };
     EXPECT_EQ(reason("257"), "option nodes: expected grid, or a whole number from 1 to 256");
     EXPECT_EQ(reason("0"), "option nodes: expected grid, or a whole number from 1 to 256");
@@ -105,32 +93,14 @@ TEST(ProfileReferences, AgreeOnALinearProfile) {
     s.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0, 0.1, {1e8}, 1, 0}};
     s.initial = TriangleInitial{0.2, 3e-3, 0.05};
     const Scene scene = scene_of(s, 3e-3);
-    const auto truth = run(exact_contact, scene, {0, 44100, 30, {{"nodes", "12"}}});
-    const auto r = run(sundials, scene, {0, 44100, 30, {{"nodes", "12"}}});
+    const auto truth = play("exact_contact nodes=12", scene, {0, 44100, 30, {}}),
+               r = play("sundials nodes=12", scene, {0, 44100, 30, {}});
     EXPECT_EQ(fact(truth, "contact_points"), 12);
     EXPECT_EQ(fact(r, "contact_points"), 12);
     EXPECT_GT(fact(truth, "events"), 100);
     EXPECT_EQ(fact(r, "events"), fact(truth, "events"));
-    EXPECT_LT(relative_l2(r.trace.column(0), truth.trace.column(0)), 1e-9);
-    EXPECT_LT(relative_l2(r.trace.column(1), truth.trace.column(1)), 1e-7);
-}
-
-TEST(ProfileReferences, AreWhatTheSpatialSchemeConvergesToOnItsOwnNodes) {
-    String s = ideal_string();
-    s.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0, 0.1, {1e9}, 1.3, 0}};
-    s.initial = TriangleInitial{0.2, 3e-3, 0.05};
-    s.damping = PolynomialDamping{2, 0, 0};
-    const Scene scene = scene_of(s, 4e-3);
-    const auto truth = run(sundials, scene, {0, 44100, 47, {{"nodes", "grid"}}});  // 6 nodes
-    std::vector<double> error;
-    for (const int multiple : {64, 128, 256, 512}) {
-        const auto r = run(modal_spatial_newton, scene, {44100.0 * multiple, 44100, 47, {}});
-        error.push_back(relative_l2(r.trace.column(0), truth.trace.column(0)));
-        if (error.size() > 1) {
-            EXPECT_NEAR(std::log2(error[error.size() - 2] / error.back()), 2, 0.03) << multiple;
-        }
-    }
-    EXPECT_LT(error.back(), 4e-6);
+    EXPECT_LT(apart(r, truth, 0), 1e-9);
+    EXPECT_LT(apart(r, truth, 1), 1e-7);
 }
 
 // ---- Static wrap. An ideal string whose ends lie h below the top of the parabola g = h - c (x -
@@ -246,7 +216,8 @@ TEST(FlatObstacle, ReflectsTheFirstModeAsItsClosedFormSays) {
                                         : -omega / stiff * std::sin(stiff * (since - pi / omega))));
                 }
                 ASSERT_EQ(r.status.outcome, Outcome::ok) << d->name << " " << nodes << " " << K;
-                EXPECT_LT(relative_l2(r.trace.column(0), want), d == &exact_contact ? 1e-13 : 1e-9)
+                EXPECT_LT(relative_difference(r.trace.column(0), want),
+                          d == &exact_contact ? 1e-13 : 1e-9)
                     << d->name << " " << nodes << " " << K;
             }
     }
@@ -282,8 +253,8 @@ TEST(FlatObstacle, ThrowsAPluckedStringBackTheWayItCame) {
             rigid.push_back(at(0.5 * period - std::abs(std::fmod(t, period) - 0.5 * period)));
             delayed.push_back(at(std::min({since, 0.5 * period, longer - since})));
         }
-        const double error = relative_l2(r.trace.column(0), rigid);
-        EXPECT_LT(relative_l2(r.trace.column(0), delayed), 0.25 * error) << ratio;
+        const double error = relative_difference(r.trace.column(0), rigid);
+        EXPECT_LT(relative_difference(r.trace.column(0), delayed), 0.25 * error) << ratio;
         if (last > 0) { EXPECT_NEAR(std::log2(last / error), 1, 0.1) << ratio; }
         last = error;
     }

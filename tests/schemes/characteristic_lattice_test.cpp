@@ -1,10 +1,5 @@
 // An ideal string over a rigid wall on the lattice of its characteristics: the reference against
 // the closed form.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/sitar/sitar.hpp"
 #include "tests/sitar_scenes.hpp"
@@ -21,13 +16,6 @@ std::vector<double> on_lattice(const Scene& scene, int cells, double tap_rate) {
     const auto y = r.trace.column(0);
     return {y.begin(), y.begin() + r.trace.rows};
 }
-double difference(const std::vector<double>& a, const std::vector<double>& b) {  // relative, L2
-    double d = 0, n = 0;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        d += (a[i] - b[i]) * (a[i] - b[i]), n += b[i] * b[i];
-    return std::sqrt(d / n);
-}
-
 // Bamberger & Schatzman: u = w + 2 sup (-w)^+ over the backward cone, w by d'Alembert; here with
 // the wall under the whole string, until the ends' reflections of the contact arrive. The rows of a
 // tap at 0.6 L.
@@ -61,14 +49,14 @@ TEST(CharacteristicLattice, TendsToTheClosedFormUntilTheEndsAreHeard) {
     const auto coarse = on_lattice(scene, 1260, tap_rate), fine = on_lattice(scene, 5040, tap_rate);
     const auto exact =
         closed_form(scene.strings[0], tap_rate, static_cast<long>(fine.size()), 4200);
-    EXPECT_LT(difference(fine, exact), 2e-3);
-    EXPECT_NEAR(difference(coarse, exact) / difference(fine, exact), 4, 0.5)
+    EXPECT_LT(relative_difference(fine, exact), 2e-3);
+    EXPECT_NEAR(relative_difference(coarse, exact) / relative_difference(fine, exact), 4, 0.5)
         << "its error falls as one over the cells";
     Scene longer = scene;
     longer.duration = 1.3 * across;
     const auto later = on_lattice(longer, 4200, tap_rate);
-    EXPECT_GT(difference(later, closed_form(scene.strings[0], tap_rate,
-                                            static_cast<long>(later.size()), 4200)),
+    EXPECT_GT(relative_difference(later, closed_form(scene.strings[0], tap_rate,
+                                                     static_cast<long>(later.size()), 4200)),
               0.02)
         << "the closed form knows nothing of the ends";
 }

@@ -2,24 +2,18 @@
 // four runs of one, to the last bit.
 #include "schemes/several_strings.hpp"
 
-#include <gtest/gtest.h>
-
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <typeinfo>
 
 #include "bench/check/allocations.hpp"
-#include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
-#include "schemes/registry.hpp"
-#include "schemes/run.hpp"
 #include "schemes/vector_instructions.hpp"
 #include "tests/c3.hpp"
+#include "tests/runs.hpp"
 
 namespace jvari {
 namespace {
@@ -47,13 +41,8 @@ Scene scene_for(const Descriptor& d) {
         candidates.push_back(read_scene(name));
     candidates.push_back(
         read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}));
-    for (const Scene& s : candidates) {
-        if (!represents(d, s)) continue;
-        try {
-            make_scheme(d, s, settings);
-            return s;
-        } catch (const Refusal&) {}
-    }
+    for (const Scene& s : candidates)
+        if (represents(d, s) && refusal(d.name, s, settings).empty()) return s;
     throw std::runtime_error(std::string(d.name) + " takes no scene of this test");
 }
 
@@ -77,7 +66,8 @@ Instrument instrument_of(const Scene& base) {
     i.whole.strings.clear();
     std::vector<Tap> sums{{"nut", Quantity::nut_force, {}, 0}};
     if (!base.strings.front().barriers.empty())
-        sums.push_back({"bridge", Quantity::bridge_force, {}, 0});
+        for (const Quantity q : {Quantity::bridge_force, Quantity::driving_force})
+            sums.push_back({name_of(q), q, {}, 0});
     if (base.strings.front().thread) sums.push_back({"thread", Quantity::thread_force, {}, 0});
     i.whole.taps = sums;
     for (int k = 0; k < strings; ++k) {
@@ -307,9 +297,7 @@ TEST(SeveralStrings, ASumIsOverTheStringsThatHaveTheForce) {
 }
 
 TEST(SeveralStrings, TheLimitIsThatOfTheStringNearestToIt) {
-    const Descriptor& d = *std::find_if(
-        schemes().begin(), schemes().end(),
-        [](const Descriptor& x) { return std::string(x.name) == "finite_difference_explicit"; });
+    const Descriptor& d = named("finite_difference_explicit");
     Scene scene = c3_pluck();
     const Settings on_a_grid{tap_rate, tap_rate, 0, {{"grid", "40"}}};
     const double slow = margin_of(d, scene, on_a_grid);

@@ -24,8 +24,7 @@ public:
         Scene scene = sitar_scene();
         if (two_planes) scene.strings[0].polarisation = Polarisation{0.05, 0};
         scene.taps = {tap(Quantity::nut_force)};
-        scheme_ =
-            make_scheme(scheme_named("sitar_waveguide"), scene, {256 * 44100.0, 44100, 0, {}});
+        scheme_ = make_scheme(named("sitar_waveguide"), scene, {256 * 44100.0, 44100, 0, {}});
     }
     int dofs() const { return scheme_->dofs(); }
     double least = 1e9;  // of the runs so far [s]
