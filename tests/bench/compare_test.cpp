@@ -417,8 +417,8 @@ TEST(CellsTable, EachColumnHasWhatItsNameSays) {
         const double x = 0.01 * static_cast<double>(tap + 1);
         record.against.trust.figure.push_back({x, x + 0.001, x + 0.002});
     }
-    cell.clock.wall = {5, 0.02, 0.016, 0.026, 0.01, 0.03};
-    cell.clock.processor = {5, 0.018, 0.015, 0.025, 0.01, 0.03};
+    cell.clock.wall = {5, 0.02, 0.016, 0.026};
+    cell.clock.processor = {5, 0.018, 0.015, 0.025};
     cell.clock.worst_block = 0.4;
     record.cell = cell;
     plan.jobs.push_back({&point, cell});

@@ -57,9 +57,8 @@ TEST(EndForces, AreTheMeanOfThoseAtBothEndsForOnePointAndForSeveral) {
                 Points p;
                 for (int a = 0; a < n; ++a) p.contacts.add({alpha == 1 ? 1e7 : 1e9, alpha}, 0, 0);
                 couple(p, random, 1e-3);
-                EndForcesRule rule(p.contacts.laws, p.theta, 1);
                 const double share = 0.5 + 0.4 * unit(random);
-                rule.take_share(share);
+                EndForcesRule rule(p.contacts.laws, p.theta, share);
                 double eta[3], b[3], r[3], F[3];
                 for (int a = 0; a < n; ++a)
                     eta[a] = 1e-6 * unit(random), b[a] = 3e-6 * unit(random);
