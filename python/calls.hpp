@@ -17,11 +17,11 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare.hpp"
 #include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/record/pareto.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/study/columns.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/facet.hpp"
 #include "bench/suite/maps.hpp"
@@ -162,10 +162,10 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
     r.repeats = repeats;
     r.jobs = jobs;
     const compare::Catalogue catalogue(plugins());
-    return rows_of(unlocked(
+    return parsed(unlocked(
         [&] {
-            return compare::with_bounds(
-                compare::cells_of(compare::compare(r, catalogue, PythonListener())));
+            return store::indented(compare::json_of(
+                compare::cells_of(compare::compare(r, catalogue, PythonListener()))));
         },
         [] { return std::string("nothing is kept but long runs of references"); }));
 }
@@ -181,6 +181,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
         if (!folder.empty()) std::filesystem::create_directories(folder / name);
         return folder.empty() ? folder : folder / name;
     };
+    std::string cells;
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
         [&] {
@@ -189,9 +190,8 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
                 PythonListener());
             const study::Study run =
                 study::run(plan, below("cells"), resume, jobs, PythonListener());
-            tables.emplace_back(
-                "cells",
-                compare::with_bounds(compare::with_front(study::table_of(plan, run.records))));
+            cells = store::indented(
+                compare::json_of(compare::with_front(study::cells_of(plan, run.records))));
             tables.emplace_back("maps", suite::maps_table(maps));
             tables.emplace_back("boundaries", suite::boundaries_table(maps, {}));
             for (const suite::Facet& f : suite::facets())
@@ -205,6 +205,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
                                         "; resume=True goes on from there";
         });
     py::dict rows;
+    rows["cells"] = parsed(cells);
     for (const auto& [name, table] : tables) rows[py::str(name)] = rows_of(table);
     return rows;
 }

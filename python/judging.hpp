@@ -142,10 +142,10 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces,
     c.contents = store::hash_of(c.contents);
     std::vector<std::string> others = plugins();
     std::erase(others, "trace " + name);
-    return rows_of(unlocked([&] {
+    return parsed(unlocked([&] {
         study::Kept nowhere;
-        return compare::with_bounds(
-            compare::cells_of(judge::judge(std::move(c), r, others, PythonListener(), nowhere)));
+        return store::indented(compare::json_of(
+            compare::cells_of(judge::judge(std::move(c), r, others, PythonListener(), nowhere))));
     }));
 }
 

@@ -82,19 +82,36 @@ class Table:
 
     def number(self, column, fields):
         row, = (row for row in self.where(fields) if row[column])
-        return number_of(row, column)
+        value = float(row[column])
+        if column == "ns_per_step":
+            cost, low, high = (float(row["cost_" + k]) for k in ("s_per_s", "lower", "upper"))
+            return Number(value, value * max(high - cost, cost - low) / cost, "quartiles")
+        return Number(value)
 
 
-def number_of(row, column):
-    """Of a row of errors or of costs, with the uncertainty that stands beside it."""
-    value = float(row[column])
-    if column.startswith("error_"):
-        off = float(row["certificate" + column[5:]] or "nan")
-        return Number(value, off, "the reference's certificate")
-    if column == "ns_per_step":
-        cost, low, high = (float(row["cost_" + k]) for k in ("s_per_s", "lower", "upper"))
-        return Number(value, value * max(high - cost, cost - low) / cost, "quartiles")
-    return Number(value)
+class Errors:
+    """The errors of a record, asked for by measure, tap, and facts of the cell."""
+
+    def __init__(self, record):
+        self.facts = Table(record, "facts")
+        self.figures = {(row["cell"], row["tap"], row["measure"]): row
+                        for row in Table(record, "errors").rows}
+
+    def number(self, measure, tap, fields, part="value"):
+        figures = (self.figures.get((row["cell"], tap, measure)) for row in self.facts.where(fields))
+        figure, = (f for f in figures if f and f[part])
+        return error_of(measure, figure, part)
+
+
+def error_of(measure, figure, part="value"):
+    """Of a row of errors.csv, or of what jvari.compare gives for a tap and a measure, with the
+    uncertainty that stands beside it."""
+    value = float(figure[part])
+    if not measure.startswith("error_"):
+        return Number(value)
+    off = figure["certificate" + "_in_model" * (part == "in_model")]
+    return Number(value, float("nan" if off in ("", None) else off),
+                  "the reference's certificate")
 
 
 class Claims:

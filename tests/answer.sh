@@ -15,7 +15,7 @@ function rounds(actual, printed, scale, digits) {  # is `printed` what `actual` 
     return actual * scale - printed <= half && printed - actual * scale <= half
 }
 FNR == NR { if (sub(/^JVARI_CONTROL\(/, "")) { sub(/\).*/, ""); control[$0] = 1 } next }
-FNR == 1 { ++file; if (file < 3) { delete at; for (i = 1; i <= NF; ++i) at[$i] = i } }
+FNR == 1 { ++file; if (file < 4) { delete at; for (i = 1; i <= NF; ++i) at[$i] = i } }
 file == 1 && FNR > 1 {
     low[$1] = $at["cost_lower"]; high[$1] = $at["cost_upper"]; cost[$1] = $at["cost_s_per_s"]
 }
@@ -24,13 +24,17 @@ file == 2 && FNR > 1 && $at["status"] == "ok" && $at["flags"] == "" && !($at["sc
     place = $at["rate"] == "" ? $at["modes"] " modes" : $at["rate"] / 1000 " kHz"
     id[$at["scheme"] (options == "" ? "" : " " options), place] = $1
     id[$at["scheme"] (options == "" ? "" : " " options), $at["modes"] " modes, " place] = $1
-    sure = $at["certificate_l2_50ms"] + 0
-    error[$1, "%"] = 100 * ($at["error_l2_50ms"] + sure)
-    shown[$1, "%"] = sure > 0.1 * $at["error_l2_50ms"] ? error[$1, "%"] : 100 * $at["error_l2_50ms"]
-    shown[$1, "dB"] = $at["third_octave_db"]
-    error[$1, "dB"] = $at["third_octave_db"]
+    nut[$1] = $at["headline_nut"]; bridge[$1] = $at["headline_bridge"]
 }
-file == 3 && /^\|.* ms \|$/ {
+file == 3 && ($1 in nut) && $at["measure"] == "error_l2_50ms" && $at["tap"] == nut[$1] {
+    sure = $at["certificate"] + 0
+    error[$1, "%"] = 100 * ($at["value"] + sure)
+    shown[$1, "%"] = sure > 0.1 * $at["value"] ? error[$1, "%"] : 100 * $at["value"]
+}
+file == 3 && ($1 in nut) && $at["measure"] == "third_octave_db" && $at["tap"] == bridge[$1] {
+    error[$1, "dB"] = shown[$1, "dB"] = $at["value"]
+}
+file == 4 && /^\|.* ms \|$/ {
     wanted = trim($2)
     if (match(wanted, /within [0-9.]+ (%|dB)/)) split(substr(wanted, RSTART, RLENGTH), goal, " ")
     n = split($0, cell, "|")
@@ -51,4 +55,5 @@ END {
     if (cheaper) print "rows of README.md beside which " results " has a cheaper run:" cheaper
     if (!rows) print "README.md has no first table"
     exit !rows || wrong != "" || cheaper != ""
-}' results="$results" schemes/schemes.def "$results/cost.csv" "$results/errors.csv" README.md >&2
+}' results="$results" schemes/schemes.def "$results/cost.csv" "$results/facts.csv" \
+    "$results/errors.csv" README.md >&2

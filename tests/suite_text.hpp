@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/study/columns.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"

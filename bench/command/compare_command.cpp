@@ -14,7 +14,7 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/notes.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "scenes/excitation.hpp"
@@ -110,7 +110,7 @@ int compare_command(CompareCall r) {
         console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back,
                                  keep.of.load()));
     const Results results = written(c, r, console);
-    const store::Table& cells = results.cells;
+    const study::Cells& cells = results.cells;
     const double rate = c.reference_summary.rate;
     for (const String& string : c.scene().strings)
         console.print("string: " + compare::tuning_text(string));
@@ -125,7 +125,7 @@ int compare_command(CompareCall r) {
         c.scene().taps.at(c.headline.bridge).name));
     console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) +
                   certificate_text(c) + "\n" + floor_text(c));
-    if (!results.cheapest.rows.empty()) console.print(compare::cheapest_text(results.cheapest));
+    if (!results.cheapest.empty()) console.print(compare::cheapest_text(results.cheapest, cells));
     for (const std::string& warning : compare::warnings_of(cells))
         console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + r.out);

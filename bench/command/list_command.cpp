@@ -8,7 +8,7 @@
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/json.hpp"
-#include "bench/study/columns.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/suite/facet.hpp"
 #include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
@@ -93,25 +93,29 @@ Json facts_json() {
     return all;
 }
 
-Json columns_json() {  // of cells.csv
+Json columns_json() {
     Json all = Json::array();
     for (const study::Column& c : study::columns()) {
-        std::string name = c.name;
-        if (name == "{m}") {
-            for (const study::Measure& m : study::measures())
-                all.push_back(quantity_json(m.column, m.unit, m.title));
-            continue;
-        }
-        for (const auto& [slot, word] : {std::pair{"{m}", "<error>"},
-                                         {"{d}", "<error>"},
-                                         {"{M}", "<error_in_model>"},
-                                         {"{w}", "<window>"},
-                                         {"{f}", "<fact>"},
-                                         {"{t}", "<tap>"}})
-            if (const auto at = name.find(slot); at != std::string::npos) name.replace(at, 3, word);
+        const std::string name = c.name;
         if (*c.meaning) all.push_back(quantity_json(name, c.unit, c.meaning));
         else all.back()["name"] = all.back()["name"].get<std::string>() + ", " + name;
+        if (name == "flags")
+            for (const study::Measure& m : study::measures())
+                all.push_back(quantity_json(m.column, m.unit, m.title));
     }
+    all.push_back(quantity_json(
+        "fact_<fact>", "",
+        "facts.csv: whatever else the scheme reports of itself (`jvari list facts`)"));
+    for (const auto& [name, meaning] :
+         {std::pair{"value", "errors.csv, of each tap and measure: the error"},
+          {"floor", "noise floor of the error"},
+          {"certificate", "the uncertainty of the reference for the scene"},
+          {"in_model",
+           "the error against a reference with as many modes as the scheme, and matched "
+           "compliance where that has it: of scheme and step, without the cut. Empty where no such "
+           "reference was run"},
+          {"certificate_in_model", "how far that reference solves its model"}})
+        all.push_back(quantity_json(name, "as the error", meaning));
     return all;
 }
 
@@ -301,7 +305,7 @@ Act list_verb(CLI::App& program) {
              {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps",
                                      "suites", "keys", "columns"})},
              "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or "
-             "columns (of cells.csv); absent: all, and the matrix");
+             "columns (of tables of cells); absent: all, and the matrix");
     return v.does(list_command, "Example: jvari list schemes\n\n--json has all that is known.");
 }
 

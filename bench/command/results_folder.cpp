@@ -9,13 +9,13 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/record/fits.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/folder.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/study/columns.hpp"
+#include "bench/study/cells.hpp"
 
 namespace jvari::bench::command {
 
@@ -84,11 +84,13 @@ void ResultsFolder::add(const std::string& name, const std::string& content) {
     files.push_back((folder_ / name).string());
 }
 
-void ResultsFolder::add_tables(const store::Table& cells) {
-    add("cells.csv", store::csv(cells));
-    add("errors.csv", store::csv(study::errors_only(cells)));
-    add("cost.csv", store::csv(study::cost_only(cells)));
-    if (const store::Table orders = compare::convergence_of(cells); !orders.rows.empty())
+void ResultsFolder::add_tables(const study::Cells& cells) {
+    using study::Contents;
+    add("cells.csv", store::csv(study::table_of(cells, Contents::cells)));
+    add("facts.csv", store::csv(study::table_of(cells, Contents::facts)));
+    add("errors.csv", store::csv(study::errors_table(cells)));
+    add("cost.csv", store::csv(study::table_of(cells, Contents::cost)));
+    if (const store::Table orders = compare::convergence_table(cells); !orders.rows.empty())
         add("convergence.csv", store::csv(orders));
 }
 
@@ -118,8 +120,8 @@ Results written(const compare::Comparison& c, const compare::CompareRequest& req
 
 std::string with_results(nlohmann::ordered_json own, const Results& r) {
     own["manifest"] = r.manifest;
-    own["cells"] = store::rows_json(compare::with_bounds(r.cells));
-    own["cheapest"] = store::rows_json(r.cheapest);
+    own["cells"] = compare::json_of(r.cells);
+    own["cheapest"] = store::rows_json(compare::table_of(r.cheapest, r.cells));
     own["files"] = r.files;
     return store::indented(own);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/compare/compare.hpp"
-#include "bench/store/records.hpp"
+#include "bench/compare/record/cheapest.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/study/record.hpp"
 
@@ -32,8 +32,9 @@ public:
         : folder_(std::move(folder)), listener_(listener) {}
     explicit operator bool() const { return !folder_.empty(); }
     void add(const std::string& name, const std::string& content);
-    // cells.csv, errors.csv, cost.csv and, where there are orders to tell, convergence.csv
-    void add_tables(const store::Table& cells);
+    // cells.csv, facts.csv, errors.csv, cost.csv and, where there are orders to tell,
+    // convergence.csv
+    void add_tables(const study::Cells&);
     void add_manifest(const nlohmann::ordered_json&);
     void add_report();  // of what was written before
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
@@ -48,7 +49,8 @@ int code_of(const std::vector<study::Record>&);
 
 struct Results {
     nlohmann::ordered_json manifest;
-    store::Table cells, cheapest;
+    study::Cells cells;
+    std::vector<compare::Answer> cheapest;
     nlohmann::ordered_json files;  // that were written
 };
 // Of a comparison, written into the folder that the request names.

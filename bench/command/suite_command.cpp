@@ -12,14 +12,13 @@
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
-#include "bench/compare/record/notes.hpp"
-#include "bench/compare/record/pareto.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
-#include "bench/study/columns.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/facet.hpp"
 #include "bench/suite/maps.hpp"
@@ -57,32 +56,27 @@ Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
 }
 
 std::string table_text(const study::Plan& plan, const study::Study& run,
-                       const store::Table& cells) {
-    const std::string headline = compare::headline_error(cells, store::all_rows(cells));
+                       const study::Cells& cells) {
+    const std::size_t headline = compare::headline_error(cells, study::all_rows(cells));
     TextTable table{{{"scene", true},
                      {"scheme", true},
                      {"rate"},
                      {"modes", false, 2},
                      {"status", true, 1},
-                     {headline.substr(6)},
+                     {study::measures()[headline].column.substr(6)},
                      {"s per s"},
                      {"", true, 3}},
                     {}};
     std::map<std::string, int> statuses;
-    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
-        const study::Job& c = plan.jobs[i];
-        ++statuses[cells.at(i, "status")];
-        std::string what = c.point->scene.name;
-        for (const auto& [key, value] : c.point->swept) what += " " + key + "=" + value;
-        const double cost = cells.number(i, "cost_s_per_s");
+    for (const study::TabledCell& c : cells) {
+        ++statuses[c.status];
+        std::string what = c.scene;
+        for (const auto& [key, value] : c.swept) what += " " + key + "=" + value;
         table.rows.push_back(
             {' ',
-             {what,
-              store::variant_name(c.cell.scheme->name,
-                                  store::options_text(c.cell.settings.options)),
-              cells.at(i, "rate"), cells.at(i, "modes"), cells.at(i, "status"),
-              compare::error_text(compare::bound_of(cells, i, headline), "{:.2e}"),
-              std::isnan(cost) ? "" : fmt::format("{:.3g}", cost), cells.at(i, "reason")}});
+             {what, c.variant(), store::text_of(c.rate), store::text_of(c.modes), c.status,
+              compare::error_text(compare::bound_of(c, headline), "{:.2e}"),
+              std::isnan(c.cost_s_per_s) ? "" : fmt::format("{:.3g}", c.cost_s_per_s), c.reason}});
     }
     std::string text = table.text(Console::width());
     text += fmt::format("{} cells, {} run, {} timed, {} read back:", plan.jobs.size(), run.ran,
@@ -123,9 +117,9 @@ int suite_command(SuiteRequest r) {
         suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs},
         console);
     const study::Study run = study::run(plan, kept_cells, r.resume, r.jobs, console);
-    const store::Table cells = compare::with_front(study::table_of(plan, run.records));
+    const study::Cells cells = compare::with_front(study::cells_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
-    const store::Table cheapest = compare::cheapest_of(cells);
+    const std::vector<compare::Answer> cheapest = compare::cheapest_of(cells);
     ResultsFolder results(folder, console);
     results.files = maps.files;
     if (!plan.jobs.empty()) results.add_tables(cells);
@@ -140,7 +134,7 @@ int suite_command(SuiteRequest r) {
     // Files first: nothing is lost where nobody reads this.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
-    if (!cheapest.rows.empty()) console.print(compare::cheapest_text(cheapest));
+    if (!cheapest.empty()) console.print(compare::cheapest_text(cheapest, cells));
     for (const std::string& warning : compare::warnings_of(cells))
         console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());

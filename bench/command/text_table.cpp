@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "bench/compare/bound.hpp"
-#include "bench/store/cell_rows.hpp"
 #include "schemes/facts.hpp"
 
 namespace jvari::bench::command {
@@ -58,18 +57,16 @@ std::string TextTable::text(std::size_t width) const {
 namespace {
 constexpr const char* errors[] = {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"};
 
-std::string cell_text(const store::Table& t, std::size_t row, const char* column,
-                      const char* format) {
-    const double x = t.number(row, column);
+std::string number_text(double x, const char* format) {
     return std::isnan(x) ? "-" : fmt::format(fmt::runtime(format), x);
 }
 
 // "x 1.3 %": half the distance of the quartiles over the median.
-std::string spread_text(const store::Table& t, std::size_t row) {
-    const double median = t.number(row, "wall_seconds"),
-                 half = 0.5 *
-                        (t.number(row, "wall_seconds_upper") - t.number(row, "wall_seconds_lower"));
-    return std::isnan(half / median) ? "" : fmt::format("+-{:.0f}%", 100 * half / median);
+std::string spread_text(const study::TabledCell& c) {
+    const double half = 0.5 * (c.wall_seconds_upper - c.wall_seconds_lower);
+    return std::isnan(half / c.wall_seconds)
+               ? ""
+               : fmt::format("+-{:.0f}%", 100 * half / c.wall_seconds);
 }
 std::string window_name(const std::string& error) {
     return error == "error_l2_50ms"   ? "the first 50 ms"
@@ -78,8 +75,9 @@ std::string window_name(const std::string& error) {
 }
 }  // namespace
 
-std::string headline_text(const store::Table& t, std::size_t width) {
-    const std::string headline = compare::headline_error(t, store::all_rows(t));
+std::string headline_text(const study::Cells& cells, std::size_t width) {
+    const std::string headline =
+        study::measures()[compare::headline_error(cells, study::all_rows(cells))].column;
     const auto error = [&headline](const char* head, const char* column) {
         return TextTable::Column{head, false, column == headline ? 0 : 3};
     };
@@ -100,73 +98,71 @@ std::string headline_text(const store::Table& t, std::size_t width) {
     TextTable::Row certificate{' ', {"(uncertainty of the reference)", "", ""}};
     for (const char* column : errors) {
         const double x =
-            t.rows.empty() ? std::nan("") : compare::bound_of(t, 0, column).certificate;
+            cells.empty() ? std::nan("") : cells[0].figure(study::measure(column)).certificate;
         certificate.fields.push_back(std::isnan(x) ? "unknown" : fmt::format("{:.2e}", x));
     }
     certificate.fields.resize(table.columns.size());
     table.rows.push_back(std::move(certificate));
     std::string missing, flagged, untimed;
     std::size_t left_out = 0;
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const std::string& status = t.at(i, "status");
-        if (status == "not_needed") {
+    for (const study::TabledCell& c : cells) {
+        if (c.status == "not_needed") {
             ++left_out;
             continue;
         }
-        if (status == "refused") {
-            const std::string who = store::run_name(t, i),
-                              why = " refused: " + t.at(i, "reason") + "\n";
+        if (c.status == "refused") {
+            const std::string why = " refused: " + c.reason + "\n";
             if (const auto same = missing.find(why); same != std::string::npos)
-                missing.insert(same, "; " + who);
-            else missing += "  " + who + why;
+                missing.insert(same, "; " + c.run());
+            else missing += "  " + c.run() + why;
             continue;
         }
-        if (status != "ok")
-            missing += fmt::format("  {} {}\n", store::run_name(t, i), t.at(i, "reason"));
-        if (const std::string& cost = t.at(i, "cost_s_per_s");
-            !cost.empty() && std::isnan(t.number(i, "cost_s_per_s")))
-            untimed += fmt::format("\ncost of {}: {}", store::run_name(t, i), cost);
-        if (!t.at(i, "flags").empty())
-            flagged += fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n",
-                                   store::run_name(t, i), t.at(i, "flags"),
-                                   cell_text(t, i, facts::smallest_contact_force.name, "{:.2g} N"),
-                                   cell_text(t, i, "energy_residual_accumulated", "{:.1e}"));
-        TextTable::Row row{
-            t.at(i, "pareto") == "1"    ? '*'
-            : !t.at(i, "flags").empty() ? '!'
-                                        : ' ',
-            {store::variant_name(t.at(i, "scheme"), t.at(i, "options")),
-             t.at(i, "rate").empty() ? "contin." : t.at(i, "rate"), t.at(i, "modes")}};
+        if (c.status != "ok") missing += fmt::format("  {} {}\n", c.run(), c.reason);
+        if (!c.untimed.empty()) untimed += fmt::format("\ncost of {}: {}", c.run(), c.untimed);
+        if (!c.flags.empty())
+            flagged +=
+                fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n", c.run(),
+                            c.flags, number_text(c.smallest_contact_force, "{:.2g} N"),
+                            number_text(c.energy_residual_accumulated, "{:.1e}"));
+        TextTable::Row row{c.pareto == 1      ? '*'
+                           : !c.flags.empty() ? '!'
+                                              : ' ',
+                           {c.variant(), std::isnan(c.rate) ? "contin." : store::text_of(c.rate),
+                            store::text_of(c.modes)}};
         for (const char* column : errors)
-            row.fields.push_back(compare::error_text(compare::bound_of(t, i, column), "{:.2e}"));
-        for (const auto& [column, format] : {std::pair{"horizon_s", "{:.4f} s"},
-                                             {"third_octave_db", "{:.2f} dB"},
-                                             {"energy_residual_accumulated", "{:.1e}"},
-                                             {"cost_s_per_s", "{:.3g}"}})
-            row.fields.push_back(cell_text(t, i, column, format));
-        row.fields.push_back(spread_text(t, i));
-        row.fields.push_back(cell_text(t, i, "times_real_time", "{:.3g}"));
-        row.fields.push_back(cell_text(t, i, "ns_per_step", "{:.1f}"));
+            row.fields.push_back(
+                compare::error_text(compare::bound_of(c, study::measure(column)), "{:.2e}"));
+        const auto value = [&c](const char* measure) {
+            return c.figure(study::measure(measure)).value;
+        };
+        for (const std::string& text :
+             {number_text(value("horizon_s"), "{:.4f} s"),
+              number_text(value("third_octave_db"), "{:.2f} dB"),
+              number_text(c.energy_residual_accumulated, "{:.1e}"),
+              number_text(c.cost_s_per_s, "{:.3g}"), spread_text(c),
+              number_text(c.times_real_time, "{:.3g}"), number_text(c.ns_per_step, "{:.1f}")})
+            row.fields.push_back(text);
         table.rows.push_back(std::move(row));
     }
     std::string text = table.text(width);
-    if (const double from = t.rows.empty() ? 0 : t.number(0, "free_from_s"); from > 0)
+    if (const double from = cells.empty() ? 0 : cells[0].free_from_s; from > 0)
         text += fmt::format(
             "errors are of what follows the last pluck: their windows begin at {:.6g} s\n", from);
     text += fmt::format(
         "* on the Pareto front of {} and cost; +- is half the distance of the quartiles", headline);
-    const auto says = [&t](compare::Bound::Says what) {
-        for (std::size_t i = 0; i < t.rows.size(); ++i)
-            for (const char* column : errors)
-                if (compare::bound_of(t, i, column).says() == what) return true;
-        return false;
+    const auto says = [&cells](compare::Bound::Says what) {
+        return std::ranges::any_of(cells, [what](const study::TabledCell& c) {
+            return std::ranges::any_of(errors, [&](const char* column) {
+                return compare::bound_of(c, study::measure(column)).says() == what;
+            });
+        });
     };
     text += untimed;
     if (left_out > 0)
         text += fmt::format(
             "\n{} more combinations of modes, rate and compliance were run over {} alone: a "
             "cheaper one does as well there",
-            left_out, window_name(headline) + compare::after_pluck(t, 0));
+            left_out, window_name(headline) + compare::after_pluck(cells[0]));
     if (says(compare::Bound::Says::at_most))
         text +=
             "\n\u2264 upper bound: the error and the uncertainty of the reference, which is more "

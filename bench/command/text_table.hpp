@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/store/records.hpp"
+#include "bench/study/cells.hpp"
 
 namespace jvari::bench::command {
 
@@ -33,6 +33,6 @@ struct TextTable {
 
 // The front marked, and what is not to be trusted; in lines of that width, cost and headline error
 // always.
-std::string headline_text(const store::Table& cells, std::size_t width);
+std::string headline_text(const study::Cells&, std::size_t width);
 
 }  // namespace jvari::bench::command

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "analysis/cheapest.hpp"
 
@@ -13,13 +14,6 @@ namespace {
 // a certificate of a tenth of the error leaves its first digit
 constexpr double small_share = 0.1;
 constexpr double nothing_is_right = 1;  // relative L2 of silence
-// the headline first
-constexpr const char* l2_columns[] = {"error_l2_50ms", "error_l2_10ms", "error_l2_whole"};
-
-// error_l2_50ms_nut: certificate_l2_50ms_nut
-std::string column_of(const char* what, const std::string& error_column) {
-    return what + error_column.substr(std::min(error_column.size(), std::string("error").size()));
-}
 }  // namespace
 
 double Bound::most() const { return at_most(error, certificate); }
@@ -39,18 +33,9 @@ double Bound::shown() const {
 
 bool Bound::decides() const { return error > 0 && !(error <= floor) && !(error <= certificate); }
 
-std::string after_pluck(const store::Table& cells, std::size_t row) {
-    return cells.number(row, "free_from_s") > 0 ? " after the last pluck" : "";
-}
-
-Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column) {
-    Bound b;
-    b.error = cells.number(row, error_column);
-    b.floor = cells.number(row, "floor_" + error_column);
-    const bool waveform =
-        error_column.starts_with("error_l2_") || error_column.starts_with("error_in_model_l2_");
-    b.certificate = waveform ? cells.number(row, column_of("certificate", error_column)) : 0;
-    return b;
+Bound bound_of(const study::TabledCell& c, std::size_t measure, const std::string& tap) {
+    const study::Figure& f = c.figure(measure, tap);
+    return {f.value, study::is_waveform(measure) ? f.certificate : 0, f.floor};
 }
 
 std::string error_text(const Bound& b, const char* format) {
@@ -64,32 +49,33 @@ std::string error_text(const Bound& b, const char* format) {
     return "not known";
 }
 
-bool reached(const store::Table& cells, std::size_t row) {
-    return cells.at(row, "status") == "ok" || cells.at(row, "status") == "not_needed";
+std::string after_pluck(const study::TabledCell& c) {
+    return c.free_from_s > 0 ? " after the last pluck" : "";
 }
 
-bool trusted(const store::Table& cells, std::size_t row) {
-    return cells.at(row, "status") == "ok" && cells.at(row, "flags").empty();
+bool reached(const study::TabledCell& c) { return c.status == "ok" || c.status == "not_needed"; }
+
+bool trusted(const study::TabledCell& c) { return c.status == "ok" && c.flags.empty(); }
+
+std::size_t headline_error(const study::Cells& cells, const study::Rows& rows) {
+    for (const char* column : {"error_l2_50ms", "error_l2_10ms"}) {
+        const std::size_t m = study::measure(column);
+        if (std::ranges::any_of(
+                rows, [&](std::size_t i) { return std::isfinite(cells[i].figure(m).value); }))
+            return m;
+    }
+    return study::measure("error_l2_whole");
 }
 
-std::string headline_error(const store::Table& cells, const store::Rows& rows) {
-    for (const char* column : l2_columns)
-        if (std::any_of(rows.begin(), rows.end(),
-                        [&](std::size_t i) { return std::isfinite(cells.number(i, column)); }))
-            return column;
-    return "error_l2_whole";
-}
-
-Fall fall_over_rates(const store::Table& cells, const store::Rows& rows,
-                     const std::string& error_column) {
+Fall fall_over_rates(const study::Cells& cells, const study::Rows& rows, std::size_t measure,
+                     const std::string& tap) {
     Fall fall;
     std::vector<double> rates, errors;
     for (const std::size_t i : rows) {
-        const Bound b = bound_of(cells, i, error_column);
-        const bool all_wrong = error_column.starts_with("error_") && !(b.error < nothing_is_right);
-        if (!reached(cells, i) || !(cells.number(i, "rate") > 0) || all_wrong || !b.decides())
-            continue;
-        rates.push_back(cells.number(i, "rate"));
+        const Bound b = bound_of(cells[i], measure, tap);
+        const bool all_wrong = study::is_waveform(measure) && !(b.error < nothing_is_right);
+        if (!reached(cells[i]) || !(cells[i].rate > 0) || all_wrong || !b.decides()) continue;
+        rates.push_back(cells[i].rate);
         errors.push_back(b.error);
         fall.rows.push_back(i);
     }
@@ -97,19 +83,32 @@ Fall fall_over_rates(const store::Table& cells, const store::Rows& rows,
     return fall;
 }
 
-store::Table with_bounds(store::Table cells) {
-    for (const char* column : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"}) {
-        std::vector<std::string> texts;
-        for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-            const Bound b = bound_of(cells, i, column);
+nlohmann::ordered_json json_of(const study::Cells& cells) {
+    using Json = nlohmann::ordered_json;
+    Json rows = store::rows_json(study::table_of(cells, study::Contents::everything));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const study::TabledCell& c = cells[i];
+        for (std::size_t m = 0; m < study::measures().size(); ++m) {
+            if (!study::is_waveform(m)) continue;
+            const Bound b = bound_of(c, m);
             const bool known =
                 b.says() == Bound::Says::measured || b.says() == Bound::Says::at_most;
-            texts.push_back(known ? store::text_of(b.most()) : "");
+            rows[i]["bound" + study::measures()[m].column.substr(5)] =
+                known ? b.most() : store::nan;
         }
-        cells.columns.push_back(column_of("bound", column));
-        for (std::size_t i = 0; i < cells.rows.size(); ++i) cells.rows[i].push_back(texts[i]);
+        Json& errors = rows[i]["errors"] = Json::object();
+        for (const std::string& tap : c.taps)
+            for (std::size_t m = 0; m < study::measures().size(); ++m) {
+                const study::Figure& f = c.figure(m, tap);
+                errors[tap][study::measures()[m].column] = {
+                    {"value", f.value},
+                    {"floor", f.floor},
+                    {"certificate", f.certificate},
+                    {"in_model", f.in_model},
+                    {"certificate_in_model", f.certificate_in_model}};
+            }
     }
-    return cells;
+    return rows;
 }
 
 }  // namespace jvari::bench::compare

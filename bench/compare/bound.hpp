@@ -8,10 +8,11 @@
 #pragma once
 
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "analysis/convergence.hpp"
-#include "bench/store/cell_rows.hpp"
+#include "bench/study/cells.hpp"
 
 namespace jvari::bench::compare {
 
@@ -40,39 +41,36 @@ struct Bound {
     bool decides() const;
 };
 
-std::string after_pluck(const store::Table& cells,
-                        // " after the last pluck", where the windows of its errors begin there
-                        std::size_t row);
-
-// Of a row of cells.csv, or of a table like it, and one of its error columns.
-Bound bound_of(const store::Table& cells, std::size_t row, const std::string& error_column);
+// of a tap, "" the headline's
+Bound bound_of(const study::TabledCell&, std::size_t measure, const std::string& tap = "");
 
 // "1.30e-02", "\u22645.13e-02", "1.30e-02?" (unsure), "not known", "-" where there is no error
 std::string error_text(const Bound&, const char* format);
+// " after the last pluck", where the windows of its errors begin there
+std::string after_pluck(const study::TabledCell&);
 
-// They reached the end of their run; those that are not needed were run over the headline's window
-// alone.
-bool reached(const store::Table& cells, std::size_t row);
-// The rows' own figures say nothing against them: they reached the end of the whole run, and have
-// no flags.
-bool trusted(const store::Table& cells, std::size_t row);
+// It reached the end of its run; one that is not needed was run over the headline's window alone.
+bool reached(const study::TabledCell&);
+// Its own figures say nothing against it: it reached the end of the whole run, and has no flags.
+bool trusted(const study::TabledCell&);
 
-// The column that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else
+// The measure that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else
 // the whole run; the first with a finite value in one of the rows.
-std::string headline_error(const store::Table& cells, const store::Rows&);
+std::size_t headline_error(const study::Cells&, const study::Rows&);
 
 // How an error falls with the rate over those of the rows that can tell: they reached their end,
 // something of the waveform is right (an error below 1), and the error is larger than its noise
 // floor and than what the reference is certain to.
 struct Fall {
     Order order;
-    store::Rows rows;
+    study::Rows rows;
 };
-Fall fall_over_rates(const store::Table& cells, const store::Rows&,
-                     const std::string& error_column);
+Fall fall_over_rates(const study::Cells&, const study::Rows&, std::size_t measure,
+                     const std::string& tap = "");
 
-// `cells` with bound_l2_10ms, bound_l2_50ms and bound_l2_whole beside them: e + c of the headline
-// errors; empty where c is too large to tell or there is none.
-store::Table with_bounds(store::Table cells);
+// One object per cell: the columns of cells.csv, facts.csv and cost.csv, bound_l2_10ms and its
+// like (e + c of a headline error, null where c is too large to tell or there is none), and errors:
+// of each tap, of each measure, what errors.csv has.
+nlohmann::ordered_json json_of(const study::Cells&);
 
 }  // namespace jvari::bench::compare

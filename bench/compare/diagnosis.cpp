@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
@@ -26,54 +25,41 @@ constexpr double before_the_end = 0.98, first_of_all = 1e-3;
 
 std::string rate_text(double hertz) { return fmt::format("{:.4g} kHz", hertz / 1000); }
 
-bool is_grid(const store::Table& cells, std::size_t row) {
-    return cells.number(row, "fact_grid_intervals") > 0;
-}
+using Cell = study::TabledCell;
+using study::Cells, study::Rows;
 
-std::optional<std::size_t> least(const store::Table& cells, const store::Rows& rows,
-                                 const std::string& column) {
-    std::optional<std::size_t> best;
-    const auto shown = [&](std::size_t i) { return bound_of(cells, i, column).shown(); };
+bool is_grid(const Cell& c) { return c.fact(facts::grid_intervals.name) > 0; }
+
+const Cell* least(const Cells& cells, const Rows& rows, std::size_t measure) {
+    const Cell* best = nullptr;
+    const auto shown = [&](const Cell& c) { return bound_of(c, measure).shown(); };
     for (const std::size_t i : rows)
-        if (std::isfinite(shown(i)) && (!best || shown(i) < shown(*best))) best = i;
+        if (std::isfinite(shown(cells[i])) && (!best || shown(cells[i]) < shown(*best)))
+            best = &cells[i];
     return best;
 }
 
-std::optional<std::size_t> cheapest_within(const store::Table& cells, const store::Rows& rows,
-                                           const std::string& column, double most) {
-    std::optional<std::size_t> best;
+const Cell* cheapest_within(const Cells& cells, const Rows& rows, std::size_t measure,
+                            double most) {
+    const Cell* best = nullptr;
     for (const std::size_t i : rows)
-        if (bound_of(cells, i, column).most() <= most &&
-            (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s")))
-            best = i;
+        if (bound_of(cells[i], measure).most() <= most &&
+            (!best || cells[i].cost_s_per_s < best->cost_s_per_s))
+            best = &cells[i];
     return best;
 }
 
-std::vector<std::string> same_series(const store::Table& cells,
-                                     std::initializer_list<const char*> and_more) {
-    std::vector<std::string> same = store::naming_columns(cells);
-    same.insert(same.end(), and_more.begin(), and_more.end());
-    return same;
-}
-bool alike(const store::Table& cells, std::size_t a, std::size_t b,
-           const std::vector<std::string>& columns) {
-    return std::ranges::all_of(
-        columns, [&](const std::string& name) { return cells.at(a, name) == cells.at(b, name); });
-}
-
-// Over all rates of the series that `row` is of, errors that noise and reference allow.
-Order order_of(const store::Table& cells, std::size_t row, const std::string& measure) {
-    std::vector<std::string> same = same_series(cells, {});
-    if (!is_grid(cells, row)) same.emplace_back("modes");
-    store::Rows series = store::all_rows(cells);
+// Over all rates of the series that `cell` is of, errors that noise and reference allow.
+Order order_of(const Cells& cells, const Cell& cell, std::size_t measure) {
+    Rows series = study::all_rows(cells);
     std::erase_if(series, [&](std::size_t i) {
-        return !cells.at(i, "flags").empty() || !alike(cells, i, row, same);
+        return !cells[i].flags.empty() || !cells[i].same_series(cell) ||
+               (!is_grid(cell) && cells[i].modes != cell.modes);
     });
     return fall_over_rates(cells, series, measure).order;
 }
 
-std::string of_the_rate(const Order& o, const store::Table& cells, std::size_t row,
-                        const std::string& measure, double most) {
+std::string of_the_rate(const Order& o, const Cell& cell, std::size_t measure, double most) {
     if (o.points < fewest_points || !std::isfinite(o.half_width))
         return o.points < 2 ? "" : " Two rates are too few to extrapolate: run a third.";
     if (o.order - o.half_width <= 0 && o.order + o.half_width >= least_order)
@@ -82,9 +68,8 @@ std::string of_the_rate(const Order& o, const store::Table& cells, std::size_t r
         return fmt::format(
             " The error hardly falls with the rate (order {:.2f}), so a higher rate will not help.",
             std::max(0.0, o.order));
-    const double rate =
-        cells.number(row, "rate") * std::pow(cells.number(row, measure) / most, 1 / o.order);
-    if (o.order < least_order || rate > furthest * cells.number(row, "rate"))
+    const double rate = cell.rate * std::pow(cell.figure(measure).value / most, 1 / o.order);
+    if (o.order < least_order || rate > furthest * cell.rate)
         return fmt::format(
             " The error falls with the rate (order {:.2g}), but no rate within reach is enough.",
             o.order);
@@ -94,67 +79,59 @@ std::string of_the_rate(const Order& o, const store::Table& cells, std::size_t r
         o.order, rate_text(rate));
 }
 
-std::string in_model(std::string measure) {
-    return measure.starts_with("error_") ? measure.insert(6, "in_model_") : measure;
-}
-
-std::string of_the_modes_left_out(const store::Table& cells, std::size_t row,
-                                  const std::string& measure) {
-    const double modes = cells.number(row, "modes"), error = cells.number(row, measure);
-    if (is_grid(cells, row) || !(modes > 0)) return "";
-    if (cells.number(row, in_model(measure)) < of_the_modes * error)
+std::string of_the_modes_left_out(const Cells& cells, const Cell& cell, std::size_t measure) {
+    const study::Figure& f = cell.figure(measure);
+    if (is_grid(cell) || !(cell.modes > 0)) return "";
+    if (f.in_model < of_the_modes * f.value)
         return fmt::format(" Most of that comes from the modes left out: try `--modes {:.0f}`.",
-                           2 * modes);
-    const std::vector<std::string> same = same_series(cells, {"rate"});
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {  // fewer, at its rate
-        const double fewer = cells.number(i, "modes"),
-                     order = std::log(cells.number(i, measure) / error) / std::log(modes / fewer);
-        if (fewer < modes && reached(cells, i) && order >= least_order &&
-            alike(cells, i, row, same))
-            return fmt::format(" The error falls with the modes: try `--modes {:.0f}`.", 2 * modes);
+                           2 * cell.modes);
+    for (const Cell& other : cells) {  // fewer, at its rate
+        const double order =
+            std::log(other.figure(measure).value / f.value) / std::log(cell.modes / other.modes);
+        if (other.modes < cell.modes && reached(other) && order >= least_order &&
+            other.rate == cell.rate && other.same_series(cell))
+            return fmt::format(" The error falls with the modes: try `--modes {:.0f}`.",
+                               2 * cell.modes);
     }
     return "";
 }
 
 // Where no string with as many modes was run that would tell whether they stand in the way.
-std::string of_more_modes(const store::Table& cells, std::size_t row, const std::string& measure) {
-    const double modes = cells.number(row, "modes"), most = cells.number(row, "reference_modes");
-    if (is_grid(cells, row) || std::isfinite(cells.number(row, in_model(measure))) ||
+std::string of_more_modes(const Cell& cell, std::size_t measure) {
+    const double modes = cell.modes, most = cell.reference_modes;
+    if (is_grid(cell) || std::isfinite(cell.figure(measure).in_model) ||
         !(modes > 0 && modes < most))
         return "";
     return fmt::format(" More modes may help: try `--modes {:.0f}`.", std::min(2 * modes, most));
 }
 
-std::string of_the_compliance(const store::Table& cells, const store::Rows& rows, std::size_t row) {
+std::string of_the_compliance(const Cells& cells, const Rows& rows, const Cell& cell) {
     const auto matched = [&](std::size_t i) {
-        return cells.at(i, "options").find("compliance=matched") != std::string::npos;
+        return cells[i].options.find("compliance=matched") != std::string::npos;
     };
     const auto has_both = [&](const Descriptor& d) {
-        return d.name == cells.at(row, "scheme") && declares(d, compliance_option.name);
+        return d.name == cell.scheme && declares(d, compliance_option.name);
     };
-    const bool touched = cells.number(row, facts::deepest_penetration.name) > 0;
-    const bool measured =
-        cells.column("reference_doubling") >= 0 &&
-        cells.at(row, "reference_doubling").find("not in your table") != std::string::npos;
-    if (!touched || measured || std::ranges::any_of(rows, matched) ||
+    const bool measured = cell.reference_doubling.find("not in your table") != std::string::npos;
+    if (!(cell.deepest_penetration > 0) || measured || std::ranges::any_of(rows, matched) ||
         std::ranges::none_of(schemes(), has_both))
         return "";
     return " compliance=matched was not run.";
 }
 
-std::string instead(const store::Table& cells, const store::Rows& rows, const std::string& measure,
-                    double most) {
+std::string instead(const Cells& cells, const Rows& rows, std::size_t measure, double most) {
+    const std::size_t octaves = study::measure("third_octave_db"),
+                      first = study::measure("error_l2_10ms");
     for (const double db : {1.0, 3.0})
-        if (const auto i = cheapest_within(cells, rows, "third_octave_db", db))
-            return fmt::format(" By third octaves {:g} dB is reached by {}.", db,
-                               store::run_name(cells, *i));
-    if (measure != "error_l2_10ms")
-        if (const auto i = cheapest_within(cells, rows, "error_l2_10ms", most))
-            return fmt::format(" Over the first 10 ms{} {} is within {}.", after_pluck(cells, *i),
-                               store::run_name(cells, *i), percent(most));
-    const auto i = least(cells, rows, "third_octave_db");
-    return i ? fmt::format(" By third octaves the closest is {}, {:.2g} dB.",
-                           store::run_name(cells, *i), cells.number(*i, "third_octave_db"))
+        if (const Cell* c = cheapest_within(cells, rows, octaves, db))
+            return fmt::format(" By third octaves {:g} dB is reached by {}.", db, c->run());
+    if (measure != first)
+        if (const Cell* c = cheapest_within(cells, rows, first, most))
+            return fmt::format(" Over the first 10 ms{} {} is within {}.", after_pluck(*c),
+                               c->run(), percent(most));
+    const Cell* c = least(cells, rows, octaves);
+    return c ? fmt::format(" By third octaves the closest is {}, {:.2g} dB.", c->run(),
+                           c->figure(octaves).value)
              : "";
 }
 }  // namespace
@@ -164,9 +141,9 @@ std::string percent(double share) {
                            : fmt::format("{:.2g} %", 100 * share);
 }
 
-std::string quoted(const Bound& b, const std::string& measure) {
+std::string quoted(const Bound& b, std::size_t measure) {
     const bool bounded = b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown;
-    const std::string text = measure.starts_with("third_octave_db")
+    const std::string text = study::measures()[measure].unit == "dB"
                                  ? fmt::format("{:.2g} dB", b.shown())
                                  : percent(b.shown());
     return (bounded ? "\u2264 " : "") + text;
@@ -177,13 +154,11 @@ std::string time_text(double seconds) {
                             : fmt::format("{:.3g} ms", 1e3 * seconds);
 }
 
-std::string why_none(const store::Table& cells, const store::Rows& rows, const std::string& measure,
-                     double most) {
-    const auto best = least(cells, rows, measure);
+std::string why_none(const Cells& cells, const Rows& rows, std::size_t measure, double most) {
+    const Cell* best = least(cells, rows, measure);
     if (!best) return "No run covers the window.";
-    const Bound b = bound_of(cells, *best, measure);
-    std::string text =
-        fmt::format("Closest: {}, {} error.", store::run_name(cells, *best), quoted(b, measure));
+    const Bound b = bound_of(*best, measure);
+    std::string text = fmt::format("Closest: {}, {} error.", best->run(), quoted(b, measure));
     if (b.floor > most) {
         text += fmt::format(" A change of the start by 1e-12 alone makes {}.", percent(b.floor));
     } else if (b.certificate > most) {
@@ -192,14 +167,13 @@ std::string why_none(const store::Table& cells, const store::Rows& rows, const s
         const std::string modes = of_the_modes_left_out(cells, *best, measure);
         const Order o = order_of(cells, *best, measure);
         const bool falls = o.order - o.half_width > 0;
-        text += modes.empty() ? of_the_rate(o, cells, *best, measure, most) +
-                                    (falls ? "" : of_more_modes(cells, *best, measure))
+        text += modes.empty() ? of_the_rate(o, *best, measure, most) +
+                                    (falls ? "" : of_more_modes(*best, measure))
                               : modes;
         text += of_the_compliance(cells, rows, *best);
     }
-    const double h = cells.number(*best, "horizon_s"), from = cells.number(*best, "free_from_s"),
-                 end = cells.number(*best, "wall_seconds") / cells.number(*best, "cost_s_per_s") -
-                       (from > 0 ? from : 0);
+    const double h = best->figure(study::measure("horizon_s")).value, from = best->free_from_s,
+                 end = best->wall_seconds / best->cost_s_per_s - (from > 0 ? from : 0);
     if (h > first_of_all && h < before_the_end * end)
         text += fmt::format(" Its waveform is within 10 % for {}.", time_text(h));
     return text + instead(cells, rows, measure, most);

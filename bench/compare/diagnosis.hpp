@@ -10,18 +10,16 @@
 #include <string>
 
 #include "bench/compare/bound.hpp"
-#include "bench/store/cell_rows.hpp"
 
 namespace jvari::bench::compare {
 
-// `rows`: of one scene, timed and trusted; `measure`: an error column of relative L2; `most`: what
-// none of them is within.
-std::string why_none(const store::Table& cells, const store::Rows& rows, const std::string& measure,
-                     double most);
+// `rows`: of one scene, timed and trusted; `measure`: a relative L2; `most`: what none of them is
+// within.
+std::string why_none(const study::Cells&, const study::Rows&, std::size_t measure, double most);
 
 std::string percent(double share);  // "0.43 %", "97 %"
 // "1.3 %", "\u2264 20 %" where the reference's uncertainty counts, "2.1 dB"
-std::string quoted(const Bound&, const std::string& measure);
+std::string quoted(const Bound&, std::size_t measure);
 std::string time_text(double seconds);  // "8 ms", "280 ms", "1.2 s"
 
 }  // namespace jvari::bench::compare

@@ -1,4 +1,20 @@
-#include "bench/diff/costs.hpp"
+// Costs of two folders, side by side. Source: the rule of ties of this program (two costs whose
+// quartiles touch are a tie).
+//
+// Compared is the lower quartile of processor time, where both folders have it: what other programs
+// take of the machine is not in it, and what they disturb is slower. Else the median of wall time.
+//
+// A clock tells two runs of one machine apart only beyond what the machine itself does meanwhile,
+// and that is of two kinds. All cells drift together (another clock frequency, a busy neighbour),
+// and single cells are disturbed. Both are measured by the cells themselves. The drift is the
+// median ratio of those of the same rate, which are timed in turn, or of all where they are few.
+// The disturbance is 1.4826 times the median distance from it, in logarithms (the standard
+// deviation, were it a normal one). A series, that is a scheme with its options on a problem over
+// its rates, got slower where the median of its ratios lies beyond the drift by 15 % and by five
+// disturbances of such a median (sqrt(pi/2n) of those of n cells), and in most of its cells the
+// quartiles stay apart after the drift is taken off. With fewer than three series the drift cannot
+// be told from them: what is apart has moved. Costs of two machines are not compared.
+#include "bench/diff/difference.hpp"
 
 #include <fmt/core.h>
 
@@ -9,12 +25,15 @@
 #include <set>
 
 #include "analysis/statistics.hpp"
-#include "bench/diff/difference.hpp"
-#include "bench/store/cell_rows.hpp"
 
 namespace jvari::bench::diff {
 
 namespace {
+constexpr double least_change = 1.15;  // times
+constexpr double disturbances = 5;
+constexpr std::size_t fewest_series = 3;
+constexpr double noted_drift = 1.25;  // times
+
 struct Ratio {
     std::string series, rate, name;
     std::size_t before, after;  // rows
@@ -59,16 +78,20 @@ Noise noise_of(const std::vector<Ratio>& ratios) {
             median_of(ratios, [](const Ratio& r) { return std::abs(std::log(r.change())); })};
 }
 
+using Cost = double study::TabledCell::*;
 struct Clock {  // the columns of one, and which of them is steadiest
-    const char *median, *lower, *upper, *compared;
+    Cost median, lower, upper, compared;
+    const char* column;  // of the median
 };
-constexpr Clock wall{"cost_s_per_s", "cost_lower", "cost_upper", "cost_s_per_s"};
+using C = study::TabledCell;
+constexpr Clock wall{&C::cost_s_per_s, &C::cost_lower, &C::cost_upper, &C::cost_s_per_s,
+                     "cost_s_per_s"};
 // Other programs disturb it far less, and only to the slower side: its lower quartile least of all.
-constexpr Clock processor{"processor_s_per_s", "processor_lower", "processor_upper",
-                          "processor_lower"};
+constexpr Clock processor{&C::processor_s_per_s, &C::processor_lower, &C::processor_upper,
+                          &C::processor_lower, "processor_s_per_s"};
 
-Clock clock_of(const store::Table& a, const store::Table& b) {
-    return a.column(processor.median) >= 0 && b.column(processor.median) >= 0 ? processor : wall;
+bool has(const study::Cells& cells, Cost cost) {
+    return std::ranges::any_of(cells, [cost](const C& c) { return c.*cost > 0; });
 }
 
 // Of a series: worse, better or same.
@@ -78,10 +101,9 @@ Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& s
     const double beyond = noise.beyond(series.size());
     if (change < beyond && change > 1 / beyond) return Turn::same;
     const auto apart = std::count_if(series.begin(), series.end(), [&](const Ratio& r) {
-        return change > 1 ? b.cells.number(r.after, clock.lower) / r.drift >
-                                a.cells.number(r.before, clock.upper)
-                          : b.cells.number(r.after, clock.upper) / r.drift <
-                                a.cells.number(r.before, clock.lower);
+        return change > 1
+                   ? b.cells[r.after].*clock.lower / r.drift > a.cells[r.before].*clock.upper
+                   : b.cells[r.after].*clock.upper / r.drift < a.cells[r.before].*clock.lower;
     });
     if (2 * static_cast<std::size_t>(apart) <= series.size()) return Turn::same;
     return change > 1 ? Turn::worse : Turn::better;
@@ -89,16 +111,13 @@ Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& s
 
 std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<Pair>& pairs,
                              const Clock& clock) {
-    std::vector<std::string> names = store::naming_columns(a.cells);
     std::vector<Ratio> ratios;
     for (const Pair& p : pairs) {
-        const double was = a.cells.number(p.before, clock.compared),
-                     is = b.cells.number(p.after, clock.compared);
-        if (!(was > 0) || !(is > 0)) continue;
-        std::string series;
-        for (const std::string& name : names) series += a.cells.at(p.before, name) + "\t";
-        ratios.push_back(
-            {series, a.cells.at(p.before, "rate"), p.name, p.before, p.after, is / was});
+        const C& before = a.cells[p.before];
+        const double was = before.*clock.compared, is = b.cells[p.after].*clock.compared;
+        if (was > 0 && is > 0)
+            ratios.push_back({before.problem() + "|" + before.variant(),
+                              store::text_of(before.rate), p.name, p.before, p.after, is / was});
     }
     return ratios;
 }
@@ -106,25 +125,23 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 
 void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs,
                    Difference& d) {
-    const auto costs = [](const Folder& f) {
-        return std::ranges::any_of(store::all_rows(f.cells), [&f](std::size_t i) {
-            return f.cells.number(i, wall.median) > 0;
-        });
-    };
-    if (!costs(b)) {
-        if (costs(a))
+    if (!has(b.cells, wall.median)) {
+        if (has(a.cells, wall.median))
             d.notes.push_back(
                 "no cell of the second folder has a cost: none was measured, or they are gone");
         return;
     }
     for (const Pair& p : pairs) {  // a cell that ran has a cost, whatever the machine
-        if (b.cells.at(p.after, "status") != "ok") continue;
-        for (const char* column : {wall.median, processor.median})
-            if (a.cells.number(p.before, column) > 0 && !(b.cells.number(p.after, column) > 0))
-                d.findings.push_back({Turn::worse, p.name, column, a.cells.at(p.before, column),
-                                      b.cells.at(p.after, column), "its cost is gone"});
+        const C &before = a.cells[p.before], &after = b.cells[p.after];
+        if (after.status != "ok") continue;
+        for (const Clock& c : {wall, processor})
+            if (before.*c.median > 0 && !(after.*c.median > 0))
+                d.findings.push_back({Turn::worse, p.name, c.column,
+                                      store::text_of(before.*c.median),
+                                      store::text_of(after.*c.median), "its cost is gone"});
     }
-    const Clock clock = clock_of(a.cells, b.cells);
+    const bool both = has(a.cells, processor.median) && has(b.cells, processor.median);
+    const Clock& clock = both ? processor : wall;
     std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;
     if (!a.made.same_machine(b.made)) {
@@ -150,7 +167,7 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pa
     const auto drift_of = [](const std::vector<Ratio>& of) {
         return median_of(of, [](const Ratio& r) { return r.drift; });
     };
-    if (const double drift = drift_of(ratios); drift > told || drift < 1 / told)
+    if (const double drift = drift_of(ratios); drift > noted_drift || drift < 1 / noted_drift)
         d.notes.push_back(
             fmt::format("the middle cell took {:.2f} times as long: the machine's doing or the "
                         "program's, which a clock cannot "
@@ -172,9 +189,9 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pa
             few ? fmt::format("{:.2f} times, the machine's doing or the scheme's", change)
                 : fmt::format("{:.2f} times beyond a drift of {:.2f}", change, drift_of(cells));
         for (const Ratio& r : cells)
-            d.findings.push_back({few ? Turn::moved : turn, r.name, clock.median,
-                                  a.cells.at(r.before, clock.median),
-                                  b.cells.at(r.after, clock.median), detail});
+            d.findings.push_back({few ? Turn::moved : turn, r.name, clock.column,
+                                  store::text_of(a.cells[r.before].*clock.median),
+                                  store::text_of(b.cells[r.after].*clock.median), detail});
     }
 }
 

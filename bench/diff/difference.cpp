@@ -3,8 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
-#include "bench/diff/costs.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::diff {
@@ -23,65 +24,94 @@ std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     return pairs;
 }
 
-// Those of `before` that are compared: an error whose column is gone is an error that is no longer
-// known.
-std::vector<std::string> compared_columns(const store::Table& before, const store::Table& after) {
-    std::vector<std::string> names;
-    for (const std::string& name : before.columns)
-        if (!is_cost(name) && !is_skipped(name) && (after.column(name) >= 0 || is_judged(name)))
-            names.push_back(name);
-    return names;
-}
-
-// A column that a table of one row more would have, empty wherever there is none, is no difference:
-// only those that say something count.
-void columns_alone(const store::Table& a, const store::Table& b, std::vector<std::string>& only) {
-    for (const std::string& name : a.columns) {
-        if (b.column(name) >= 0 || is_cost(name) || is_skipped(name)) continue;
-        const int k = a.column(name);
-        if (std::any_of(a.rows.begin(), a.rows.end(),
-                        [k](const auto& row) { return !row[k].empty(); }))
-            only.push_back(name);
+// What cells name apart: facts, taps and the keys that are swept.
+struct Names {
+    std::set<std::string> facts, taps, keys;
+    explicit Names(const study::Cells& cells) {
+        for (const study::TabledCell& c : cells) {
+            for (const auto& [name, value] : c.facts) facts.insert(name);
+            for (const std::string& tap : c.taps) taps.insert(tap);
+            for (const auto& [key, value] : c.swept) keys.insert(key);
+        }
     }
+};
+
+constexpr std::pair<double study::Figure::*, const char*> parts[] = {
+    {&study::Figure::value, ""},
+    {&study::Figure::floor, "floor of "},
+    {&study::Figure::certificate, "certificate of "},
+    {&study::Figure::in_model, "in_model of "},
+    {&study::Figure::certificate_in_model, "certificate_in_model of "}};
+
+struct CellDifference {
+    bool same_digits = true;
+    std::vector<std::string> references;  // how the reference is another
+};
+// Findings, those of the headline's errors first. `facts`: of both folders.
+CellDifference compare_cell(const std::string& name, const study::TabledCell& before,
+                            const study::TabledCell& after, const std::vector<std::string>& facts,
+                            Difference& d) {
+    CellDifference own;
+    const auto add = [&](const std::string& column, Turn turn, const std::string& was,
+                         const std::string& is) {
+        ++d.compared;
+        own.same_digits = own.same_digits && was == is;
+        if (turn == Turn::same) return;
+        d.findings.push_back({turn, name, column, was, is, ""});
+        if (column == "reference" || column == "reference_modes" || column == "reference_doubling")
+            own.references.push_back(fmt::format("{} {} -> {}", column, was, is));
+    };
+    const auto add_figures = [&](const std::string& tap) {
+        for (const auto& [part, kind] : parts)
+            for (std::size_t m = 0; m < study::measures().size(); ++m) {
+                const study::Measure& measure = study::measures()[m];
+                if (tap == (measure.bridge ? before.headline_bridge : before.headline_nut))
+                    continue;  // as the headline's
+                add(kind + measure.column + (tap.empty() ? "" : " of " + tap),
+                    turn_of(part, m, tap, before, after),
+                    store::text_of(before.figure(m, tap).*part),
+                    store::text_of(after.figure(m, tap).*part));
+            }
+    };
+    for (const study::Column& c : study::columns()) {
+        if (c.rule == study::Rule::clock || c.rule == study::Rule::name) continue;
+        add(c.name, turn_of(c, before, after), c.text(before), c.text(after));
+        if (std::string(c.name) == "flags") add_figures("");
+    }
+    for (const std::string& fact : facts)
+        add("fact_" + fact, turn_of_fact(fact, before, after), store::text_of(before.fact(fact)),
+            store::text_of(after.fact(fact)));
+    for (const std::string& tap : before.taps) add_figures(tap);
+    return own;
 }
 
 void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     const bool with_modes = modes_name(a.cells) || modes_name(b.cells);
-    // comparisons of before had no such column
-    const bool with_scene = a.cells.column("scene") >= 0 && b.cells.column("scene") >= 0;
-    const auto pairs = in_both(named_cells(a.cells, with_modes, with_scene),
-                               named_cells(b.cells, with_modes, with_scene), d.cells);
+    const auto pairs =
+        in_both(named_cells(a.cells, with_modes), named_cells(b.cells, with_modes), d.cells);
     d.cells_in_both = static_cast<int>(pairs.size());
-    columns_alone(a.cells, b.cells, d.columns.before);
-    columns_alone(b.cells, a.cells, d.columns.after);
-    for (const char* column : {"status", "flags"})
-        if (a.cells.column(column) >= 0 && b.cells.column(column) < 0)
-            d.findings.push_back(
-                {Turn::worse, "every cell", column, "known", "", "the column is gone"});
-    const auto columns = compared_columns(a.cells, b.cells);
+    const Names were(a.cells), are(b.cells);
+    std::vector<std::string> facts;
+    std::ranges::set_intersection(were.facts, are.facts, std::back_inserter(facts));
+    const auto only = [&](std::set<std::string> Names::*of, const char* kind) {
+        for (const auto& [own, other, names] :
+             {std::tuple(&were, &are, &d.columns.before), {&are, &were, &d.columns.after}})
+            for (const std::string& name : own->*of)
+                if (!(other->*of).contains(name)) names->push_back(kind + name);
+    };
+    only(&Names::keys, "");
+    only(&Names::facts, "fact_");
+    only(&Names::taps, "errors of ");
     int other_truth = 0;
     std::string how;
     for (const Pair& p : pairs) {
-        bool same_truth = true, same_digits = true;
-        for (const std::string& column : columns) {
-            ++d.compared;
-            same_digits =
-                same_digits && a.cells.at(p.before, column) == b.cells.at(p.after, column);
-            const Turn turn = turn_of(column, a.cells, p.before, b.cells, p.after);
-            if (turn == Turn::same) continue;
-            d.findings.push_back({turn, p.name, column, a.cells.at(p.before, column),
-                                  b.cells.at(p.after, column), ""});
-            if (column != "reference" && column != "reference_modes" &&
-                column != "reference_doubling")
-                continue;
-            same_truth = false;
-            const std::string change = fmt::format(
-                "{} {} -> {}", column, a.cells.at(p.before, column), b.cells.at(p.after, column));
+        const CellDifference of =
+            compare_cell(p.name, a.cells[p.before], b.cells[p.after], facts, d);
+        other_truth += !of.references.empty();
+        d.to_the_last_digit += of.same_digits;
+        for (const std::string& change : of.references)
             if (how.size() < 100 && how.find(change) == std::string::npos)
                 how += (how.empty() ? "" : ", ") + change;
-        }
-        other_truth += !same_truth;
-        d.to_the_last_digit += same_digits;
     }
     if (other_truth > 0)
         d.references = fmt::format(
@@ -154,10 +184,6 @@ bool Difference::nothing() const {
 
 Difference difference(const Folder& before, const Folder& after) {
     Difference d;
-    for (const Folder* f : {&before, &after})
-        if (!f->altered.empty())
-            d.findings.push_back({Turn::worse, f->name, f->altered, "cells.csv", "errors.csv",
-                                  "the two files differ: one was changed"});
     compare_cells(before, after, d);
     compare_dispersion(before.dispersion, after.dispersion, d);
     compare_maps(before, after, d);

@@ -1,15 +1,67 @@
-// Two folders of results: what changed from one to the other, number by number (rules.hpp) and by
-// the clock (costs.hpp).
+// Two folders of results: what changed from one to the other, number by number (rules.cpp) and by
+// the clock (costs.cpp).
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bench/diff/folder.hpp"
-#include "bench/diff/rules.hpp"
+#include "bench/study/cells.hpp"
 
 namespace jvari::bench::diff {
+
+// ---- What lies in a folder of compare or suite, as far as two such folders can be compared
+
+struct Made {                                 // by what, as manifest.json has it
+    std::string commit, date;                 // commit: "unknown" outside git
+    std::string compiler, flags, build;       // the program
+    std::string cpu, cores, vectors, system;  // the machine
+    std::string machine() const;              // "AMD EPYC, 2 cores, AVX3_DL, Linux 6.1"
+    // whatever its system
+    bool same_machine(const Made& o) const {
+        return cpu == o.cpu && cores == o.cores && vectors == o.vectors;
+    }
+};
+
+struct Folder {
+    std::string name;
+    Made made;
+    study::Cells cells;
+    store::Table dispersion, maps, boundaries;  // empty where the file is absent
+};
+
+// Throws UsageError where there is no manifest.json, no cells or maps, or a file cannot be read.
+Folder read_folder(const std::filesystem::path&);
+
+// Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too
+// where a table has several at one rate.
+using Named = std::map<std::string, std::size_t>;
+Named named_cells(const study::Cells&, bool with_modes);
+bool modes_name(const study::Cells&);  // two cells differ in their modes alone
+
+// Rows by the values of these columns, "x=1 y=2"; where several have the same, the second is "...
+// #2".
+Named named_rows(const store::Table&, const std::vector<std::string>& columns);
+
+// ---- The rules
+
+enum class Turn { same, moved, better, worse };
+const char* name_of(Turn);
+
+// Of a cell in both folders; what one side lacks is NaN there. `part`: of a figure, with "" the
+// headline's tap.
+Turn turn_of(const study::Column&, const study::TabledCell& before, const study::TabledCell& after);
+Turn turn_of_fact(const std::string& name, const study::TabledCell& before,
+                  const study::TabledCell& after);
+Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string& tap,
+             const study::TabledCell& before, const study::TabledCell& after);
+
+// A field of dispersion.csv.
+Turn dispersion_turn(const std::string& column, double before, double after);
+
+// ---- What changed
 
 struct Finding {
     Turn turn;
@@ -54,5 +106,13 @@ Difference difference(const Folder& before, const Folder& after);
 std::string text_of(const Difference&, const Folder& before, const Folder& after,
                     std::size_t most_lines = 20);
 std::string json_of(const Difference&, const Folder& before, const Folder& after);
+
+// For difference.cpp alone.
+struct Pair {  // what both have
+    std::string name;
+    std::size_t before, after;  // rows of the two tables
+};
+void compare_costs(const Folder& before, const Folder& after, const std::vector<Pair>&,
+                   Difference&);
 
 }  // namespace jvari::bench::diff

@@ -1,10 +1,12 @@
-#include "bench/diff/folder.hpp"
+#include "bench/diff/difference.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/store/cell_rows.hpp"
+#include "bench/store/folder.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::diff {
@@ -26,32 +28,16 @@ Made made_by(const store::Folder& folder) {
             text("cpu"),    text("cores"), text("vectors"),  text("system")};
 }
 
-// Errors stand in cells.csv and in errors.csv: a folder in which they differ was changed by hand.
-std::string altered_column(const store::Table& cells, const store::Table& errors) {
-    const auto same = [&](const std::string& column) {
-        for (std::size_t i = 0; i < errors.rows.size(); ++i)
-            if (i >= cells.rows.size() || cells.at(i, column) != errors.at(i, column)) return false;
-        return true;
-    };
-    for (const std::string& column : errors.columns)
-        if (cells.column(column) >= 0 && !same(column)) return column;
-    return "";
-}
-
 std::string counted(std::map<std::string, int>& seen, const std::string& text) {
     const int n = ++seen[text];
     return n == 1 ? text : fmt::format("{} #{}", text, n);
 }
 
-std::string cell_text(const store::Table& t, std::size_t row,
-                      const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) {
-        const std::string& value = t.at(row, name);
-        const bool plain = name == "scene" || name == "scheme" || name == "options";
-        if (!value.empty()) text += (text.empty() ? "" : " ") + (plain ? "" : name + "=") + value;
-    }
-    return text + (t.at(row, "rate").empty() ? "" : " " + t.at(row, "rate") + " Hz");
+std::string cell_text(const study::TabledCell& c) {
+    std::string text = c.scene;
+    for (const auto& [key, value] : c.swept) text += " " + key + "=" + value;
+    text += " " + c.variant();
+    return text + (std::isnan(c.rate) ? "" : " " + store::text_of(c.rate) + " Hz");
 }
 }  // namespace
 
@@ -64,38 +50,31 @@ Folder read_folder(const fs::path& path) {
     if (!fs::is_directory(path, error))
         throw store::UsageError(fmt::format("{}: no such folder", path.string()));
     const store::Folder folder{path};
-    Folder f{path.string(),
-             made_by(folder),
-             folder.cells(false),
-             folder.table("dispersion"),
-             folder.table("maps"),
-             folder.table("boundaries"),
-             ""};
-    f.altered = altered_column(f.cells, folder.table("errors"));
-    if (f.cells.columns.empty() && f.maps.columns.empty())
-        throw store::UsageError(
-            fmt::format("{}: neither cells.csv nor errors.csv nor maps.csv", f.name));
+    const Folder f{path.string(),
+                   made_by(folder),
+                   study::read_cells(path, false),
+                   folder.table("dispersion"),
+                   folder.table("maps"),
+                   folder.table("boundaries")};
+    if (f.cells.empty() && f.maps.columns.empty())
+        throw store::UsageError(fmt::format("{}: neither facts.csv nor maps.csv", f.name));
     return f;
 }
 
-bool modes_name(const store::Table& cells) {
+bool modes_name(const study::Cells& cells) {
     std::map<std::string, int> seen;
-    const auto names = store::naming_columns(cells);
-    for (std::size_t i = 0; i < cells.rows.size(); ++i)
-        if (++seen[cell_text(cells, i, names)] > 1) return true;
-    return false;
+    return std::ranges::any_of(
+        cells, [&seen](const study::TabledCell& c) { return ++seen[cell_text(c)] > 1; });
 }
 
-Named named_cells(const store::Table& cells, bool with_modes, bool with_scene) {
+Named named_cells(const study::Cells& cells, bool with_modes) {
     Named named;
     std::map<std::string, int> seen;
-    auto names = store::naming_columns(cells);
-    if (!with_scene) std::erase(names, "scene");
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        const std::string modes = with_modes && !cells.at(i, "modes").empty()
-                                      ? ", " + cells.at(i, "modes") + " modes"
-                                      : "";
-        named[counted(seen, cell_text(cells, i, names) + modes)] = i;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const double modes = cells[i].modes;
+        named[counted(seen, cell_text(cells[i]) + (with_modes && !std::isnan(modes)
+                                                       ? fmt::format(", {} modes", modes)
+                                                       : ""))] = i;
     }
     return named;
 }

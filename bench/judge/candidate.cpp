@@ -10,7 +10,7 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/compare_record.hpp"
-#include "bench/compare/record/fits.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/store/usage.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
@@ -69,10 +69,10 @@ void forget_errors_in_other_models(compare::Comparison& c) {
             r.cell.in_model.clear();
 }
 
-std::string sentence_of(const store::Table& cells, std::size_t row) {
-    const std::string headline = compare::headline_error(cells, store::all_rows(cells));
-    const compare::Bound bound = compare::bound_of(cells, row, headline);
-    std::string text = fmt::format("{}: ", store::run_name(cells, row));
+std::string sentence_of(const study::Cells& cells, const study::TabledCell& cell) {
+    const std::size_t headline = compare::headline_error(cells, study::all_rows(cells));
+    const compare::Bound bound = compare::bound_of(cell, headline);
+    std::string text = cell.run() + ": ";
     using Says = compare::Bound::Says;
     switch (bound.says()) {
         case Says::nothing: return text + "no error can be told";
@@ -92,14 +92,12 @@ std::string sentence_of(const store::Table& cells, std::size_t row) {
             text += fmt::format("differs by {} from a reference whose own uncertainty is unknown",
                                 compare::percent(bound.error));
     }
-    const double own =
-        cells.number(row, "error_in_model_" + headline.substr(std::string("error_").size()));
-    if (std::isfinite(own))
+    if (const double own = cell.figure(headline).in_model; std::isfinite(own))
         text += fmt::format(", {} of it against a string of as many modes", compare::percent(own));
-    const double horizon = cells.number(row, "horizon_s"),
-                 octaves = cells.number(row, "third_octave_db");
-    text += fmt::format(" ({}); within 10 % for {}{}", headline, compare::time_text(horizon),
-                        compare::after_pluck(cells, row));
+    const double horizon = cell.figure(study::measure("horizon_s")).value,
+                 octaves = cell.figure(study::measure("third_octave_db")).value;
+    text += fmt::format(" ({}); within 10 % for {}{}", study::measures()[headline].column,
+                        compare::time_text(horizon), compare::after_pluck(cell));
     return std::isfinite(octaves) ? text + fmt::format("; third octaves {:.2g} dB apart", octaves)
                                   : text;
 }
@@ -153,29 +151,26 @@ compare::Comparison judge(Candidate candidate, compare::CompareRequest request,
 }
 
 std::string verdict_of(const compare::Comparison& c) {
-    const store::Table cells = compare::cells_of(c);
+    const study::Cells cells = compare::cells_of(c);
     std::string text;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        if (!is_candidate(c.outcome.records[i].cell)) continue;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
         const study::Cell& cell = c.outcome.records[i].cell;
+        if (!is_candidate(cell)) continue;
         if (cell.status() == "diverged")
             text += fmt::format(
                 "{}{}: {}: its taps go beyond what ten times the energy of the scene could make",
-                text.empty() ? "" : "\n", store::run_name(cells, i), cell.reason);
+                text.empty() ? "" : "\n", cells[i].run(), cell.reason);
         else
-            text += (text.empty() ? "" : "\n") + sentence_of(cells, i) +
+            text += (text.empty() ? "" : "\n") + sentence_of(cells, cells[i]) +
                     beside(c, c.outcome.records[i]);
     }
-    const store::Table orders = compare::convergence_of(cells);
-    for (std::size_t i = 0; i < orders.rows.size(); ++i)
-        if (orders.at(i, "scheme") == c.outcome.records.front().cell.scheme->name &&
-            orders.at(i, "window") == "50ms" &&
-            orders.at(i, "tap") == c.scene().taps[static_cast<std::size_t>(c.headline.nut)].name)
-            text += fmt::format("\nobserved order of convergence over 50 ms: {:.2f}{}",
-                                orders.number(i, "order"),
-                                orders.at(i, "half_width").empty()
-                                    ? ", of two rates"
-                                    : fmt::format(" +- {:.2f}", orders.number(i, "half_width")));
+    for (const compare::ObservedOrder& o : compare::convergence_of(cells))
+        if (cells[o.first].scheme == c.outcome.records.front().cell.scheme->name &&
+            o.measure == study::measure("error_l2_50ms") && o.tap == cells[o.first].headline_nut)
+            text += fmt::format(
+                "\nobserved order of convergence over 50 ms: {:.2f}{}", o.order.order,
+                std::isfinite(o.order.half_width) ? fmt::format(" +- {:.2f}", o.order.half_width)
+                                                  : ", of two rates");
     return text;
 }
 

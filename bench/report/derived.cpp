@@ -1,166 +1,165 @@
-#include "bench/report/derived.hpp"
+#include "bench/report/results.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
-#include "bench/compare/record/notes.hpp"
-#include "bench/compare/record/pareto.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/study/errors.hpp"
 
 namespace jvari::bench::report {
 
 namespace {
-using store::Rows;
 using store::Table;
+using study::Rows;
+using Cell = study::TabledCell;
 
 // beyond, fronts and orders are of the headline errors alone
 constexpr std::size_t most_cells_with_taps = 600;
 
-Table rows_where(const Table& t, const std::string& column, const std::string& text) {
-    Table rows{t.columns, {}};
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (t.at(i, column) == text) rows.rows.push_back(t.rows[i]);
-    return rows;
-}
-
 // Of a scheme with several numbers of modes at one rate the cells that none of its others beats are
 // one line: what modes and rate come to together.
-std::vector<std::string> lines_of(const Table& t) {
-    const std::string headline = compare::headline_error(t, store::all_rows(t));
-    const auto name = [&t](std::size_t i) {
-        return store::variant_name(t.at(i, "scheme"), t.at(i, "options"));
-    };
-    const auto beaten = [&](std::size_t i) {
-        const double cost = t.number(i, "cost_s_per_s"),
-                     error = compare::bound_of(t, i, headline).shown();
-        for (std::size_t k = 0; k < t.rows.size(); ++k)
-            if (k != i && compare::trusted(t, k) && t.at(k, "problem") == t.at(i, "problem") &&
-                name(k) == name(i) && t.number(k, "cost_s_per_s") <= cost &&
-                compare::bound_of(t, k, headline).shown() < error)
-                return true;
-        return false;
+std::vector<std::string> lines_of(const Results& r) {
+    const std::size_t headline = compare::headline_error(r.cells, study::all_rows(r.cells));
+    const auto shown = [&](const Cell& c) { return compare::bound_of(c, headline).shown(); };
+    const auto beaten = [&](const Cell& c) {
+        return std::ranges::any_of(r.cells, [&](const Cell& k) {
+            return &k != &c && compare::trusted(k) && k.same_series(c) &&
+                   k.cost_s_per_s <= c.cost_s_per_s && shown(k) < shown(c);
+        });
     };
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const bool several = t.at(i, "series") != name(i);
-        if (!several || !(t.number(i, "cost_s_per_s") > 0))
-            lines.push_back(t.at(i, "status") == "not_needed" ? "" : t.at(i, "series"));
-        else lines.push_back(beaten(i) ? "" : name(i));
+    for (std::size_t i = 0; i < r.cells.size(); ++i) {
+        const Cell& c = r.cells[i];
+        if (r.series[i] == c.variant() || !(c.cost_s_per_s > 0))
+            lines.push_back(c.status == "not_needed" ? "" : r.series[i]);
+        else lines.push_back(beaten(c) ? "" : c.variant());
     }
     return lines;
 }
 
-Table judged_of(const Results& r, const std::vector<std::string>& lines) {
-    Table t{{"trusted", "may_win", "run", "line"}, {}};
+Table cells_table(const Results& r, const std::vector<std::string>& lines) {
+    Table t = study::table_of(r.cells, study::Contents::everything);
+    t.columns.insert(t.columns.begin(), {"problem", "series"});
+    t.columns.insert(t.columns.end(), {"trusted", "may_win", "run", "line"});
     const auto yes = [](bool holds) { return holds ? std::string("1") : ""; };
-    for (std::size_t i = 0; i < r.cells.rows.size(); ++i)
-        t.rows.push_back({yes(compare::trusted(r.cells, i)),
-                          yes(compare::may_win(r.cells, i, r.controls)),
-                          store::run_name(r.cells, i), lines[i]});
+    for (std::size_t i = 0; i < r.cells.size(); ++i) {
+        const Cell& c = r.cells[i];
+        t.rows[i].insert(t.rows[i].begin(), {c.problem(), r.series[i]});
+        t.rows[i].insert(
+            t.rows[i].end(),
+            {yes(compare::trusted(c)), yes(compare::may_win(c, r.controls)), c.run(), lines[i]});
+    }
     return t;
 }
 
-Table bounds_of(const Table& cells) {
-    Table t{{"row", "column", "shown", "text"}, {}};
-    for (const std::string& column : cells.columns)
-        for (std::size_t i = 0; column.starts_with("error_") && i < cells.rows.size(); ++i) {
-            const compare::Bound b = compare::bound_of(cells, i, column);
-            if (b.says() == compare::Bound::Says::at_most ||
-                b.says() == compare::Bound::Says::unknown)
-                t.rows.push_back({std::to_string(i), column, store::text_of(b.shown()),
-                                  compare::error_text(b, "{:.2e}")});
+struct ErrorName {
+    std::size_t measure;
+    std::string tap;  // "": the headline's
+};
+std::vector<ErrorName> errors_in(const study::Cells& cells) {
+    std::vector<std::string> taps{""};
+    for (const Cell& c : cells)
+        for (const std::string& tap : c.taps)
+            if (cells.size() <= most_cells_with_taps && std::ranges::find(taps, tap) == taps.end())
+                taps.push_back(tap);
+    std::vector<ErrorName> errors;
+    for (const std::string& tap : taps)
+        for (std::size_t m = 0; m < study::measures().size(); ++m)
+            if (study::measures()[m].less_is_better) errors.push_back({m, tap});
+    return errors;
+}
+
+Table figures_table(const study::Cells& cells) {
+    Table t{{"row", "tap", "measure", "value", "floor", "certificate", "shown", "text"}, {}};
+    const auto text = [](double x) { return store::text_of(x); };
+    for (const auto& [m, tap] : errors_in(cells))
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const study::Figure& f = cells[i].figure(m, tap);
+            if (std::isnan(f.value) && std::isnan(f.floor) && std::isnan(f.certificate)) continue;
+            const compare::Bound b = compare::bound_of(cells[i], m, tap);
+            const bool bounded =
+                study::is_waveform(m) && (b.says() == compare::Bound::Says::at_most ||
+                                          b.says() == compare::Bound::Says::unknown);
+            t.rows.push_back({std::to_string(i), tap, study::measures()[m].column, text(f.value),
+                              text(f.floor), text(f.certificate), bounded ? text(b.shown()) : "",
+                              bounded ? compare::error_text(b, "{:.2e}") : ""});
         }
     return t;
 }
 
-Table scene_of(const Table& own, const std::string& problem) {
-    const std::string headline = compare::headline_error(own, store::all_rows(own));
-    return {{"problem", "headline", "certificate", "spread", "busy"},
-            {{problem, headline, store::text_of(compare::bound_of(own, 0, headline).certificate),
-              store::text_of(compare::median_spread(own)), compare::busy_text(own)}}};
+Table scenes_table(const study::Cells& cells) {
+    Table t{{"problem", "headline", "certificate", "spread", "busy"}, {}};
+    for (const Rows& rows : study::by_problem(cells, study::all_rows(cells))) {
+        const std::size_t headline = compare::headline_error(cells, rows);
+        study::Cells own;
+        for (const std::size_t i : rows) own.push_back(cells[i]);
+        t.rows.push_back({own[0].problem(), study::measures()[headline].column,
+                          store::text_of(compare::bound_of(own[0], headline).certificate),
+                          store::text_of(compare::median_spread(own)), compare::busy_text(own)});
+    }
+    return t;
 }
 
-Table cheapest_in(const Results& r, const Table& own, const std::string& problem) {
-    // without problem and series
-    const Table plain = own.only({own.columns.begin() + 2, own.columns.end()});
-    Table t = compare::cheapest_of(plain, r.controls);
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const std::string goal = compare::goal_name(t, i);
-        t.rows[i].insert(t.rows[i].begin(), {problem, goal});
-    }
+Table cheapest_table(const Results& r) {
+    const auto answers = compare::cheapest_of(r.cells, r.controls);
+    Table t = compare::table_of(answers, r.cells);
+    for (std::size_t i = 0; i < answers.size(); ++i)
+        t.rows[i].insert(t.rows[i].begin(), {r.cells[answers[i].of].problem(), answers[i].goal()});
     t.columns.insert(t.columns.begin(), {"problem", "goal"});
     return t;
 }
 
-void append(Table& whole, Table part) {
-    whole.columns = std::move(part.columns);
-    std::ranges::move(part.rows, std::back_inserter(whole.rows));
-}
-
-std::vector<std::string> errors_in(const Table& cells) {
-    std::vector<std::string> taps{""}, errors;
-    for (const std::string& name : cells.columns)
-        if (name.starts_with("error_l2_whole_") && cells.rows.size() <= most_cells_with_taps)
-            taps.push_back(name.substr(14));
-    for (const std::string& tap : taps)
-        for (const study::Measure& m : study::measures())
-            if (m.less_is_better && cells.column(m.column + tap) >= 0)
-                errors.push_back(m.column + tap);
-    return errors;
-}
-
 Table fronts_of(const Results& r, const std::vector<std::string>& lines) {
-    Table t{{"problem", "row", "error", "cost"}, {}};
-    Rows rivals = store::all_rows(r.cells);
+    constexpr std::pair<const char*, double Cell::*> costs[] = {
+        {"cost_s_per_s", &Cell::cost_s_per_s},
+        {"ns_per_step", &Cell::ns_per_step},
+        {"worst_block_of_deadline", &Cell::worst_block_of_deadline},
+        {"rate", &Cell::rate},
+        {"dofs", &Cell::dofs}};
+    Table t{{"row", "tap", "measure", "cost"}, {}};
+    Rows rivals = study::all_rows(r.cells);
     std::erase_if(rivals, [&](std::size_t i) {
-        return lines[i].empty() || !compare::may_win(r.cells, i, r.controls);
+        return lines[i].empty() || !compare::may_win(r.cells[i], r.controls);
     });
-    for (const Rows& rows : store::alike(r.cells, rivals, {"problem"}))
-        for (const std::string& error : errors_in(r.cells))
-            for (const char* cost :
-                 {"cost_s_per_s", "ns_per_step", "worst_block_of_deadline", "rate", "dofs"}) {
-                const auto front = compare::pareto_front(r.cells, rows, error, cost);
+    for (const Rows& rows : study::by_problem(r.cells, rivals))
+        for (const auto& [measure, tap] : errors_in(r.cells))
+            for (const auto& [name, cost] : costs) {
+                const auto front = compare::pareto_front(r.cells, rows, measure, cost, tap);
                 for (std::size_t k = 0; k < front.size(); ++k)
                     if (front[k])
-                        t.rows.push_back(
-                            {r.cells.at(rows[k], "problem"), std::to_string(rows[k]), error, cost});
+                        t.rows.push_back({std::to_string(rows[k]), tap,
+                                          study::measures()[measure].column, name});
             }
     return t;
 }
 
 // a tie with the truth has no order, and an error that is all wrong is not on its way to one
-Table orders_of(const Table& cells) {
-    Table t{{"problem", "series", "error", "order", "half_width", "points"}, {}};
-    Rows ended = store::all_rows(cells);
-    std::erase_if(ended, [&](std::size_t i) {
-        return cells.at(i, "status") != "ok" || !(cells.number(i, "rate") > 0);
-    });
-    const auto names = errors_in(cells);
-    for (const Rows& rows : store::alike(cells, ended, {"problem", "series"}))
-        for (const std::string& error : names) {
-            if (const Order o = compare::fall_over_rates(cells, rows, error).order; o.points >= 2)
-                t.rows.push_back({cells.at(rows[0], "problem"), cells.at(rows[0], "series"), error,
-                                  store::text_of(o.order), store::text_of(o.half_width),
-                                  std::to_string(o.points)});
-        }
+Table orders_of(const Results& r) {
+    Table t{{"problem", "series", "tap", "measure", "order", "half_width", "points"}, {}};
+    Rows ended = study::all_rows(r.cells);
+    std::erase_if(
+        ended, [&](std::size_t i) { return r.cells[i].status != "ok" || !(r.cells[i].rate > 0); });
+    const auto line = [&](std::size_t i) { return r.cells[i].problem() + "|" + r.series[i]; };
+    const auto errors = errors_in(r.cells);
+    for (const Rows& rows : study::alike(ended, line))
+        for (const auto& [measure, tap] : errors)
+            if (const Order o = compare::fall_over_rates(r.cells, rows, measure, tap).order;
+                o.points >= 2)
+                t.rows.push_back({r.cells[rows[0]].problem(), r.series[rows[0]], tap,
+                                  study::measures()[measure].column, store::text_of(o.order),
+                                  store::text_of(o.half_width), std::to_string(o.points)});
     return t;
 }
 }  // namespace
 
-std::map<std::string, store::Table> derived_tables(const Results& r) {
-    const auto lines = lines_of(r.cells);
-    std::map<std::string, Table> all{{"judged", judged_of(r, lines)},
-                                     {"bounds", bounds_of(r.cells)},
-                                     {"fronts", fronts_of(r, lines)},
-                                     {"orders", orders_of(r.cells)}};
-    for (const Rows& rows : store::alike(r.cells, store::all_rows(r.cells), {"problem"})) {
-        const std::string& problem = r.cells.at(rows[0], "problem");
-        const Table own = rows_where(r.cells, "problem", problem);
-        append(all["scenes"], scene_of(own, problem));
-        append(all["cheapest"], cheapest_in(r, own, problem));
-    }
-    return all;
+std::map<std::string, Table> derived_tables(const Results& r) {
+    if (r.cells.empty()) return {};
+    const auto lines = lines_of(r);
+    return {{"cells", cells_table(r, lines)},  {"errors", figures_table(r.cells)},
+            {"scenes", scenes_table(r.cells)}, {"cheapest", cheapest_table(r)},
+            {"fronts", fronts_of(r, lines)},   {"orders", orders_of(r)}};
 }
 
 }  // namespace jvari::bench::report

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/report/derived.hpp"
 #include "bench/report/page.hpp"
-#include "bench/report/samples.hpp"
+#include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -47,10 +46,13 @@ store::Table fitting(store::Table t, Json& left_out) {
     std::vector<bool> kept(columns.size(), true);
     const auto needed = [&](const std::string& name) {
         return std::ranges::any_of(
-            std::initializer_list<const char*>{"problem", "series", "cell", "scene", "scheme",
-                                               "options", "rate", "modes", "status", "flags",
-                                               "error_l2", "certificate_l2", "third_octave", "cost",
-                                               "ns_per", "map", "x", "y", "outcome"},
+            std::initializer_list<const char*>{
+                "problem", "series", "cell",    "scene",      "scheme",   "options",
+                "rate",    "modes",  "status",  "flags",      "error_l2", "third_octave",
+                "cost",    "ns_per", "map",     "x",          "y",        "outcome",
+                "row",     "tap",    "measure", "value",      "floor",    "certificate",
+                "shown",   "text",   "order",   "half_width", "points",   "trusted",
+                "may_win", "run",    "line",    "goal",       "target"},
             [&](const char* start) { return name.starts_with(start); });
     };
     for (const auto& [bytes, k] : columns)
@@ -67,6 +69,23 @@ store::Table fitting(store::Table t, Json& left_out) {
 }
 
 namespace {
+// Of a table that is too large, other taps than the headline's have the errors that are asked for
+// most.
+void shorten_errors(store::Table& t, Json& left_out) {
+    std::size_t size = 0;
+    for (const auto& row : t.rows)
+        for (const std::string& field : row) size += field.size() + 1;
+    if (size <= table_limit) return;
+    const auto tap = t.column("tap"), measure = t.column("measure");
+    std::erase_if(t.rows, [&](const auto& row) {
+        return !row[tap].empty() && !row[measure].starts_with("error_l2") &&
+               row[measure] != "third_octave_db";
+    });
+    left_out.push_back(
+        "Charts of single taps have waveforms and third octaves; all errors are in "
+        "errors.csv beside the page.");
+}
+
 Json measures() {
     Json all = Json::array();
     for (const study::Measure& m : study::measures())
@@ -77,12 +96,10 @@ Json measures() {
 // of the cells that asked for spectrograms, and of the references that were heard
 Json kept_levels(const Results& r) {
     Json all = Json::array();
-    for (std::size_t i = 0; i < r.cells.rows.size(); ++i) {
-        if (r.cells.at(i, "cell").empty()) continue;
-        if (const auto kept = study::read_levels(
-                r.folder / "cells" / (r.cells.at(i, "cell") + ".json"), "spectrogram"))
+    for (std::size_t i = 0; i < r.cells.size(); ++i)
+        if (const auto kept =
+                study::read_levels(r.folder / "cells" / (r.cells[i].cell + ".json"), "spectrogram"))
             all.push_back(json_of(*kept)), all.back()["cell"] = i;
-    }
     if (all.empty()) return all;
     for (std::size_t i = 0; i < r.sounds.rows.size(); ++i) {
         if (r.sounds.at(i, "scheme") != "reference") continue;
@@ -101,13 +118,13 @@ Json data_of(const Results& r) {
     data["command"] = r.command;
     data["measures"] = measures();
     data["manifest"] = Json::parse(r.manifest, nullptr, false);
-    for (const auto& [name, table] : r.tables)
+    auto tables = derived_tables(r);
+    const store::Table cheapest = tables["cheapest"];
+    shorten_errors(tables["errors"], data["left_out"]["cells"]);
+    tables.insert(r.tables.begin(), r.tables.end());
+    for (const auto& [name, table] : tables)
         if (!table.columns.empty())
             data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
-    const auto derived = derived_tables(r);
-    const store::Table cheapest =
-        derived.contains("cheapest") ? derived.at("cheapest") : store::Table{};
-    for (const auto& [name, table] : derived) data["tables"][name] = store::csv(table);
     data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
     return data;

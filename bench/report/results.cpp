@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/store/cell_rows.hpp"
 #include "bench/store/folder.hpp"
 #include "bench/store/usage.hpp"
 
@@ -17,38 +17,41 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-std::string named_problem(const store::Table& t, std::size_t row,
-                          const std::vector<std::string>& keys, const std::string& scene) {
-    std::string problem = t.column("scene") < 0 ? scene : t.at(row, "scene");
-    for (const std::string& key : keys)
-        if (key != "map" && !t.at(row, key).empty())
-            problem += fmt::format(", {} = {}", key, t.at(row, key));
-    return problem;
+struct Named {  // what tells one row's series from another's
+    std::string problem, variant, rate, modes;
+};
+std::vector<std::string> series_of(const std::vector<Named>& rows) {
+    const auto place = [](const Named& n) { return n.problem + "|" + n.variant + "|" + n.rate; };
+    std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
+    for (const Named& n : rows) modes[place(n)].insert(n.modes);
+    // schemes with more than one number of modes at a rate; without a rate, modes are its steps
+    std::set<std::string> several;
+    for (const Named& n : rows)
+        if (!n.rate.empty() && modes[place(n)].size() > 1) several.insert(n.variant);
+    std::vector<std::string> series;
+    for (const Named& n : rows)
+        series.push_back(n.variant +
+                         (several.contains(n.variant) ? ", " + n.modes + " modes" : ""));
+    return series;
 }
 
 void name_rows(store::Table& t, const std::string& scene) {
-    const auto keys = store::swept_keys(t);
-    std::vector<std::string> problems, names;
-    std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
-    const auto place = [&](std::size_t i) {
-        return problems[i] + "|" + names[i] + "|" + t.at(i, "rate");
-    };
+    const auto from = std::ranges::find(t.columns, "scene"),
+               to = std::ranges::find(t.columns, "scheme");
+    const bool swept = from != t.columns.end() && to - from > 1;
+    const std::vector<std::string> keys(swept ? from + 1 : to, to);
+    std::vector<Named> rows;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        problems.push_back(named_problem(t, i, keys, scene));
-        names.push_back(store::variant_name(t.at(i, "scheme"), t.at(i, "options")));
-        modes[place(i)].insert(t.at(i, "modes"));
+        std::string problem = from == t.columns.end() ? scene : t.at(i, "scene");
+        for (const std::string& key : keys)
+            if (key != "map" && !t.at(i, key).empty())
+                problem += fmt::format(", {} = {}", key, t.at(i, key));
+        rows.push_back({problem, store::variant_name(t.at(i, "scheme"), t.at(i, "options")),
+                        t.at(i, "rate"), t.at(i, "modes")});
     }
-    // schemes with more than one number of modes at a rate; without a rate, modes are its steps
-    std::set<std::string> several;
+    const auto series = series_of(rows);
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (t.column("rate") >= 0 && !t.at(i, "rate").empty() && modes[place(i)].size() > 1)
-            several.insert(names[i]);
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        const std::string series =
-            names[i] +
-            (several.contains(names[i]) ? fmt::format(", {} modes", t.at(i, "modes")) : "");
-        t.rows[i].insert(t.rows[i].begin(), {problems[i], series});
-    }
+        t.rows[i].insert(t.rows[i].begin(), {rows[i].problem, series[i]});
     t.columns.insert(t.columns.begin(), {"problem", "series"});
 }
 
@@ -79,14 +82,13 @@ Results read_results(const fs::path& path) {
     const store::Folder folder{path};
     Results r;
     r.folder = path;
-    r.tables["cells"] = folder.cells(true);
+    r.cells = study::read_cells(path, true);
     for (const char* name :
          {"dispersion", "convergence", "maps", "boundaries", "sounds", "path", "needs"})
         r.tables[name] = folder.table(name);
-    if (r.tables["cells"].columns.empty() && r.tables["maps"].columns.empty() &&
-        r.tables["path"].columns.empty())
+    if (r.cells.empty() && r.tables["maps"].columns.empty() && r.tables["path"].columns.empty())
         throw store::UsageError(
-            fmt::format("cannot read {}, and there is no maps.csv", (path / "cells.csv").string()));
+            fmt::format("cannot read {}, and there is no maps.csv", (path / "facts.csv").string()));
     try {
         read_manifest(r, folder.manifest());
     } catch (const Json::exception& e) {
@@ -94,7 +96,11 @@ Results read_results(const fs::path& path) {
     }
     for (auto& [name, table] : r.tables)
         if (name != "path" && name != "needs" && !table.columns.empty()) name_rows(table, r.name);
-    r.cells = r.tables["cells"];
+    std::vector<Named> named;
+    for (const study::TabledCell& c : r.cells)
+        named.push_back(
+            {c.problem(), c.variant(), store::text_of(c.rate), store::text_of(c.modes)});
+    r.series = series_of(named);
     r.sounds = r.tables["sounds"];
     return r;
 }

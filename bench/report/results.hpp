@@ -3,10 +3,14 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/store/records.hpp"
+#include "bench/store/sound.hpp"
+#include "bench/study/spectrogram_levels.hpp"
 
 namespace jvari::bench::report {
 
@@ -15,19 +19,47 @@ struct Results {
     std::string manifest;                      // JSON
     std::string name, source, about, command;  // command: that made the results
     compare::Controls controls = compare::Controls::stand_beside;
-    store::Table cells, sounds;
-    // What the page draws, cells and sounds too, by the file's name; empty where the file is
-    // absent. All but those of trim, path and needs, have the columns `problem` and `series` in
-    // front.
+    study::Cells cells;
+    std::vector<std::string> series;  // of each cell
+    store::Table sounds;
+    // What else the page draws, sounds too, by the file's name; empty where the file is absent. All
+    // but those of trim, path and needs, have the columns `problem` and `series` in front.
     std::map<std::string, store::Table> tables;
 };
 
-// Throws UsageError where there is no manifest.json, none of cells.csv, errors.csv,
-// maps.csv and path.csv, or one of the files cannot be read.
+// Throws UsageError where there is no manifest.json, none of facts.csv, maps.csv and path.csv, or
+// one of the files cannot be read.
 Results read_results(const std::filesystem::path&);
 
 // A problem is a scene at one point of what is swept; runs of different problems are not compared.
 // A series is a scheme with its options, and with its modes where the table has it with several at
 // one rate.
+
+// ---- What the page joins with the folder's tables: what the program says of each cell, each scene
+// and each line. Judgements and statistics are made here, once; the page's JavaScript looks them up
+// and draws them.
+
+// cells:    what is known of each but its errors, with its problem and series in front, and with
+//           trusted, may_win, run (its name in a sentence), line (its series beside the front; none
+//           where another of its scheme's numbers of modes is better) behind
+// errors:   row (of cells), tap, measure, value, floor, certificate; shown, text: of those that are
+//           no more than bounded (compare/bound.hpp)
+// scenes:   problem, headline, certificate (of its first cell), spread and busy (of its clock)
+// cheapest: problem and goal ("10 %"), then what compare::cheapest_of says
+// fronts:   row, tap, measure, cost: the cells on the front of each error and cost
+// orders:   problem, series, tap, measure, order, half_width, points: as observed over the rates
+std::map<std::string, store::Table> derived_tables(const Results&);
+
+// ---- Sounds and spectrograms as the page carries them: 16 bit samples as base64.
+
+nlohmann::ordered_json json_of(const study::Levels&);
+nlohmann::ordered_json json_of(const store::Sound&, double longest);  // [s]
+
+// of sounds.csv; throws UsageError where it is not below the folder
+std::filesystem::path sound_file(const Results&, std::size_t row);
+// The sounds of the folder that fit into `limit` bytes:
+// references, runs that are the cheapest within an accuracy, highest rates, lowest rates, the rest.
+nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, double longest,
+                             std::size_t limit, nlohmann::ordered_json& left_out);
 
 }  // namespace jvari::bench::report

@@ -9,7 +9,7 @@
 #include "analysis/energy.hpp"
 #include "analysis/spectrum.hpp"
 #include "bench/report/report.hpp"
-#include "bench/report/samples.hpp"
+#include "bench/report/results.hpp"
 #include "bench/store/records.hpp"
 
 namespace jvari::bench::report {

@@ -1,4 +1,4 @@
-#include "bench/report/samples.hpp"
+#include "bench/report/results.hpp"
 
 #include <fmt/core.h>
 

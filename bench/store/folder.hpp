@@ -15,11 +15,6 @@ struct Folder {
 
     nlohmann::ordered_json manifest() const;
     Table table(const std::string& file) const;  // FILE.csv; empty where there is none
-
-    // cells.csv; of a record, which has none, errors.csv with the costs of cost.csv behind it, cell
-    // by cell. Tables of compare once did not name the cell: there the rows are the same. `whole`:
-    // throws where a cost is of no row.
-    Table cells(bool whole) const;
 };
 
 }  // namespace jvari::bench::store

@@ -89,6 +89,10 @@ std::size_t measure(const std::string& column) {
                                     measures().begin());
 }
 
+bool is_waveform(std::size_t measure) {
+    return measures()[measure].column.starts_with("error_l2_");
+}
+
 double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,
                 double rate) {
     Pair pair(run, reference, rate);

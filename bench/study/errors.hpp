@@ -23,6 +23,7 @@ struct Measure {
 };
 const std::vector<Measure>& measures();
 std::size_t measure(const std::string& column);  // its place among them
+bool is_waveform(std::size_t measure);           // a relative L2 error: it may have a certificate
 double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,
                 double rate);
 

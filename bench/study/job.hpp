@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/store/cell_rows.hpp"
 #include "bench/study/record.hpp"
 #include "bench/study/reference.hpp"
 

@@ -101,8 +101,8 @@ void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, Refe
 
 // Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile
 // meets them alike.
-void time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, Study& into,
-              const store::Listener& listener) {
+void time_set(const Plan& plan, const std::vector<std::size_t>& indices, const Kept& keep,
+              Study& into, const store::Listener& listener) {
     std::vector<Contender> contenders;
     for (const std::size_t i : indices)
         contenders.push_back({&into.records[i].cell, &plan.jobs[i].point->scene});
@@ -119,7 +119,7 @@ void time_set(const Plan& plan, const store::Rows& indices, const Kept& keep, St
 // One process of the folder times while no other does. None of them runs jobs then: each begins
 // here once all are there. A folder has the costs of one machine.
 void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
-    store::Rows timed;
+    std::vector<std::size_t> timed;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i)
         if (plan.jobs[i].repeats > 0 && !*plan.jobs[i].cell.scheme->untimed &&
             into.records[i].cell.ran())
@@ -127,7 +127,7 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
     if (timed.empty()) return;
     const auto lock = store::lock_of(keep.folder.empty() ? keep.folder : keep.folder / "clock",
                                      "times the cells of this folder", listener);
-    std::map<int, store::Rows> sets;  // of what has no cost
+    std::map<int, std::vector<std::size_t>> sets;  // of what has no cost
     const std::string here = store::stamp_now().name;
     std::string elsewhere;
     for (const std::size_t i : timed) {

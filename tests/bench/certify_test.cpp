@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/store/checksum.hpp"
-#include "bench/store/records.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/trust/certificate_library.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"
@@ -23,6 +23,15 @@ using namespace bench::trust;
 
 void write(const fs::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
+}
+
+// of the first cell and its headline's nut tap
+double certificate_in(const Json& compared, const char* measure) {
+    const Json& cell = compared.at("cells").at(0);
+    return cell.at("errors")
+        .at(cell.at("headline_nut").get<std::string>())
+        .at(measure)
+        .at("certificate");
 }
 
 Scene short_scene(const std::string& name, double duration) {
@@ -253,7 +262,7 @@ TEST(CertifyCommand, WritesToTheFolderOfCertificatesAndLeavesTheScenesOwnToItWhe
                                         there)
                                       .out);
     EXPECT_EQ(json["manifest"]["reference"]["certificate"]["file"], "free_string.json");
-    EXPECT_GT(json["cells"][0]["certificate_l2_whole"].get<double>(), 0);
+    EXPECT_GT(certificate_in(json, "error_l2_whole"), 0);
 }
 
 TEST(CertifyCommand, RefusesWhatItCannotDoAsTheOtherVerbsDo) {
@@ -455,31 +464,26 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
     const std::string out = shelf / "out";
     const Outcome o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
+    const bench::study::Cells cells = bench::study::read_cells(out, true);
+    const auto figure = [](const bench::study::TabledCell& c, const char* measure,
+                           const char* tap = "") {
+        return c.figure(bench::study::measure(measure), tap);
+    };
     // and to what doubling the modes changed
-    const double certain = cells.number(0, "certificate_l2_50ms");
-    EXPECT_TRUE(
-        says(o.out, fmt::format("\u2264{:.2e}", cells.number(0, "error_l2_50ms") + certain)));
+    const bench::study::Figure headline = figure(cells[0], "error_l2_50ms");
+    EXPECT_TRUE(says(o.out, fmt::format("\u2264{:.2e}", headline.value + headline.certificate)));
     EXPECT_TRUE(
         says(o.out, "within 10 %    cannot be decided: the reference is known to 25 % only"));
     EXPECT_TRUE(says(o.out,
                      "in the first line of the table, by exact_contact and by doubling its modes "
                      "(free_string.json)"));
     EXPECT_FALSE(says(o.err, "jvari certify"));
-    for (const char* file : {"/cells.csv", "/errors.csv"}) {
-        const bench::store::Table t = bench::store::read_csv(content(out + file));
-        for (std::size_t i = 0; i < 2; ++i) {
-            for (const char* column :
-                 {"certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole",
-                  "certificate_l2_10ms_nut", "certificate_l2_whole_y03"})
-                EXPECT_NEAR(t.number(i, column), 0.255, 0.005) << column;
-            EXPECT_LT(t.number(i, "error_l2_50ms"), 0.25);  // as it was measured
-        }
-        // what was there before keeps its place
-        EXPECT_EQ(t.columns[t.column("certificate_l2_10ms") - 1], "reason");
-        EXPECT_EQ(t.columns.back(), "certificate_in_model_l2_whole_y03");
+    for (const bench::study::TabledCell& c : cells) {
+        for (const char* measure : {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"})
+            for (const char* tap : {"", "nut", "y03"})
+                EXPECT_NEAR(figure(c, measure, tap).certificate, 0.255, 0.005) << measure << tap;
+        EXPECT_LT(figure(c, "error_l2_50ms").value, 0.25);  // as it was measured
     }
-    EXPECT_EQ(bench::store::read_csv(content(out + "/cost.csv")).column("certificate_l2_10ms"), -1);
     const Json certificate =
         Json::parse(content(out + "/manifest.json"))["reference"]["certificate"];
     EXPECT_EQ(certificate["file"], "free_string.json");
@@ -497,7 +501,7 @@ TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModes
         const Outcome o = jvari(shelf, arguments + " --json", shelf.environment);
         const Json json = Json::parse(o.out);
         const bool none = json["manifest"]["reference"]["certificate"].contains("missing");
-        EXPECT_EQ(none, json["cells"][0]["certificate_l2_10ms"].get<double>() < 0.25);
+        EXPECT_EQ(none, certificate_in(json, "error_l2_10ms") < 0.25);
         EXPECT_FALSE(says(o.err, "is unknown"));  // doubling tells
         return none;
     };
@@ -537,13 +541,16 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
 
     const Scene scene = short_scene("sitar_c5_two_planes", 0.02);
     const Oversampled own = oversampled(*stand_ins(scene).front(), scene, {88200, 44100, 0, {}}, 4);
-    const bench::store::Table t = bench::store::read_csv(content(out + "/cells.csv"));
+    const bench::study::Cells cells = bench::study::read_cells(out, true);
     for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
-        EXPECT_EQ(t.number(0, "certificate_l2_10ms_" + scene.taps[tap].name),
-                  own.estimates[tap].front().error);
-        EXPECT_EQ(t.number(0, "certificate_l2_whole_" + scene.taps[tap].name),
-                  own.estimates[tap].back().error);
-        EXPECT_EQ(t.at(0, "certificate_l2_50ms_" + scene.taps[tap].name), "");
+        const auto certificate = [&](const char* measure) {
+            return cells[0]
+                .figure(bench::study::measure(measure), scene.taps[tap].name)
+                .certificate;
+        };
+        EXPECT_EQ(certificate("error_l2_10ms"), own.estimates[tap].front().error);
+        EXPECT_EQ(certificate("error_l2_whole"), own.estimates[tap].back().error);
+        EXPECT_TRUE(std::isnan(certificate("error_l2_50ms")));
     }
 }
 
@@ -555,10 +562,10 @@ TEST(ComparedWithAStandIn, ASchemeThatASuiteAsksForEstimatesItsOwnErrorToo) {
           "reference = \"modal_two_point\"\n");
     const Json json = Json::parse(jvari(scratch, "suite " + (scratch / "a.toml") + " --json").out);
     EXPECT_EQ(json["cells"][0]["reference"], "oversampled modal_two_point");
-    EXPECT_GT(json["cells"][0]["certificate_l2_50ms"].get<double>(), 0);
+    EXPECT_GT(certificate_in(json, "error_l2_50ms"), 0);
 }
 
-TEST(SuiteWithACertificate, EveryRowHasTheFiguresLast) {
+TEST(SuiteWithACertificate, EveryCellHasTheFigures) {
     Shelf shelf;
     shelf.put(certified(short_scene("free_string", 0.02), {10, 44100}), 0.25);
     write(shelf.path / "a.toml",
@@ -569,14 +576,12 @@ TEST(SuiteWithACertificate, EveryRowHasTheFiguresLast) {
     const Outcome o =
         jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    // what the page makes of it: tests/browser
-    EXPECT_TRUE(says(content(out + "/report.html"), "certificate_l2_whole"));
-    const bench::store::Table t = bench::store::read_csv(content(out + "/errors.csv"));
-    ASSERT_EQ(t.rows.size(), 4u);
-    EXPECT_EQ(t.number(0, "certificate_l2_whole"), 0.25);
-    EXPECT_EQ(t.at(3, "reference"), "oversampled sitar_waveguide");
-    EXPECT_GT(t.number(3, "certificate_l2_whole"), 0);
-    EXPECT_LT(t.column("reason"), t.column("certificate_l2_10ms"));
+    const bench::study::Cells cells = bench::study::read_cells(out, true);
+    ASSERT_EQ(cells.size(), 4u);
+    const std::size_t whole = bench::study::measure("error_l2_whole");
+    EXPECT_EQ(cells[0].figure(whole).certificate, 0.25);
+    EXPECT_EQ(cells[3].reference, "oversampled sitar_waveguide");
+    EXPECT_GT(cells[3].figure(whole).certificate, 0);
 }
 
 }  // namespace

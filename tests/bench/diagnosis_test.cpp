@@ -17,54 +17,29 @@ struct Sample {
                         error_10ms = NAN, horizon = 0.008;
     const char* status = "ok";
 };
-store::Table cells_of(const std::vector<Sample>& samples, const std::string& scheme = "a") {
-    store::Table t{{"cell",
-                    "scene",
-                    "scheme",
-                    "options",
-                    "rate",
-                    "modes",
-                    "status",
-                    "flags",
-                    "error_l2_50ms",
-                    "floor_error_l2_50ms",
-                    "certificate_l2_50ms",
-                    "error_in_model_l2_50ms",
-                    "error_l2_10ms",
-                    "certificate_l2_10ms",
-                    "horizon_s",
-                    "third_octave_db",
-                    "cost_s_per_s",
-                    "cost_lower",
-                    "cost_upper",
-                    "wall_seconds",
-                    "deepest_penetration"},
-                   {}};
+study::Cells cells_of(const std::vector<Sample>& samples, const std::string& scheme = "a") {
+    study::Cells cells;
     for (const Sample& s : samples) {
-        const auto text = [](double x) { return store::text_of(x); };
-        t.rows.push_back({"1",
-                          "s",
-                          scheme,
-                          "",
-                          text(s.rate),
-                          "10",
-                          s.status,
-                          "",
-                          text(s.error),
-                          text(s.floor),
-                          text(s.certificate),
-                          text(s.in_model),
-                          text(s.error_10ms),
-                          "0",
-                          text(s.horizon),
-                          text(s.octaves),
-                          text(s.rate * 1e-6),
-                          text(s.rate * 1e-6),
-                          text(s.rate * 1e-6),
-                          text(s.rate * 1e-6 * 0.06),
-                          "1e-7"});  // 60 ms
+        study::TabledCell& c = cells.emplace_back();
+        c.scene = "s", c.scheme = scheme, c.status = s.status;
+        c.rate = s.rate, c.modes = 10;
+        c.cost_s_per_s = c.cost_lower = c.cost_upper = s.rate * 1e-6;
+        c.wall_seconds = s.rate * 1e-6 * 0.06;  // 60 ms
+        c.deepest_penetration = 1e-7;
+        c.taps = {c.headline_nut = c.headline_bridge = "nut"};
+        auto& figures = c.figures.emplace_back(study::measures().size());
+        figures[study::measure("error_l2_50ms")] = {s.error, s.floor, s.certificate, s.in_model};
+        figures[study::measure("error_l2_10ms")] = {s.error_10ms, NAN, 0};
+        figures[study::measure("horizon_s")].value = s.horizon;
+        figures[study::measure("third_octave_db")].value = s.octaves;
     }
-    return t;
+    return cells;
+}
+study::Figure& headline(study::TabledCell& c) {
+    return c.figures[0][study::measure("error_l2_50ms")];
+}
+std::string why(const study::Cells& cells, double most) {
+    return compare::why_none(cells, study::all_rows(cells), study::measure("error_l2_50ms"), most);
 }
 std::vector<Sample> falling(double order, double first) {
     std::vector<Sample> all;
@@ -73,8 +48,7 @@ std::vector<Sample> falling(double order, double first) {
     return all;
 }
 std::string why(const std::vector<Sample>& samples, double most) {
-    const store::Table t = cells_of(samples);
-    return compare::why_none(t, store::all_rows(t), "error_l2_50ms", most);
+    return why(cells_of(samples), most);
 }
 
 TEST(Diagnosis, NamesTheClosestCellWithItsModesRateAndErrorInPerCent) {
@@ -109,33 +83,27 @@ TEST(Diagnosis, TooFewRatesNoConvergenceAndOutOfReachAreThreeSentences) {
 
 TEST(Diagnosis, OfThreeRatesWithAWideIntervalNothingIsSaidOfAHigherRate) {
     // order 0.95 +- 5
-    store::Table t = cells_of({{44100, 0.0152}, {88200, 0.0049}, {176400, 0.0041}});
-    const auto text = [&t] {
-        return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.001);
-    };
-    EXPECT_TRUE(says(text(), "From these rates it cannot be told whether a higher rate helps."))
-        << text();
+    study::Cells cells = cells_of({{44100, 0.0152}, {88200, 0.0049}, {176400, 0.0041}});
+    const auto text = [&cells] { return why(cells, 0.001); };
+    EXPECT_TRUE(says(text(), "From these rates it cannot be told whether a higher rate helps."));
     EXPECT_FALSE(says(text(), "order")) << text();
     EXPECT_FALSE(says(text(), "--modes")) << text();
-    t.columns.emplace_back("reference_modes");
-    for (auto& row : t.rows) row.emplace_back("15");
-    EXPECT_TRUE(says(text(), "helps. More modes may help: try `--modes 15`.")) << text();
+    for (study::TabledCell& c : cells) c.reference_modes = 15;
+    EXPECT_TRUE(says(text(), "helps. More modes may help: try `--modes 15`."));
     // the error is of the scheme
-    for (auto& row : t.rows)
-        row[static_cast<std::size_t>(t.column("error_in_model_l2_50ms"))] = "0.004";
+    for (study::TabledCell& c : cells) headline(c).in_model = 0.004;
     EXPECT_FALSE(says(text(), "--modes")) << text();
-    store::Table falls = cells_of(falling(1, 0.4));
-    falls.columns.emplace_back("reference_modes");
-    for (auto& row : falls.rows) row.emplace_back("15");
-    EXPECT_FALSE(
-        says(compare::why_none(falls, store::all_rows(falls), "error_l2_50ms", 0.01), "--modes"));
+    study::Cells falls = cells_of(falling(1, 0.4));
+    for (study::TabledCell& c : falls) c.reference_modes = 15;
+    EXPECT_FALSE(says(why(falls, 0.01), "--modes"));
 }
 
 TEST(Diagnosis, RatesThatWereRunOverTheHeadlinesWindowAloneCountForTheOrder) {
     std::vector<Sample> some = falling(1, 0.4);
     some[0].status = some[1].status = "not_needed";
-    const store::Table t = cells_of(some);
-    EXPECT_TRUE(says(compare::why_none(t, {2, 3}, "error_l2_50ms", 0.01), "would be enough"));
+    EXPECT_TRUE(
+        says(compare::why_none(cells_of(some), {2, 3}, study::measure("error_l2_50ms"), 0.01),
+             "would be enough"));
 }
 
 TEST(Diagnosis, AHorizonIsSaidOnlyWhereItLiesBeforeTheEnd) {
@@ -169,32 +137,26 @@ TEST(Diagnosis, NamesNoiseReferenceAndModesWhereTheyStandInTheWay) {
 }
 
 TEST(Diagnosis, SaysWhereMoreModesHelp) {
-    store::Table t = cells_of({{44100, 0.2}, {44100, 0.1}});
-    t.rows[0][5] = "5";
-    const auto text = [&t] {
-        return compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01);
-    };
-    EXPECT_TRUE(says(text(), "The error falls with the modes: try `--modes 20`.")) << text();
-    t.rows[0][8] = "0.11";  // order 0.14
-    EXPECT_FALSE(says(text(), "--modes")) << text();
+    study::Cells cells = cells_of({{44100, 0.2}, {44100, 0.1}});
+    cells[0].modes = 5;
+    EXPECT_TRUE(says(why(cells, 0.01), "The error falls with the modes: try `--modes 20`."));
+    headline(cells[0]).value = 0.11;  // order 0.14
+    EXPECT_FALSE(says(why(cells, 0.01), "--modes"));
 }
 
 TEST(Diagnosis, SaysThatMatchedComplianceWasNotRun) {
-    store::Table t = cells_of(falling(0.1, 0.3), "modal_two_point");
-    EXPECT_TRUE(says(compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01),
-                     "compliance=matched was not run."));
-    t.rows[1][3] = "compliance=matched";
-    EXPECT_FALSE(
-        says(compare::why_none(t, store::all_rows(t), "error_l2_50ms", 0.01), "was not run"));
+    study::Cells cells = cells_of(falling(0.1, 0.3), "modal_two_point");
+    EXPECT_TRUE(says(why(cells, 0.01), "compliance=matched was not run."));
+    cells[1].options = "compliance=matched";
+    EXPECT_FALSE(says(why(cells, 0.01), "was not run"));
 }
 
 TEST(Diagnosis, StandsInTheTableOfTheCheapestWhereItSaysNone) {
-    const store::Table t = compare::cheapest_of(cells_of(falling(0.15, 0.16)));
-    for (std::size_t i = 0; i < t.rows.size(); ++i)
-        EXPECT_EQ(!t.at(i, "why").empty(),
-                  t.at(i, "status") == "none" && t.at(i, "measure") != "third_octave_db")
-            << i;
-    EXPECT_TRUE(says(compare::cheapest_text(t), "none. Closest: a, 10 modes at"))
-        << compare::cheapest_text(t);
+    const study::Cells cells = cells_of(falling(0.15, 0.16));
+    const std::vector<compare::Answer> answers = compare::cheapest_of(cells);
+    for (const compare::Answer& a : answers)
+        EXPECT_EQ(!a.why.empty(), std::string(a.status) == "none" && study::is_waveform(a.measure))
+            << a.goal();
+    EXPECT_TRUE(says(compare::cheapest_text(answers, cells), "none. Closest: a, 10 modes at"));
 }
 }  // namespace

@@ -17,6 +17,20 @@ using bench::diff::Turn;
 
 constexpr int schemes = 8, rates = 4;
 
+bench::study::TabledCell judged(const std::string& scheme, double rate, const std::string& status,
+                                const bench::study::Figure& headline) {
+    bench::study::TabledCell c;
+    c.scene = "string", c.scheme = scheme, c.status = status;
+    c.rate = rate, c.modes = 40;
+    c.taps = {c.headline_nut = c.headline_bridge = "nut"};
+    c.figures.emplace_back(bench::study::measures().size());
+    c.figures[0][bench::study::measure("error_l2_50ms")] = headline;
+    return c;
+}
+bench::study::Figure& headline(bench::study::TabledCell& c) {
+    return c.figures[0][bench::study::measure("error_l2_50ms")];
+}
+
 // Costs as a clock gives them: a true one of each cell, times the machine's drift, times a
 // disturbance of the cell and a smaller one of each of its five samples.
 Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
@@ -26,8 +40,6 @@ Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
     Folder f;
     f.name = "made up";
     f.made.cpu = cpu;
-    f.cells.columns = {"scene",  "scheme",        "options",      "rate",       "modes",
-                       "status", "error_l2_50ms", "cost_s_per_s", "cost_lower", "cost_upper"};
     for (int s = 0; s < schemes; ++s)
         for (int r = 0; r < rates; ++r) {
             std::vector<double> samples;
@@ -36,10 +48,9 @@ Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
                 samples.push_back((s + 1) * 1e-3 * (1 << r) * drift * (s == slow ? 1.3 : 1) * cell *
                                   std::exp(0.3 * disturbance * normal(random)));
             std::sort(samples.begin(), samples.end());
-            const auto text = [](double x) { return bench::store::text_of(x); };
-            f.cells.rows.push_back({"string", "scheme_" + std::to_string(s), "",
-                                    std::to_string(44100 << r), "40", "ok", "0.01",
-                                    text(samples[2]), text(samples[1]), text(samples[3])});
+            bench::study::TabledCell& c = f.cells.emplace_back(
+                judged("scheme_" + std::to_string(s), 44100 << r, "ok", {0.01}));
+            c.cost_s_per_s = samples[2], c.cost_lower = samples[1], c.cost_upper = samples[3];
         }
     return f;
 }
@@ -72,16 +83,16 @@ TEST(Costs, OfTwoMachinesAreNotComparedAndItIsSaid) {
 }
 
 TEST(Costs, ThatAreGoneAreWorse) {
-    for (const char* cost : {"", "nan", "0", "-1"}) {
+    for (const double cost : {double{NAN}, 0.0, -1.0}) {
         Folder after = timed(1, 0.02);
-        after.cells.rows[5][7] = cost;
+        after.cells[5].cost_s_per_s = cost;
         EXPECT_EQ(difference(timed(1, 0.02), after).count(Turn::worse), 1) << cost;
     }
 }
 
 TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
     Folder a = timed(1, 0.02), b = timed(2, 0.02, 1.3);
-    a.cells.rows.resize(rates), b.cells.rows.resize(rates);
+    a.cells.resize(rates), b.cells.resize(rates);
     const Difference d = difference(a, b);
     EXPECT_EQ(d.count(Turn::worse), 0);
     EXPECT_EQ(d.count(Turn::moved), rates);
@@ -91,17 +102,10 @@ TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
 
 Folder cell(const std::string& status, const std::string& flags, double error, double floor,
             double certificate) {
-    const auto text = [](double x) { return bench::store::text_of(x); };
     Folder f;
     f.name = "made up";
-    f.cells.columns = {"scheme",
-                       "rate",
-                       "status",
-                       "flags",
-                       "error_l2_50ms",
-                       "floor_error_l2_50ms",
-                       "certificate_l2_50ms"};
-    f.cells.rows = {{"a", "44100", status, flags, text(error), text(floor), text(certificate)}};
+    f.cells = {judged("a", 44100, status, {error, floor, certificate})};
+    f.cells[0].flags = flags;
     return f;
 }
 Turn turn_between(const Folder& a, const Folder& b) {
@@ -131,10 +135,8 @@ Turn turn_in(const Difference& d, const std::string& column) {
 TEST(Errors, OfAnotherReferenceAreSaidToBeBeforeAnyFigure) {
     Folder was = cell("ok", "", 0.05, 1e-12, 1e-3), is = cell("ok", "", 0.08, 1e-12, 1e-3);
     EXPECT_EQ(bench::diff::difference(was, is).references, "");
-    for (Folder* f : {&was, &is}) {
-        f->cells.columns.emplace_back("reference");
-        f->cells.rows[0].emplace_back(f == &was ? "exact_contact" : "sundials");
-    }
+    was.cells[0].reference = "exact_contact";
+    is.cells[0].reference = "sundials";
     const std::string text = text_of(bench::diff::difference(was, is), was, is);
     EXPECT_TRUE(text.starts_with(
         "the references differ in 1 of 1 cells (reference exact_contact -> sundials)"))
@@ -143,30 +145,25 @@ TEST(Errors, OfAnotherReferenceAreSaidToBeBeforeAnyFigure) {
 
 TEST(Errors, ThatAreNoLongerKnownAreWorse) {
     const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
-    for (const char* unknown : {"", "nan"}) {
-        Folder is = was;
-        is.cells.rows[0][4] = unknown;
-        EXPECT_EQ(turn_between(was, is), Turn::worse) << unknown;
-        EXPECT_EQ(turn_between(is, was), Turn::better) << unknown;
-        EXPECT_EQ(turn_between(is, is), Turn::same) << unknown;
-    }
-    Folder without = was;  // the whole column
-    without.cells.columns.erase(without.cells.columns.begin() + 4);
-    without.cells.rows[0].erase(without.cells.rows[0].begin() + 4);
-    EXPECT_EQ(turn_between(was, without), Turn::worse);
+    Folder is = was;
+    headline(is.cells[0]).value = NAN;
+    EXPECT_EQ(turn_between(was, is), Turn::worse);
+    EXPECT_EQ(turn_between(is, was), Turn::better);
+    EXPECT_EQ(turn_between(is, is), Turn::same);
+    is.cells[0].taps.clear(), is.cells[0].figures.clear();  // all errors of the tap
+    EXPECT_EQ(turn_in(difference(was, is), "error_l2_50ms"), Turn::worse);
 }
 
 TEST(Cells, ThatCameBackToTheLastDigitAreCounted) {
     Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
-    was.cells.columns.emplace_back("processor_s_per_s");
-    was.cells.rows[0].emplace_back("1");
-    was.cells.rows.push_back({"b", "44100", "ok", "", "0.05", "1e-12", "1e-3", "1"});
+    was.cells.push_back(judged("b", 44100, "ok", {0.05, 1e-12, 1e-3}));
+    for (auto& c : was.cells) c.processor_s_per_s = 1;
     Folder is = was;
-    is.cells.rows[0][7] = "2";  // a clock's
+    is.cells[0].processor_s_per_s = 2;  // a clock's
     const std::string text = text_of(bench::diff::difference(was, is), was, is);
     EXPECT_TRUE(says(text, "\n2 of 2 cells came back to the last digit")) << text;
     is = was;
-    is.cells.rows[1][4] = "0.05000000000000001";  // below noise
+    headline(is.cells[1]).value = 0.05000000000000001;  // below noise
     const Difference d = difference(was, is);
     EXPECT_TRUE(d.nothing());
     EXPECT_TRUE(says(text_of(d, was, is), "\n1 of 2 cells came back to the last digit"));
@@ -176,7 +173,7 @@ TEST(Errors, AreNotExcusedByACertificateThatGrew) {
     const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
     const Difference nine = difference(was, cell("ok", "", 0.45, 1e-12, 1e9));
     EXPECT_EQ(turn_in(nine, "error_l2_50ms"), Turn::worse);
-    EXPECT_EQ(turn_in(nine, "certificate_l2_50ms"), Turn::worse);
+    EXPECT_EQ(turn_in(nine, "certificate of error_l2_50ms"), Turn::worse);
     EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0519, 1e-12, 5e-3)), "error_l2_50ms"),
               Turn::moved);
     EXPECT_EQ(turn_in(difference(was, cell("ok", "", 0.0521, 1e-12, 5e-3)), "error_l2_50ms"),
@@ -191,7 +188,7 @@ TEST(Errors, AreNotExcusedByACertificateThatGrew) {
 
 TEST(Cells, ThatAreMissingAfterAreWorse) {
     Folder two = cell("ok", "", 0.05, 1e-12, 1e-3), one = two;
-    two.cells.rows.push_back({"b", "44100", "ok", "", "0.05", "1e-12", "1e-3"});
+    two.cells.push_back(judged("b", 44100, "ok", {0.05, 1e-12, 1e-3}));
     EXPECT_TRUE(difference(two, one).worse());
     EXPECT_EQ(difference(two, one).missing(), 1);
     EXPECT_FALSE(difference(one, two).worse());
@@ -249,30 +246,24 @@ TEST(Outcomes, ThatFailAreWorseAndFlagsToo) {
     EXPECT_EQ(turn_between(was, cell("ok", "adhesion", 0.05, 1e-12, 1e-3)), Turn::worse);
 }
 
-TEST(Outcomes, AFurtherFlagAndAColumnThatIsGoneAreWorse) {
+TEST(Outcomes, AFurtherFlagAndANegativeErrorAreWorse) {
     Folder before = timed(1, 0.02);
-    before.cells.columns.emplace_back("flags");
-    for (auto& row : before.cells.rows) row.emplace_back("energy");
+    for (auto& c : before.cells) c.flags = "energy";
     Folder after = before;
-    after.cells.rows[0].back() = "adhesion energy";
+    after.cells[0].flags = "adhesion energy";
     EXPECT_EQ(difference(before, after).count(Turn::worse), 1);
     EXPECT_EQ(difference(after, before).count(Turn::better), 1);
-    Folder without = before;  // no status: no cell is known to have run
-    for (auto& row : without.cells.rows) row.erase(row.begin() + 5);
-    without.cells.columns.erase(without.cells.columns.begin() + 5);
-    EXPECT_EQ(difference(before, without).count(Turn::worse), 1);
     Folder negative = before;
-    negative.cells.rows[0][6] = "-1";
+    headline(negative.cells[0]).value = -1;
     EXPECT_EQ(difference(before, negative).count(Turn::worse), 1);
 }
 
 TEST(Errors, AreNotExcusedByAFloorThatWasRaised) {
     Folder before = timed(1, 0.02);
-    before.cells.columns.emplace_back("floor_error_l2_50ms");
-    for (auto& row : before.cells.rows) row.emplace_back("1e-12");
+    for (auto& c : before.cells) headline(c).floor = 1e-12;
     Folder after = before;
-    before.cells.rows[0].back() = "1e9";
-    after.cells.rows[0][6] = "0.5";
+    headline(before.cells[0]).floor = 1e9;
+    headline(after.cells[0]).value = 0.5;
     EXPECT_EQ(difference(before, after).count(Turn::worse), 1);
 }
 
@@ -297,7 +288,7 @@ TEST(Outcomes, OfMapsAreComparedPointByPoint) {
 
 TEST(Folders, WithNothingInCommonAreRefused) {
     Folder a = cell("ok", "", 0.05, 0, 0), b = a;
-    b.cells.rows[0][0] = "b";
+    b.cells[0].scheme = "b";
     EXPECT_THROW(difference(a, b), bench::store::UsageError);
 }
 
@@ -340,7 +331,7 @@ TEST(Diff, RefusesBadFolders) {
     EXPECT_EQ(shell(scratch, "mkdir empty; $J diff empty empty").code, 2);
     EXPECT_EQ(
         shell(scratch,
-              "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/cells.csv; $J diff x x")
+              "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/facts.csv; $J diff x x")
             .code,
         2);
     EXPECT_EQ(shell(scratch, "$J diff x").code, 2);
@@ -355,17 +346,21 @@ TEST(Diff, RefusesBadFolders) {
 
 TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
     const Scratch scratch;
-    const std::string head = "scheme,rate,status,error_l2_50ms\\n", a = "a,1,ok,0.1\\n",
-                      b = "b,1,ok,0.1\\n";
     const Outcome o =
         shell(scratch,
-              "make() { mkdir $1; echo '{}' >$1/manifest.json; printf \"$2\" >$1/errors.csv; }\n"
-              "make both '" +
-                  head + a + b + "'; make one '" + head + a + "'; make empty '" + head +
-                  "a,1,ok,\\nb,1,ok,nan\\n'\n"
-                  "$J diff both empty --quiet; echo $?; $J diff both one --quiet; echo $?; $J diff "
-                  "one both --quiet; echo $?\n"
-                  "$J diff both one; $J diff both one --json");
+              "make() {\n"
+              "    mkdir $1; cd $1; echo '{}' >manifest.json; shift\n"
+              "    echo cell,scheme,rate,status,headline_nut >facts.csv\n"
+              "    echo cell,tap,measure,value >errors.csv\n"
+              "    for cell; do\n"
+              "        echo ${cell%=*},${cell%=*},1,ok,nut >>facts.csv\n"
+              "        echo ${cell%=*},nut,error_l2_50ms,${cell#*=} >>errors.csv\n"
+              "    done; cd ..\n"
+              "}\n"
+              "make both a=0.1 b=0.1; make one a=0.1; make empty a= b=nan\n"
+              "$J diff both empty --quiet; echo $?; $J diff both one --quiet; echo $?; $J diff "
+              "one both --quiet; echo $?\n"
+              "$J diff both one; $J diff both one --json");
     EXPECT_EQ(o.out.substr(0, 6), "4\n4\n0\n") << o.err;
     EXPECT_TRUE(says(o.out, "1 missing after, which counts as worse"));
     const auto j = nlohmann::json::parse(o.out.substr(o.out.find('{')));

@@ -6,11 +6,12 @@
 #include <numbers>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/record/fits.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/suite/facet.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
+#include "tests/cells_from.hpp"
 
 namespace jvari {
 namespace {
@@ -115,7 +116,7 @@ TEST(Compliance, GoesToTheTrueOneWithTheSquareOfTheStep) {
 
 // ---- Observed orders
 
-bench::store::Table cells_with(const std::vector<std::vector<std::string>>& rows) {
+bench::study::Cells cells_with(const std::vector<std::vector<std::string>>& rows) {
     bench::store::Table t;
     t.columns = {"cell",
                  "scene",
@@ -133,11 +134,11 @@ bench::store::Table cells_with(const std::vector<std::vector<std::string>>& rows
                  "cost_lower",
                  "cost_upper"};
     t.rows = rows;
-    return t;
+    return test::cells_from(t);
 }
 
 TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
-    const bench::store::Table t = bench::compare::convergence_of(cells_with({
+    const bench::store::Table t = bench::compare::convergence_table(cells_with({
         // nothing of the waveform is right
         {"1", "s", "a", "", "100", "10", "ok", "", "", "1.5", "1e-9", "", "", "", ""},
         {"2", "s", "a", "", "200", "20", "ok", "", "", "0.04", "1e-9", "", "", "", ""},  // order 2
@@ -164,7 +165,7 @@ TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
 }
 
 TEST(ConvergenceTable, ModesThatAreSweptAreSeriesOfTheirOwn) {
-    const bench::store::Table t = bench::compare::convergence_of(cells_with({
+    const bench::store::Table t = bench::compare::convergence_table(cells_with({
         {"1", "s", "a", "", "100", "10", "ok", "", "", "0.1", "0", "", "", "", ""},
         {"2", "s", "a", "", "200", "10", "ok", "", "", "0.05", "0", "", "", "", ""},
         {"3", "s", "a", "", "100", "20", "ok", "", "", "0.1", "0", "", "", "", ""},

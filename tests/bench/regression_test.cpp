@@ -2,7 +2,7 @@
 // move it?
 //
 // Every column of its cells and every mode of its dispersion, by the rules of `jvari diff`
-// (bench/diff/rules.hpp), without the clock. `below_floor` follows from the rest: each error that
+// (bench/diff/rules.cpp), without the clock. `below_floor` follows from the rest: each error that
 // it names is no larger than its floor, and no other.
 #include <cmath>
 #include <fstream>
@@ -13,14 +13,13 @@
 namespace jvari::test {
 namespace {
 
-void expect_below_floor(const bench::store::Table& t, std::size_t i) {
-    const std::string named = " " + t.at(i, "below_floor") + " ";
-    for (const std::string& column : t.columns)
-        if (column.starts_with("floor_") && t.column(column.substr(6)) < t.column("below_floor")) {
-            EXPECT_EQ(named.find(" " + column.substr(6) + " ") != std::string::npos,
-                      t.number(i, column.substr(6)) <= t.number(i, column))
-                << t.at(i, "cell") << " " << column;
-        }
+void expect_below_floor(const bench::study::TabledCell& c) {
+    for (std::size_t m = 0; m < bench::study::measures().size(); ++m) {
+        const std::string& column = bench::study::measures()[m].column;
+        EXPECT_EQ((" " + c.below_floor + " ").find(" " + column + " ") != std::string::npos,
+                  c.figure(m).value <= c.figure(m).floor)
+            << c.cell << " " << column;
+    }
 }
 
 TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
@@ -42,7 +41,7 @@ TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
     d.columns.after.clear();  // a later program may measure more
     EXPECT_TRUE(d.nothing()) << text_of(d, then, now);
     EXPECT_GT(d.compared, 10000);
-    for (std::size_t i = 0; i < now.cells.rows.size(); ++i) expect_below_floor(now.cells, i);
+    for (const bench::study::TabledCell& c : now.cells) expect_below_floor(c);
 }
 
 }  // namespace

@@ -7,14 +7,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/record/notes.hpp"
-#include "bench/compare/record/pareto.hpp"
-#include "bench/report/derived.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/base64.hpp"
 #include "bench/store/sound.hpp"
+#include "tests/cells_from.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -29,9 +28,9 @@ struct MadeUp : Scratch {  // some of the files
             fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
     }
 };
-const std::vector<std::string> every_file{"manifest.json",   "cells.csv", "dispersion.csv",
-                                          "convergence.csv", "maps.csv",  "boundaries.csv",
-                                          "others.svg"};
+const std::vector<std::string> every_file{"manifest.json", "facts.csv",      "errors.csv",
+                                          "cost.csv",      "dispersion.csv", "convergence.csv",
+                                          "maps.csv",      "boundaries.csv", "others.svg"};
 
 Json data_of(const std::string& page) {
     const auto from = page.find("id=\"data\">") + 10;
@@ -48,7 +47,7 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     EXPECT_TRUE(says(data.at("missing").get<std::string>(), "npm ci"));
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");
     EXPECT_EQ(data.at("pictures").at(0).at("name"), "others");
-    for (const char* name : {"cells", "dispersion", "convergence", "maps", "boundaries"}) {
+    for (const char* name : {"dispersion", "convergence", "maps", "boundaries"}) {
         const auto kept = bench::store::read_csv(data.at("tables").at(name)),
                    file = bench::store::read_csv(content(folder / (std::string(name) + ".csv")));
         EXPECT_EQ(kept.only(file.columns).rows, file.rows) << name;  // the files' own rows, whole
@@ -61,22 +60,19 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
 TEST(Report, AFolderWithoutResultsIsRefused) {
     const Scratch empty;
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
-    std::ofstream(empty / "cells.csv") << "scheme\na\n";
+    std::ofstream(empty / "facts.csv") << "scheme\na\n";
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
     std::ofstream(empty / "manifest.json") << "{";
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
 }
 
 TEST(Report, ATableThatWasCutAfterItsHeaderIsRefusedAndThePageStays) {
-    for (const char* table : {"cells.csv", "errors.csv"}) {
-        const MadeUp folder({"manifest.json", "maps.csv"});
-        std::ofstream(folder / table) << "scheme,rate\n";
-        std::ofstream(folder / "report.html") << "the page";
-        EXPECT_TRUE(
-            ends(jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere"), 2,
-                 std::string(table) + ": it has no row"));
-        EXPECT_EQ(content(folder / "report.html"), "the page");
-    }
+    const MadeUp folder({"manifest.json", "maps.csv"});
+    std::ofstream(folder / "facts.csv") << "scheme,rate\n";
+    std::ofstream(folder / "report.html") << "the page";
+    EXPECT_TRUE(ends(jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere"),
+                     2, "facts.csv: it has no row"));
+    EXPECT_EQ(content(folder / "report.html"), "the page");
 }
 
 TEST(Report, APipeInPlaceOfAFileIsRefused) {
@@ -88,9 +84,12 @@ TEST(Report, APipeInPlaceOfAFileIsRefused) {
 
 TEST(Report, TextsThatAreNoUtf8AreShownAsFarAsTheyAre) {
     const MadeUp folder(every_file);
-    std::string cells = content(folder / "cells.csv");
-    cells.replace(cells.find(",one,"), 5, ",one\xff,");
-    std::ofstream(folder / "cells.csv", std::ios::binary) << cells;
+    std::string facts = content(folder / "facts.csv");
+    for (auto at = facts.find(",three <b>,"); at != std::string::npos;
+         at = facts.find(",three <b>,"))
+        facts.replace(at, 11, ",one\xff,");
+    std::ofstream(folder / "facts.csv", std::ios::binary) << facts;
+    fs::remove(folder / "cost.csv");
     const Outcome o =
         jvari(folder, "report --json " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_EQ(o.code, 0) << o.err;
@@ -122,87 +121,64 @@ TEST(Report, SoundsLieBelowTheFolder) {
     }
 }
 
-// What a record keeps of a suite: errors and costs, each in a file of its own.
-struct Record : MadeUp {
-    Record() : MadeUp({"manifest.json", "cells.csv"}) {
-        const bench::store::Table cells = bench::store::read_csv(content(*this / "cells.csv"));
-        const std::vector<std::string> clocked{"cost_s_per_s", "cost_lower", "cost_upper",
-                                               "ns_per_step"};
-        std::vector<std::string> rest;
-        for (const std::string& name : cells.columns)
-            if (std::find(clocked.begin(), clocked.end(), name) == clocked.end())
-                rest.push_back(name);
-        std::vector<std::string> cost{"cell", "scene", "scheme", "rate"};
-        cost.insert(cost.end(), clocked.begin(), clocked.end());
-        std::ofstream(*this / "errors.csv", std::ios::binary)
-            << bench::store::csv(cells.only(rest));
-        std::ofstream(*this / "cost.csv", std::ios::binary) << bench::store::csv(cells.only(cost));
-        fs::remove(path / "cells.csv");
-    }
-};
-
-TEST(Report, IsMadeOfARecordsErrorsAndCostsAsOfItsCells) {
-    const Record record;
-    const MadeUp whole({"manifest.json", "cells.csv"});
-    const auto told = [](const fs::path& folder) {
-        const Scratch none;
-        EXPECT_EQ(jvari(none, "report " + folder.string(), "JVARI_NODE_MODULES=/nowhere").code, 0);
-        const Json tables = data_of(content(folder / "report.html")).at("tables");
-        return tables.at("cheapest").dump() + tables.at("fronts").dump() +
-               tables.at("orders").dump();
-    };
-    EXPECT_EQ(told(record.path), told(whole.path));
+TEST(Report, ACostOfACellThatIsNotThereIsRefused) {
+    const MadeUp record({"manifest.json", "facts.csv", "errors.csv", "cost.csv"});
     std::string cost = content(record / "cost.csv");
     cost.replace(cost.find("88200"), 5, "88300");
     std::ofstream(record / "cost.csv", std::ios::binary) << cost;
     const Outcome o =
         jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
-    EXPECT_TRUE(ends(o, 2, "cost.csv: its rows are not those of errors.csv"));
+    EXPECT_TRUE(ends(o, 2, "cost.csv: found the cell 0000000000000002, which facts.csv has not"));
 }
 
 TEST(Report, AnErrorThatIsBoundedStandsAtItAndItsCertificateTogether) {
-    const MadeUp folder({"manifest.json"});
-    std::ofstream(folder / "cells.csv")
-        << "scene,scheme,rate,modes,status,flags,error_l2_50ms,certificate_l2_50ms\n"
-           "a,b,44100,10,ok,,1e-2,6e-4\na,b,88200,10,ok,,1e-3,6e-4\n";
-    const bench::store::Table bounds =
-        bench::report::derived_tables(bench::report::read_results(folder.path)).at("bounds");
-    ASSERT_EQ(bounds.rows.size(), 1u);  // 6 % of the first: as measured
-    EXPECT_EQ(bounds.at(0, "row"), "1");
-    EXPECT_NEAR(bounds.number(0, "shown"), 1.6e-3, 1e-12);
+    bench::report::Results r;
+    r.cells = cells_from(
+        {{"scene", "scheme", "rate", "modes", "status", "error_l2_50ms", "certificate_l2_50ms"},
+         {{"a", "b", "44100", "10", "ok", "1e-2", "6e-4"},
+          {"a", "b", "88200", "10", "ok", "1e-3", "6e-4"}}});
+    r.series = {"b", "b"};
+    const bench::store::Table errors = bench::report::derived_tables(r).at("errors");
+    ASSERT_EQ(errors.rows.size(), 4u);     // of the headline, and of its tap
+    EXPECT_EQ(errors.at(0, "shown"), "");  // 6 % of the first: as measured
+    EXPECT_EQ(errors.at(1, "row"), "1");
+    EXPECT_NEAR(errors.number(1, "shown"), 1.6e-3, 1e-12);
 }
 
 TEST(Report, ABusyMachineIsSaid) {
-    bench::store::Table cells{
-        {"cost_s_per_s", "cost_lower", "cost_upper"},
-        {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}};
+    bench::study::Cells cells = cells_from(
+        {{"cost_s_per_s", "cost_lower", "cost_upper"},
+         {{"1", "0.9", "1.1"}, {"1", "0.5", "1.1"}, {"1", "0.75", "1.25"}, {"", "", ""}}});
     EXPECT_DOUBLE_EQ(bench::compare::median_spread(cells), 0.25);
     EXPECT_TRUE(says(bench::compare::busy_text(cells), "25 %"));
-    cells.rows.resize(1);
+    cells.resize(1);
     EXPECT_EQ(bench::compare::busy_text(cells), "");
-    cells.rows.clear();
+    cells.clear();
     EXPECT_EQ(bench::compare::busy_text(cells), "");
 }
 
 TEST(Report, MatchedComplianceThatErrsMoreThanOwnIsTold) {
-    bench::store::Table cells{
-        {"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms",
-         "error_l2_50ms_fret", "certificate_l2_50ms_fret", "error_l2_50ms_y",
-         "certificate_l2_50ms_y"},
-        {{"1", "s", "a", "compliance=own,levels=2", "44100", "40", "ok", "", "0.1", "0.2", "0.01",
-          "0.1", "0"},
-         {"2", "s", "a", "compliance=matched,levels=2", "44100", "40", "ok", "", "0.1", "0.3",
-          "0.01", "0.1", "0"},
-         {"3", "s", "a", "compliance=own,levels=3", "44100", "40", "ok", "", "0.1", "0.1", "0.01",
-          "0.01", "0"}}};
+    bench::study::Cells cells =
+        cells_from({{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags",
+                     "error_l2_50ms", "error_l2_50ms_fret", "certificate_l2_50ms_fret",
+                     "error_l2_50ms_y", "certificate_l2_50ms_y"},
+                    {{"1", "s", "a", "compliance=own,levels=2", "44100", "40", "ok", "", "0.1",
+                      "0.2", "0.01", "0.1", "0"},
+                     {"2", "s", "a", "compliance=matched,levels=2", "44100", "40", "ok", "", "0.1",
+                      "0.3", "0.01", "0.1", "0"},
+                     {"3", "s", "a", "compliance=own,levels=3", "44100", "40", "ok", "", "0.1",
+                      "0.1", "0.01", "0.01", "0"}}});
     const std::string text = bench::compare::harm_text(cells);
     EXPECT_TRUE(says(text, "in 1 of 1 runs"));
     EXPECT_TRUE(says(text,
                      "most at fret of 30 % by a compliance=matched,levels=2, 40 modes at 44.1 kHz, "
                      "where own compliance has 20 %"));
-    cells.rows[1][9] = "0.26";  // sure of 0.25, which is not above 1.2 x 0.21
+    const auto fret = [&cells]() -> double& {
+        return cells[1].figures[1][bench::study::measure("error_l2_50ms")].value;
+    };
+    fret() = 0.26;  // sure of 0.25, which is not above 1.2 x 0.21
     EXPECT_EQ(bench::compare::harm_text(cells), "");
-    cells.rows[1][9] = "0.3", cells.rows[0][7] = "energy";  // not to be trusted
+    fret() = 0.3, cells[0].flags = "energy";  // not to be trusted
     EXPECT_EQ(bench::compare::harm_text(cells), "");
 }
 

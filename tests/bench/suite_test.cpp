@@ -7,7 +7,7 @@
 
 #include "bench/store/checksum.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/study/columns.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/study/cost.hpp"
 #include "bench/study/run.hpp"
 #include "bench/suite/suite.hpp"
@@ -19,6 +19,16 @@ namespace jvari::test {
 namespace {
 
 namespace fs = std::filesystem;
+
+bench::store::Table all_of(const bench::study::Plan& plan,
+                           const std::vector<bench::study::Record>& records) {
+    return table_of(cells_of(plan, records), bench::study::Contents::everything);
+}
+std::string repeating(const bench::study::Plan& plan,
+                      const std::vector<bench::study::Record>& records) {
+    const bench::study::Cells cells = cells_of(plan, records);
+    return csv(table_of(cells, bench::study::Contents::facts)) + csv(errors_table(cells));
+}
 
 // ---- The file
 
@@ -132,9 +142,9 @@ modes = 5
 reference_modes = "cell"
 duration = 0.01
 taps = [{ name = "middle", quantity = "displacement", string = 0, position = 0.5 }])");
-    const bench::store::Table t = bench::study::table_of(plan, plan.run().records);
-    EXPECT_EQ(t.at(0, "status"), "ok") << t.at(0, "reason");
-    EXPECT_GE(t.number(0, "error_l2_whole_middle"), 0);
+    const bench::study::Cells cells = bench::study::cells_of(plan, plan.run().records);
+    EXPECT_EQ(cells[0].status, "ok") << cells[0].reason;
+    EXPECT_GE(cells[0].figure(bench::study::measure("error_l2_whole"), "middle").value, 0);
 }
 
 TEST(SuiteFile, DotsAreCountedInKeysAlone) {
@@ -299,7 +309,7 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
     EXPECT_EQ(second.read_back, 8);
     EXPECT_EQ(second.ran + second.timed, 0);
     // clock columns too
-    EXPECT_EQ(csv(table_of(plan, second.records)), csv(table_of(plan, first.records)));
+    EXPECT_EQ(csv(all_of(plan, second.records)), csv(all_of(plan, first.records)));
     EXPECT_EQ(second.records[0].levels.level, first.records[0].levels.level);
     // as the page reads it
     const auto drawn =
@@ -310,7 +320,7 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
         bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "dispersion"));
     EXPECT_EQ(scratch.files(), 8 + 8);  // numbers and clocks
 
-    const bench::store::Table t = bench::study::table_of(plan, first.records);
+    const bench::store::Table t = all_of(plan, first.records);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         EXPECT_EQ(t.at(i, "status"), "ok") << t.at(i, "reason");
         EXPECT_GT(t.number(i, "error_l2_whole"), 0);
@@ -324,15 +334,14 @@ TEST(SuiteRun, ACellIsBelievedWhereItIsAsItWasWritten) {
     const Scratch scratch;
     const Workshop w;
     const Planned plan(counting_suite, w.catalogue);
-    const std::string whole = bench::store::csv(bench::study::errors_only(bench::study::table_of(
-        plan, bench::study::run(plan, scratch.path, false, 2, w.listener).records)));
+    const std::string whole =
+        repeating(plan, bench::study::run(plan, scratch.path, false, 2, w.listener).records);
     const std::string path = scratch / (plan.jobs[2].id + ".json"), kept = content(path);
     const auto ran_with = [&](const std::string& text) {
         std::ofstream(path, std::ios::binary) << text;
         const bench::study::Study resumed =
             bench::study::run(plan, scratch.path, true, 2, w.listener);
-        EXPECT_EQ(bench::store::csv(bench::study::errors_only(table_of(plan, resumed.records))),
-                  whole);
+        EXPECT_EQ(repeating(plan, resumed.records), whole);
         return resumed.ran;
     };
     EXPECT_EQ(ran_with(kept), 0);
@@ -443,7 +452,7 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         measure = ["errors", "cost", "spectrogram"]
     )",
                        w.catalogue);
-    const bench::store::Table t = bench::study::table_of(plan, plan.run(2).records);
+    const bench::store::Table t = all_of(plan, plan.run(2).records);
     const std::pair<const char*, const char*> expected[] = {
         {"ok", ""},
         {"refused", "it is not willing"},
@@ -471,7 +480,7 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
         measure = ["errors"]
     )",
                        w.catalogue);
-    const bench::store::Table t = bench::study::table_of(plan, plan.run(1).records);
+    const bench::store::Table t = all_of(plan, plan.run(1).records);
     EXPECT_EQ(t.at(0, "status"), "ok");
     EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
     EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");

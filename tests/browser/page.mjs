@@ -47,7 +47,9 @@ function folder_of(names, made = {}) {
 }
 const every_file = [
   "manifest.json",
-  "cells.csv",
+  "facts.csv",
+  "errors.csv",
+  "cost.csv",
   "dispersion.csv",
   "convergence.csv",
   "maps.csv",
@@ -55,8 +57,56 @@ const every_file = [
   "others.svg",
 ];
 const whole = () => on(report(folder_of(every_file)));
+// facts.csv, errors.csv and cost.csv of a table of both, in which an error of the headline's tap
+// stands below its measure's name, its certificate and its floor below certificate_... and floor_...
+function files_of(text) {
+  const [head, ...rows] = text
+    .trim()
+    .split("\n")
+    .map(line => line.split(","));
+  const is_error = name => /^(error_l2|third_octave_db|certificate_|floor_)/.test(name),
+    is_cost = name => /^(cost|processor|ns_per|times|worst|repeats|machine|untimed)/.test(name),
+    names = ["cell", "scheme", "options", "rate", "modes", "status"];
+  const with_cell = rows.map((row, n) => ({
+    cell: String(n),
+    ...Object.fromEntries(head.map((name, k) => [name, row[k]])),
+  }));
+  const csv = (columns, records) =>
+    [columns, ...records.map(r => columns.map(name => r[name] ?? ""))].join("\n") + "\n";
+  const facts = with_cell.map(r => ({headline_nut: "nut", headline_bridge: "nut", ...r})),
+    measures = head.filter(name => /^(error_l2|third_octave_db)/.test(name));
+  const errors = with_cell.flatMap(r =>
+    measures.map(measure => ({
+      cell: r.cell,
+      tap: "nut",
+      measure,
+      value: r[measure],
+      floor: r["floor_" + measure],
+      certificate: r[measure.replace("error", "certificate")],
+    })),
+  );
+  for (const e of errors) if (!e.measure.startsWith("error")) delete e.certificate;
+  return {
+    "facts.csv": csv(
+      [
+        ...new Set([
+          "cell",
+          ...head.filter(n => !is_error(n) && !is_cost(n)),
+          "headline_nut",
+          "headline_bridge",
+        ]),
+      ],
+      facts,
+    ),
+    "errors.csv": csv(["cell", "tap", "measure", "value", "floor", "certificate"], errors),
+    "cost.csv": csv(
+      [...names.filter(n => n === "cell" || head.includes(n)), ...head.filter(is_cost)],
+      with_cell,
+    ),
+  };
+}
 const of_cells = (cells, manifest = '{"suite": "made up"}') =>
-  on(report(folder_of([], {"manifest.json": manifest, "cells.csv": cells})));
+  on(report(folder_of([], {"manifest.json": manifest, ...files_of(cells)})));
 const section = (of, id) => of("sections_of()").find(s => s.id === id);
 const first = (chart, scene = chart.scenes?.[0]) =>
   Object.assign({scene}, ...chart.menus(scene).map(menu => ({[menu.key]: menu.choices[0][0]})));
@@ -356,7 +406,8 @@ test("what ended well is never drawn as failed", () => {
 test("errors are offered only where there is a finite value, and the headline comes first", () => {
   assert.deepEqual(
     sample()("errors_in(cells())").map(e => e.column),
-    ["error_l2_50ms", "third_octave_db"],
+    // of the headline's tap, then of each
+    ["error_l2_50ms", "third_octave_db", "error_l2_50ms_nut", "third_octave_db_nut"],
   );
   assert.deepEqual(sample()("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')")[0].told, {
     scheme: "a",
@@ -516,7 +567,10 @@ test("no order stands where its interval is wider than the order, or where there
   assert.equal(text(2, 1), "2.00 \u00b1 1");
 });
 test("errors below their noise floor have no order", () => {
-  const s = section(on(report(folder_of(["manifest.json", "cells.csv"]))), "convergence"),
+  const s = section(
+      on(report(folder_of(["manifest.json", "facts.csv", "errors.csv", "cost.csv"]))),
+      "convergence",
+    ),
     at = name => s.table.columns.indexOf(name);
   const rows = s.table.rows.filter(
     row =>
@@ -915,11 +969,14 @@ test(
   },
 );
 
-test("plot.py draws the lines of the chart from the rows of the table", () => {
+test("plot.py draws the lines of the chart", () => {
   const of = sample(),
     text = of("plot_program()"),
     [, lines] = text.match(/# scene: [^]*?\n(SCENES = {[^]*?\n})\n/);
-  assert.match(lines, /\["a","#[0-9a-f]{6}","[a-zA-Z^<>]",\[1,0\],\[0,1\]\]/);
+  assert.match(
+    lines,
+    /\["a","#[0-9a-f]{6}","[a-zA-Z^<>]",\[1,0\],\[\[0\.01,0\.009,0\.011,0\.01\],/,
+  );
   assert.ok(!lines.includes('"c"'));
   assert.equal(
     spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], {input: text})
@@ -935,7 +992,7 @@ else
   test("charts are drawn with their words", () => {
     const folder = folder_of([], {
         "manifest.json": '{"suite": "a scene"}',
-        "cells.csv": `scene,${sample_head}\n${sample_rows.map(row => `s,${row}\n`).join("")}`,
+        ...files_of(`scene,${sample_head}\n${sample_rows.map(row => `s,${row}\n`).join("")}`),
       }),
       run = spawnSync(program, ["report", folder], {
         encoding: "utf8",

@@ -301,12 +301,13 @@ class Module(unittest.TestCase):
                  "--option", "compliance=own", "--repeats", "1", "--duration", "0.01", "--quiet",
                  "--out", folder], check=True, env={**os.environ, "JVARI_NODE_MODULES": "/nowhere"})
             kept = rows_of(folder + "/errors.csv")
+            cells = [row["cell"] for row in rows_of(folder + "/facts.csv")]
         self.assertEqual(len(rows), 4)
-        for row, old in zip(rows, kept):
-            for column in old:
-                if column.startswith("error_"):
-                    self.assertEqual(row[column], float(old[column]) if old[column] else None,
-                                     column)
+        for old in kept:
+            figure = rows[cells.index(old["cell"])]["errors"][old["tap"]][old["measure"]]
+            for part in ("value", "floor", "certificate", "in_model", "certificate_in_model"):
+                self.assertEqual(figure[part], float(old[part]) if old[part] else None, (old, part))
+        for row in rows:
             self.assertGreater(row["cost_s_per_s"], 0)
             self.assertIn("bound_l2_10ms", row)
         several = jvari.compare("tanpura_c3_release", schemes=["modal_two_point"], rates=[44100],

@@ -160,11 +160,11 @@ build/release/jvari suite stability --out whole --quiet > /dev/null
 wait_for_all
 requeued=$(grep -c "due to failure of node v2" log/slurmctld.log || true)
 [ "$requeued" -ge 1 ] || { echo "no task of the lost node was put back"; exit 1; }
-cells=$(($(wc -l < whole/errors.csv) - 1)) ran=0
+cells=$(($(wc -l < whole/facts.csv) - 1)) ran=0
 for n in $(sed -n "s/^$cells cells, \([0-9]*\) run, .*/\1/p" task-*); do ran=$((ran + n)); done
 [ "$ran" -ge 1 ] && [ "$ran" -le "$cells" ] ||
     { echo "the tasks that came to their end ran $ran of $cells cells"; exit 1; }
-for table in errors maps boundaries convergence; do cmp whole/$table.csv maps/$table.csv; done
+for table in facts errors maps boundaries convergence; do cmp whole/$table.csv maps/$table.csv; done
 build/release/jvari suite stability --out maps --resume > last
 grep -q "^$cells cells, 0 run, 0 timed, " last
 [ -z "$(find maps -name '*.lock')" ] || { find maps -name '*.lock'; exit 1; }

@@ -222,7 +222,7 @@ for (const c of cells) {
   verdicts.add(run.verdict);
   const octaves = jvari.third_octaves(run, exact, 0, 100),
     sound = c.status === "ok" && c.flags === "",
-    there = c.third_octave_db_nut;
+    there = c.errors.nut.third_octave_db.value;
   if (
     (run.verdict === "sound") === sound &&
     (Math.abs(octaves / there - 1) < 1e-6 || (octaves === Infinity && c.status !== "ok"))

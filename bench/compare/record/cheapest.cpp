@@ -4,229 +4,194 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "analysis/cheapest.hpp"
-#include "bench/compare/bound.hpp"
 #include "bench/compare/diagnosis.hpp"
-#include "bench/store/cell_rows.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
 
 namespace {
-struct Target {
-    bool waveform;
-    double most;
-};
-std::vector<Target> targets() {
-    std::vector<Target> all;
-    for (const double most : accuracies) all.push_back({true, most});
-    for (const double decibels : {3.0, 1.0}) all.push_back({false, decibels});
-    return all;
-}
+using Cell = study::TabledCell;
+using study::Cells, study::Rows;
+
 struct Goal {
-    std::string measure;
+    std::size_t measure;
     double most;
-    bool met(const store::Table& cells, std::size_t i) const {
-        return bound_of(cells, i, measure).most() <= most;
+    bool met(const Cell& c, const std::string& tap = "") const {
+        return bound_of(c, measure, tap).most() <= most;
     }
 };
 
-std::string named(const store::Table& cells, const store::Rows& rows,
-                  const std::vector<std::size_t>& chosen) {
+std::string named(const Cells& cells, const Rows& rows, const std::vector<std::size_t>& chosen) {
     std::string text;
-    for (const std::size_t k : chosen)
-        text += (text.empty() ? "" : "; ") + store::run_name(cells, rows[k]);
+    for (const std::size_t k : chosen) text += (text.empty() ? "" : "; ") + cells[rows[k]].run();
     return text;
 }
 
-Choice choice_of(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
+Choice choice_of(const Cells& cells, const Rows& rows, const Goal& goal) {
     std::vector<Offer> offers;
     for (const std::size_t i : rows) {
-        const Bound b = bound_of(cells, i, goal.measure);
-        offers.push_back({cells.at(i, "scheme"), b.most(), b.least(),
-                          cells.number(i, "cost_s_per_s"), cells.number(i, "cost_lower"),
-                          cells.number(i, "cost_upper")});
+        const Bound b = bound_of(cells[i], goal.measure);
+        offers.push_back({cells[i].scheme, b.most(), b.least(), cells[i].cost_s_per_s,
+                          cells[i].cost_lower, cells[i].cost_upper});
     }
     return cheapest_within(goal.most, offers);
 }
 
-std::optional<std::size_t> least_cost(const store::Table& cells, const store::Rows& rows,
-                                      const auto& which) {
-    std::optional<std::size_t> best;
+const Cell* least_cost(const Cells& cells, const Rows& rows, const auto& which) {
+    const Cell* best = nullptr;
     for (const std::size_t i : rows)
-        if (which(i) &&
-            (!best || cells.number(i, "cost_s_per_s") < cells.number(*best, "cost_s_per_s")))
-            best = i;
+        if (which(cells[i]) && (!best || cells[i].cost_s_per_s < best->cost_s_per_s))
+            best = &cells[i];
     return best;
 }
 
 // Of the scene's other taps those by which a cell is surely within it: "; by y02: ..., 0.16 %"
-std::string by_other_taps(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
+std::string by_other_taps(const Cells& cells, const Rows& rows, const Goal& goal) {
     std::string text;
-    for (const std::string& column : cells.columns) {
-        if (!column.starts_with(goal.measure + "_")) continue;
-        const Goal same{column, goal.most};
-        if (const auto i =
-                least_cost(cells, rows, [&](std::size_t k) { return same.met(cells, k); }))
-            text += fmt::format("{} by {}: {}, {}", text.empty() ? ";" : ",",
-                                column.substr(goal.measure.size() + 1), store::run_name(cells, *i),
-                                quoted(bound_of(cells, *i, column), column));
-    }
+    for (const std::string& tap : cells[rows.front()].taps)
+        if (const Cell* c =
+                least_cost(cells, rows, [&](const Cell& k) { return goal.met(k, tap); }))
+            text += fmt::format("{} by {}: {}, {}", text.empty() ? ";" : ",", tap, c->run(),
+                                quoted(bound_of(*c, goal.measure, tap), goal.measure));
     return text;
 }
 
+double certificate_of(const Cells& cells, const Rows& rows, std::size_t measure) {
+    return bound_of(cells[rows.front()], measure).certificate;
+}
+
 // Why it cannot be decided who is within `goal`.
-std::string why_unknown(const store::Table& cells, const store::Rows& rows, const Goal& goal) {
-    const double certificate = bound_of(cells, rows.front(), goal.measure).certificate;
+std::string why_unknown(const Cells& cells, const Rows& rows, const Goal& goal) {
+    const double certificate = certificate_of(cells, rows, goal.measure);
     if (!std::isnan(certificate))
         return fmt::format("the reference is known to {} only{}", percent(certificate),
                            by_other_taps(cells, rows, goal));
-    const auto seems = least_cost(
-        cells, rows, [&](std::size_t i) { return cells.number(i, goal.measure) <= goal.most; });
+    const auto error = [&](const Cell& c) { return c.figure(goal.measure).value; };
+    const Cell* seems =
+        least_cost(cells, rows, [&](const Cell& c) { return error(c) <= goal.most; });
     return "the uncertainty of the reference is unknown" +
-           (seems ? fmt::format("; measured against it, the cheapest is {}, {}",
-                                store::run_name(cells, *seems),
-                                percent(cells.number(*seems, goal.measure)))
+           (seems ? fmt::format("; measured against it, the cheapest is {}, {}", seems->run(),
+                                percent(error(*seems)))
                   : std::string());
 }
 
-bool is_matched(const store::Table& cells, std::size_t row) {
-    return cells.at(row, "options").find("compliance=matched") != std::string::npos;
+bool is_matched(const Cell& c) { return c.options.find("compliance=matched") != std::string::npos; }
+
+std::string published_text(const Cell* c, const Goal& goal) {
+    if (!c) return "none";
+    return fmt::format("{}, {}, {:.3g} s per s", c->run(),
+                       quoted(bound_of(*c, goal.measure), goal.measure), c->cost_s_per_s);
 }
 
-bool is_unsure(const store::Table& cells, const store::Rows& rows) {  // whatever the measure
-    return std::isnan(bound_of(cells, rows.front(), headline_error(cells, rows)).certificate);
-}
-
-std::string published_text(const store::Table& cells, std::optional<std::size_t> row,
-                           const Goal& goal) {
-    if (!row) return "none";
-    return fmt::format("{}, {}, {:.3g} s per s", store::run_name(cells, *row),
-                       quoted(bound_of(cells, *row, goal.measure), goal.measure),
-                       cells.number(*row, "cost_s_per_s"));
-}
-
-// From `status` on.
-std::vector<std::string> fields_of(const store::Table& cells, const store::Rows& rows,
-                                   const Goal& goal) {
+Answer answer_of(const Cells& cells, const Rows& rows, const Goal& goal) {
     const Choice choice = choice_of(cells, rows, goal);
+    Answer a{rows.front(), goal.measure, goal.most, "found", std::nullopt};
     if (!choice.best) {
         const bool open = !choice.perhaps.empty();
-        const bool waveform = goal.measure != "third_octave_db";
-        std::vector<std::string> fields{open ? "not_known" : "none"};
-        fields.resize(10);  // nothing to say of the cell
-        const bool bounded =
-            open && !std::isnan(bound_of(cells, rows.front(), goal.measure).certificate);
-        fields.push_back(bounded ? named(cells, rows, choice.perhaps) : "");
-        fields.emplace_back();
-        fields.push_back(open       ? why_unknown(cells, rows, goal)
-                         : waveform ? why_none(cells, rows, goal.measure, goal.most)
-                                    : "");
-        return fields;
+        a.status = open ? "not_known" : "none";
+        if (open && !std::isnan(certificate_of(cells, rows, goal.measure)))
+            a.perhaps = named(cells, rows, choice.perhaps);
+        a.why = open                               ? why_unknown(cells, rows, goal)
+                : study::is_waveform(goal.measure) ? why_none(cells, rows, goal.measure, goal.most)
+                                                   : "";
+        return a;
     }
-    const std::size_t best = rows[*choice.best];
-    const Bound b = bound_of(cells, best, goal.measure);
-    const auto published = [&](std::size_t i) {
-        return goal.met(cells, i) && !is_matched(cells, i);
-    };
-    return {
-        "found",
-        store::run_name(cells, best),
-        cells.at(best, "scheme"),
-        cells.at(best, "options"),
-        cells.at(best, "rate"),
-        cells.at(best, "modes"),
-        store::text_of(b.error),
-        store::text_of(b.most()),
-        cells.at(best, "cost_s_per_s"),
-        named(cells, rows, choice.ties),
-        named(cells, rows, choice.perhaps),
-        is_matched(cells, best) ? published_text(cells, least_cost(cells, rows, published), goal)
-                                : "",
-        is_unsure(cells, rows) ? "measured against a reference whose uncertainty is unknown" : ""};
+    a.cell = rows[*choice.best];
+    const Cell& best = cells[*a.cell];
+    a.bound = bound_of(best, goal.measure);
+    a.ties = named(cells, rows, choice.ties);
+    a.perhaps = named(cells, rows, choice.perhaps);
+    const auto published = [&](const Cell& c) { return goal.met(c) && !is_matched(c); };
+    if (is_matched(best)) a.as_published = published_text(least_cost(cells, rows, published), goal);
+    // whatever the measure
+    if (std::isnan(certificate_of(cells, rows, headline_error(cells, rows))))
+        a.why = "measured against a reference whose uncertainty is unknown";
+    return a;
 }
 }  // namespace
 
-bool may_win(const store::Table& cells, std::size_t row, Controls controls) {
-    const std::string& scheme = cells.at(row, "scheme");
-    const auto is_this = [&scheme](const Descriptor& d) {
-        return d.name == scheme && is_control(d);
-    };
-    return trusted(cells, row) &&
+bool may_win(const Cell& c, Controls controls) {
+    const auto is_this = [&c](const Descriptor& d) { return d.name == c.scheme && is_control(d); };
+    return trusted(c) &&
            (controls == Controls::compete || std::ranges::none_of(schemes(), is_this));
 }
 
-store::Table cheapest_of(const store::Table& cells, Controls controls) {
-    const std::vector<std::string> swept = store::swept_keys(cells);
-    store::Table t;
-    t.columns = {"scene"};
-    t.columns.insert(t.columns.end(), swept.begin(), swept.end());
+std::vector<Answer> cheapest_of(const Cells& cells, Controls controls) {
+    std::vector<Answer> answers;
+    const std::size_t octaves = study::measure("third_octave_db");
+    for (Rows rows : study::by_problem(cells, study::all_rows(cells))) {
+        std::erase_if(rows, [&](std::size_t i) {
+            return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0);
+        });
+        // nothing was timed, or this is the group of those that were not
+        if (rows.empty()) continue;
+        std::vector<Goal> goals;
+        for (const double most : accuracies) goals.push_back({headline_error(cells, rows), most});
+        for (const double decibels : {3.0, 1.0}) goals.push_back({octaves, decibels});
+        for (const Goal& goal : goals)
+            if (std::ranges::any_of(rows, [&](std::size_t i) {  // the run is long enough for it
+                    return std::isfinite(cells[i].figure(goal.measure).value);
+                }))
+                answers.push_back(answer_of(cells, rows, goal));
+    }
+    return answers;
+}
+
+std::string Answer::goal() const {
+    return study::is_waveform(measure) ? fmt::format("{:g} %", 100 * most)
+                                       : fmt::format("{:g} dB", most);
+}
+
+store::Table table_of(const std::vector<Answer>& answers, const Cells& cells) {
+    const store::Table names = study::table_of(cells, study::Contents::cost);
+    const auto scheme = names.columns.begin() + names.column("scheme");
+    store::Table t{{names.columns.begin() + 1, scheme}, {}};
     for (const char* name :
          {"measure", "target", "status", "run", "scheme", "options", "rate", "modes", "error",
           "bound", "cost_s_per_s", "ties", "perhaps", "as_published", "why"})
-        t.columns.push_back(name);
-    std::vector<std::string> naming = swept;
-    naming.insert(naming.begin(), "scene");
-    for (const store::Rows& group : store::alike(cells, store::all_rows(cells), naming)) {
-        store::Rows rows;
-        for (const std::size_t i : group)
-            if (may_win(cells, i, controls) && cells.number(i, "cost_s_per_s") > 0)
-                rows.push_back(i);
-        // nothing was timed, or this is the group of those that were not
-        if (rows.empty()) continue;
-        std::vector<std::string> key{cells.at(rows.front(), "scene")};
-        for (const std::string& name : swept) key.push_back(cells.at(rows.front(), name));
-        for (const Target& target : targets()) {
-            const Goal goal{target.waveform ? headline_error(cells, rows) : "third_octave_db",
-                            target.most};
-            if (std::none_of(rows.begin(), rows.end(), [&](std::size_t i) {
-                    return std::isfinite(cells.number(i, goal.measure));
-                }))
-                continue;  // the run is too short for it
-            auto& row = t.rows.emplace_back(key);
-            row.push_back(goal.measure);
-            row.push_back(store::text_of(goal.most));
-            for (const std::string& field : fields_of(cells, rows, goal)) row.push_back(field);
-        }
+        t.columns.emplace_back(name);
+    for (const Answer& a : answers) {
+        const Cell found = a.cell ? cells[*a.cell] : Cell{};
+        const auto& own = names.rows[a.of];
+        auto& row =
+            t.rows.emplace_back(own.begin() + 1, own.begin() + (scheme - names.columns.begin()));
+        for (const std::string& field :
+             {study::measures()[a.measure].column, store::text_of(a.most), std::string(a.status),
+              a.cell ? found.run() : "", found.scheme, found.options, store::text_of(found.rate),
+              store::text_of(found.modes), store::text_of(a.bound.error),
+              store::text_of(a.bound.most()), store::text_of(found.cost_s_per_s), a.ties, a.perhaps,
+              a.as_published, a.why})
+            row.push_back(field);
     }
     return t;
 }
 
-std::string goal_name(const store::Table& t, std::size_t row) {
-    const double most = t.number(row, "target");
-    return t.at(row, "measure") == "third_octave_db" ? fmt::format("{:g} dB", most)
-                                                     : fmt::format("{:g} %", 100 * most);
-}
-
-std::string cheapest_text(const store::Table& t) {
+std::string cheapest_text(const std::vector<Answer>& answers, const Cells& cells) {
     std::string text, last;
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        std::string scene = t.at(i, "scene");
-        for (int k = t.column("scene") + 1; k < t.column("measure"); ++k)
-            if (!t.rows[i][k].empty()) scene += " " + t.columns[k] + "=" + t.rows[i][k];
+    for (const Answer& a : answers) {
+        std::string scene = cells[a.of].scene;
+        for (const auto& [key, value] : cells[a.of].swept) scene += " " + key + "=" + value;
         if (scene != last)
             text += fmt::format("{}the cheapest scheme on {}\n", text.empty() ? "" : "\n", scene);
         last = scene;
-        text += fmt::format("  {:<16} within {:<6}  ", t.at(i, "measure"), goal_name(t, i));
-        const std::string &status = t.at(i, "status"), &why = t.at(i, "why"),
-                          &perhaps = t.at(i, "perhaps"), &ties = t.at(i, "ties");
-        if (status == "not_known") {
-            text += fmt::format("cannot be decided: {}\n", why);
-            if (!perhaps.empty()) text += fmt::format("    candidates: {}\n", perhaps);
-        } else if (status == "none") {
-            text += why.empty() ? "none\n" : fmt::format("none. {}\n", why);
+        text +=
+            fmt::format("  {:<16} within {:<6}  ", study::measures()[a.measure].column, a.goal());
+        if (a.cell) {
+            text += fmt::format("{}, {}, {:.3g} s per s{}{}\n", cells[*a.cell].run(),
+                                quoted(a.bound, a.measure), cells[*a.cell].cost_s_per_s,
+                                a.ties.empty() ? "" : "; a tie with " + a.ties,
+                                a.perhaps.empty() ? "" : "; perhaps for less " + a.perhaps);
+            if (!a.why.empty()) text += fmt::format("    {}\n", a.why);
+            if (!a.as_published.empty())
+                text += fmt::format("    without matched compliance: {}\n", a.as_published);
+        } else if (std::string(a.status) == "not_known") {
+            text += fmt::format("cannot be decided: {}\n", a.why);
+            if (!a.perhaps.empty()) text += fmt::format("    candidates: {}\n", a.perhaps);
         } else {
-            const Bound b{t.number(i, "error"), t.number(i, "bound") - t.number(i, "error")};
-            text += fmt::format("{}, {}, {:.3g} s per s{}{}\n", t.at(i, "run"),
-                                quoted(b, t.at(i, "measure")), t.number(i, "cost_s_per_s"),
-                                ties.empty() ? "" : "; a tie with " + ties,
-                                perhaps.empty() ? "" : "; perhaps for less " + perhaps);
-            if (!why.empty()) text += fmt::format("    {}\n", why);
-            if (const std::string& published = t.at(i, "as_published"); !published.empty())
-                text += fmt::format("    without matched compliance: {}\n", published);
+            text += a.why.empty() ? "none\n" : fmt::format("none. {}\n", a.why);
         }
     }
     if (!text.empty()) text.pop_back();

@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/record/pareto.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/study/columns.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
 
@@ -39,12 +38,13 @@ Json certificate_json(const Comparison& c) {
 }
 }  // namespace
 
-store::Table cells_of(const Comparison& c) {
-    return with_front(study::table_of(c.plan, c.outcome.records));
+study::Cells cells_of(const Comparison& c) {
+    return with_front(study::cells_of(c.plan, c.outcome.records));
 }
 
 Json manifest_of(const Comparison& c, const CompareRequest& r) {
-    const store::Table cells = cells_of(c);
+    const study::Cells cells = cells_of(c);
+    const std::size_t error = headline_error(cells, study::all_rows(cells));
     Json facts = Json::object(), floor = Json::object(), taps = Json::array(),
          schemes = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
@@ -105,7 +105,7 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
                      {"headline",
                       {{"nut", c.scene().taps.at(c.headline.nut).name},
                        {"bridge", c.scene().taps.at(c.headline.bridge).name},
-                       {"error", headline_error(cells, store::all_rows(cells))}}},
+                       {"error", study::measures()[error].column}}},
                      {"noise_floor", floor},
                      {"controls", r.controls}});
     return manifest;

@@ -1,17 +1,17 @@
 // A comparison as rows, as its manifest and as sounds.
 //
-// cells.csv has everything, one row per scheme x rate x modes. errors.csv has what repeats bit for
-// bit on one program and cost.csv what the clock said: only those two are committed, for numbers of
-// the two kinds never share a committed file.
+// Numbers that repeat and measured times never share a committed file: facts.csv, errors.csv and
+// cost.csv are committed (study/cells.hpp), cells.csv is to look at.
 #pragma once
 
 #include <filesystem>
 
 #include "bench/compare/compare.hpp"
+#include "bench/study/cells.hpp"
 
 namespace jvari::bench::compare {
 
-store::Table cells_of(const Comparison&);
+study::Cells cells_of(const Comparison&);
 nlohmann::ordered_json manifest_of(const Comparison&, const CompareRequest&);
 
 // sounds/ and sounds.csv: the reference, and of each scheme its lowest and its highest rate; the

@@ -9,26 +9,19 @@ function order_text(order, half_width) {
     ? `${order.toFixed(2)} \u00b1 ${digits(half_width, 2)}`
     : "";
 }
-// The column that a row of convergence.csv speaks of: window "50ms", tap "" or "nut".
-function error_of_order({window, tap}) {
-  const error =
-    window.startsWith("error_") || window.includes("_db") ? window : "error_l2_" + window;
-  return error + (tap ? "_" + tap : "");
-}
 // Of "scene|series|error" the order as text: as measured for convergence.csv where it was, else of
 // the cells.
 function orders() {
   const all = new Map(
     records("orders").map(o => [
-      `${o.problem}|${o.series}|${o.error}`,
+      `${o.problem}|${o.series}|${error_name(o)}`,
       order_text(number(o.order), number(o.half_width)),
     ]),
   );
-  for (const row of records("convergence"))
-    all.set(
-      `${row.problem}|${row.series}|${error_of_order(row)}`,
-      order_text(number(row.order), number(row.half_width)),
-    );
+  for (const {problem, series, window, tap, order, half_width} of records("convergence")) {
+    const error = error_name({measure: "error_l2_" + window, tap});
+    all.set(`${problem}|${series}|${error}`, order_text(number(order), number(half_width)));
+  }
   return all;
 }
 
@@ -154,8 +147,15 @@ function convergence_section() {
       "third_octave_db",
     ].includes(error);
   const of_cells = found
-    .filter(o => wanted(o.error))
-    .map(o => [o.problem, o.series, o.error, number(o.order).toFixed(4), o.half_width, o.points]);
+    .filter(o => wanted(error_name(o)))
+    .map(o => [
+      o.problem,
+      o.series,
+      error_name(o),
+      number(o.order).toFixed(4),
+      o.half_width,
+      o.points,
+    ]);
   const own = {
     columns: ["scene", "scheme", "error", "order", "half_width", "points"],
     rows: of_cells,

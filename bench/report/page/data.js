@@ -67,47 +67,42 @@ function without(t, names) {
 
 // Cells with what the program says of each: `trusted`, `may_win`, `run` (its name in a sentence),
 // `line` (the series that it stands in beside the front; none where another number of modes is
-// better), and the errors that are bounds.
+// better), and its errors by name.
+const error_name = ({measure, tap}) => measure + (tap && "_" + tap); // tap "": the headline's
 let joined = null;
 function cells() {
   if (joined) return joined;
   joined = records("cells");
-  const said = records("judged");
-  for (const c of joined) {
-    const {trusted, may_win, run, line} = said[c.n];
-    Object.assign(c, {trusted: trusted === "1", may_win: may_win === "1", run, line, bounds: {}});
-  }
-  for (const b of records("bounds")) joined[b.row].bounds[b.column] = b;
+  for (const c of joined)
+    Object.assign(c, {trusted: c.trusted === "1", may_win: c.may_win === "1", errors: {}});
+  for (const e of records("errors")) joined[e.row].errors[error_name(e)] = e;
   return joined;
 }
-const error_of = (cell, column) => number(cell.bounds[column]?.shown ?? cell[column]);
+// `what`: value, floor, certificate; of an error that is a bound: shown, text
+const figure_of = (cell, error, what) => number(cell.errors[error]?.[what]);
+const is_bounded = (cell, error) => Boolean(cell.errors[error]?.text);
+const error_of = (cell, error) =>
+  figure_of(cell, error, is_bounded(cell, error) ? "shown" : "value");
 const of_scene = (rows, scene) => rows.filter(row => row.problem === scene);
 const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row[column])));
 
-const most_cells_with_taps = 600; // beyond, the headline errors alone can be chosen
 // where the windows of these rows' errors begin
 const after_pluck = rows => (number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "");
 // The errors of a scene that a reader can choose, its headline first: {column, title, measure,
 // tap}.
+let taps = null;
 function errors_in(rows) {
-  const stem = "error_l2_whole_",
-    columns = table("cells").columns;
-  const taps = [
-    "",
-    ...(cells().length > most_cells_with_taps
-      ? []
-      : columns.filter(c => c.startsWith(stem)).map(c => c.slice(stem.length))),
-  ];
+  taps ??= distinct(["", ...records("errors").map(e => e.tap)]);
   const all = taps
     .flatMap(tap =>
       page.measures.map(([measure, title]) => ({
-        column: measure + (tap && "_" + tap),
+        column: error_name({measure, tap}),
         title: title + after_pluck(rows) + (tap && `, tap ${tap}`),
         measure,
         tap,
       })),
     )
-    .filter(e => has_finite(rows, e.column));
+    .filter(e => rows.some(c => Number.isFinite(figure_of(c, e.column, "value"))));
   const headline = records("scenes").find(s => s.problem === rows[0]?.problem)?.headline;
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
 }

@@ -181,11 +181,13 @@ const first_columns = [
 ];
 function cell_section() {
   const all = table("cells"),
+    own = ["problem", "series", "trusted", "may_win", "run", "line"],
     columns = all.columns.filter(
-      (name, k) => !["problem", "series"].includes(name) && all.rows.some(row => row[k] !== ""),
+      (name, k) => !own.includes(name) && all.rows.some(row => row[k] !== ""),
     );
   const shown = {};
-  for (const b of records("bounds")) (shown[b.column] ??= {})[b.row] = b.text;
+  for (const e of records("errors"))
+    if (e.text && !e.tap) (shown[e.measure] ??= {})[e.row] = e.text;
   const whole = without(
       all,
       all.columns.filter(name => !columns.includes(name)),

@@ -51,14 +51,14 @@ function points_of(rows, error, cost, series = "series") {
     const label = place_label(rate, modes, differ),
       from = side("lower"),
       to = side("upper"),
-      bounded = c.bounds[error] ? "\u2264 " : "";
+      bounded = is_bounded(c, error) ? "\u2264 " : "";
     return {
       series: c.series,
       problem: c.problem,
       n: c.n,
       x: finite(x),
       y: finite(y),
-      uncertain: is_percent(error) ? number(c["certificate" + error.slice(5)]) || 0 : 0,
+      uncertain: figure_of(c, error, "certificate") || 0,
       from,
       to,
       label,
@@ -126,10 +126,10 @@ function main_series(all) {
 // all points were measured against one.
 function bands_of(rows, error) {
   const given = page.manifest?.noise_floor?.[error],
-    floor = given ?? rows.map(c => number(c["floor_" + error])).find(Number.isFinite);
-  const certificates = is_percent(error)
-    ? rows.map(c => number(c["certificate" + error.slice(5)])).filter(x => !Number.isNaN(x))
-    : [];
+    floor = given ?? rows.map(c => figure_of(c, error, "floor")).find(Number.isFinite);
+  const certificates = rows
+    .map(c => figure_of(c, error, "certificate"))
+    .filter(x => !Number.isNaN(x));
   const least = Math.min(...certificates),
     most = Math.max(...certificates),
     known = x => (x > 0 && Number.isFinite(x) ? x : null);
@@ -139,15 +139,15 @@ function bands_of(rows, error) {
 const goal_text = g => `${g.goal}: ${g.run}${g.ties ? ` or ${g.ties}` : ""}`;
 // The goals that some cells of the scene reach and some do not, so that they lie among the points.
 function goals_of(rows, scene, error) {
-  const most = c =>
-    number(c[error]) + (is_percent(error) ? number(c["certificate" + error.slice(5)]) : 0);
+  const measured = c => figure_of(c, error, "value");
+  const most = c => measured(c) + (is_percent(error) ? figure_of(c, error, "certificate") : 0);
   return of_scene(records("cheapest"), scene)
     .filter(
       g =>
         g.measure === error &&
         g.scheme !== "" &&
         rows.some(
-          c => c.status === "ok" && Number.isFinite(number(c[error])) && most(c) > number(g.target),
+          c => c.status === "ok" && Number.isFinite(measured(c)) && most(c) > number(g.target),
         ),
     )
     .map(g => ({y: number(g.target), text: goal_text(g)}));
@@ -155,9 +155,12 @@ function goals_of(rows, scene, error) {
 
 // the points of the front, from the cheapest on, with the name of each scheme at its dearest
 function front_of(rows, error, cost) {
-  const on = of_scene(records("fronts"), rows[0]?.problem)
-    .filter(f => f.error === error && f.cost === cost)
-    .map(f => cells()[f.row]);
+  const on = of_scene(
+    records("fronts")
+      .filter(f => error_name(f) === error && f.cost === cost)
+      .map(f => cells()[f.row]),
+    rows[0]?.problem,
+  );
   const front = on
     .map(c => ({
       n: c.n,

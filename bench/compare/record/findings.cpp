@@ -1,0 +1,204 @@
+#include "bench/compare/record/findings.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "analysis/statistics.hpp"
+#include "bench/compare/bound.hpp"
+#include "bench/compare/diagnosis.hpp"
+
+namespace jvari::bench::compare {
+
+// ---- The front
+
+namespace {
+bool sound(const Point& p) { return std::isfinite(p.cost) && std::isfinite(p.error); }
+bool tie(const Point& a, const Point& b) {
+    return a.cost_lower <= b.cost_upper && b.cost_lower <= a.cost_upper;
+}
+bool beats(const Point& a, const Point& b) {
+    if (!sound(a)) return false;
+    if (a.error + a.certificate < b.error - b.certificate) return a.cost <= b.cost || tie(a, b);
+    return a.error <= b.error && a.cost < b.cost && !tie(a, b);
+}
+
+using Cell = study::TabledCell;
+
+Point point_of(const Cell& cell, std::size_t measure, double Cell::*cost, const std::string& tap) {
+    const Bound b = bound_of(cell, measure, tap);
+    const bool known = trusted(cell) && b.says() != Bound::Says::unknown;
+    // its quartiles are those of the cost per second of sound
+    const bool clock = cost == &Cell::cost_s_per_s || cost == &Cell::ns_per_step;
+    const double median = cell.cost_s_per_s, c = known ? cell.*cost : store::nan;
+    return {
+        c, clock ? c * cell.cost_lower / median : c, clock ? c * cell.cost_upper / median : c,
+        std::isnan(b.error) ? store::nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
+        std::isnan(b.certificate) ? 0 : b.certificate};
+}
+}  // namespace
+
+std::vector<bool> pareto_front(std::span<const Point> points) {
+    std::vector<bool> front;
+    for (const Point& p : points)
+        front.push_back(sound(p) &&
+                        std::none_of(points.begin(), points.end(),
+                                     [&p](const Point& other) { return beats(other, p); }));
+    return front;
+}
+
+std::vector<bool> pareto_front(const study::Cells& cells, const study::Rows& rows,
+                               std::size_t measure, double Cell::*cost, const std::string& tap) {
+    std::vector<Point> points;
+    for (const std::size_t row : rows) points.push_back(point_of(cells[row], measure, cost, tap));
+    return pareto_front(points);
+}
+
+study::Cells with_front(study::Cells cells) {
+    for (const study::Rows& rows : study::by_problem(cells, study::all_rows(cells))) {
+        const std::vector<bool> front =
+            pareto_front(cells, rows, headline_error(cells, rows), &Cell::cost_s_per_s);
+        for (std::size_t k = 0; k < rows.size(); ++k) cells[rows[k]].pareto = front[k];
+    }
+    return cells;
+}
+
+// ---- Orders
+
+namespace {
+using study::Cells, study::Rows;
+
+// Groups that differ in the rate alone; where a rate comes twice, the modes tell them apart.
+std::vector<Rows> differing_in_rate(const Cells& cells) {
+    std::vector<Rows> all;
+    for (const Rows& group : study::alike(study::all_rows(cells), [&](std::size_t i) {
+             return cells[i].problem() + "|" + cells[i].variant();
+         })) {
+        const auto modes = [&](std::size_t i) { return store::text_of(cells[i].modes); };
+        std::set<std::string> rates;
+        for (const std::size_t i : group) rates.insert(store::text_of(cells[i].rate));
+        if (rates.size() == group.size()) all.push_back(group);
+        else std::ranges::move(study::alike(group, modes), std::back_inserter(all));
+    }
+    return all;
+}
+}  // namespace
+
+std::vector<ObservedOrder> convergence_of(const Cells& cells) {
+    std::vector<ObservedOrder> all;
+    std::vector<std::string> taps;
+    for (const study::TabledCell& c : cells)
+        for (const std::string& tap : c.taps)
+            if (std::ranges::find(taps, tap) == taps.end()) taps.push_back(tap);
+    for (const Rows& rows : differing_in_rate(cells))
+        for (const std::string& tap : taps)
+            for (std::size_t m = 0; m < study::measures().size(); ++m) {
+                if (!study::is_waveform(m)) continue;
+                const Fall fall = fall_over_rates(cells, rows, m, tap);
+                if (std::isnan(fall.order.order)) continue;
+                ObservedOrder o{rows.front(), m,        tap, cells[fall.rows.front()].modes,
+                                fall.order,   HUGE_VAL, 0};
+                for (const std::size_t i : fall.rows) {
+                    if (cells[i].modes != o.modes) o.modes = store::nan;
+                    o.from_hz = std::min(o.from_hz, cells[i].rate);
+                    o.to_hz = std::max(o.to_hz, cells[i].rate);
+                }
+                all.push_back(std::move(o));
+            }
+    return all;
+}
+
+store::Table convergence_table(const Cells& cells) {
+    const store::Table named = study::table_of(cells, study::Contents::cost);
+    const auto rate = static_cast<std::size_t>(named.column("rate"));
+    store::Table t{{named.columns.begin() + 1, named.columns.begin() + rate}, {}};
+    for (const char* name :
+         {"modes", "tap", "window", "order", "half_width", "points", "from_hz", "to_hz"})
+        t.columns.emplace_back(name);
+    for (const auto& [first, m, tap, modes, order, from, to] : convergence_of(cells)) {
+        auto& row =
+            t.rows.emplace_back(named.rows[first].begin() + 1, named.rows[first].begin() + rate);
+        for (const std::string& field :
+             {store::text_of(modes), tap, study::measures()[m].column.substr(9),
+              store::text_of(order.order),
+              std::isfinite(order.half_width) ? store::text_of(order.half_width) : "",
+              std::to_string(order.points), store::text_of(from), store::text_of(to)})
+            row.push_back(field);
+    }
+    return t;
+}
+
+// ---- Warnings
+
+namespace {
+constexpr double calm = 0.2;
+constexpr double harmed = 1.2;  // times the error of own compliance
+constexpr const char *own = "compliance=own", *matched = "compliance=matched";
+}  // namespace
+
+double median_spread(const study::Cells& cells) {
+    std::vector<double> spreads;
+    for (const study::TabledCell& c : cells) {
+        const double spread = 0.5 * (c.cost_upper - c.cost_lower) / c.cost_s_per_s;
+        if (std::isfinite(spread)) spreads.push_back(spread);
+    }
+    return spreads.empty() ? store::nan : spread_of(spreads).median;
+}
+
+std::string busy_text(const study::Cells& cells) {
+    const double spread = median_spread(cells);
+    if (!(spread > calm)) return "";
+    return fmt::format(
+        "the machine was busy: half of the costs scatter by {:.0f} % and more between their "
+        "quartiles; read them as orders of magnitude",
+        100 * spread);
+}
+
+std::string harm_text(const study::Cells& cells) {
+    const std::size_t window = headline_error(cells, study::all_rows(cells));
+    const auto but_options = [&](std::size_t i) {
+        const study::TabledCell& c = cells[i];
+        return fmt::format("{}|{}|{}|{}", c.problem(), c.scheme, c.rate, c.modes);
+    };
+    int pairs = 0, worse = 0;
+    double most = 0;
+    std::string worst;
+    for (const study::Rows& alike : study::alike(study::all_rows(cells), but_options))
+        for (const std::size_t i : alike)
+            for (const std::size_t j : alike) {
+                std::string options = cells[i].options;
+                const auto at = options.find(matched);
+                if (at == std::string::npos || !trusted(cells[i]) || !trusted(cells[j])) continue;
+                if (options.replace(at, std::string(matched).size(), own) != cells[j].options)
+                    continue;
+                ++pairs;
+                bool any = false;
+                for (const std::string& tap : cells[i].taps) {
+                    const Bound is = bound_of(cells[i], window, tap),
+                                was = bound_of(cells[j], window, tap);
+                    if (!(is.least() > harmed * was.most())) continue;
+                    any = true;
+                    if (is.error / was.error <= most) continue;
+                    most = is.error / was.error;
+                    worst = fmt::format("{} of {} by {}", tap, percent(is.error), cells[i].run());
+                    worst += fmt::format(", where own compliance has {}", percent(was.error));
+                }
+                worse += any;
+            }
+    if (worse == 0) return "";
+    return fmt::format(
+        "in {} of {} runs matched compliance errs more than 1.2 times as much as own at a tap, "
+        "most at {}. Own errors of modes "
+        "and step may cancel: twice the rate, or the modes, tells (docs/compliance-matching.md)",
+        worse, pairs, worst);
+}
+
+std::vector<std::string> warnings_of(const study::Cells& cells) {
+    std::vector<std::string> all{busy_text(cells), harm_text(cells)};
+    std::erase(all, "");
+    return all;
+}
+
+}  // namespace jvari::bench::compare

@@ -1,0 +1,69 @@
+// What a set of cells says: the Pareto front of cost and error, where a difference that is no
+// finding decides nothing; observed orders of convergence; and what to be warned of: a clock that
+// cannot be believed, runs in which matched compliance did harm.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/convergence.hpp"
+#include "bench/study/cells.hpp"
+
+namespace jvari::bench::compare {
+
+// ---- The front
+
+struct Point {
+    // median and quartiles; all the same for a cost that does not scatter
+    double cost, cost_lower, cost_upper;
+    // brought up to its noise floor and certificate by the caller: what lies below is a tie
+    double error;
+    double certificate = 0;  // the error is known to so much
+};
+
+// A point is on the front where no other is surely better: another whose error is less by more than
+// both certificates at a cost that is less or a tie, or with an error no larger at a cost that is
+// surely less. A point without a finite cost and error is never on it.
+std::vector<bool> pareto_front(std::span<const Point>);
+
+// Which of the rows are on the front of a measure, of a tap (the headline's where absent), and a
+// cost: of those that are trusted and whose error is known.
+std::vector<bool> pareto_front(const study::Cells&, const study::Rows&, std::size_t measure,
+                               double study::TabledCell::*cost, const std::string& tap = "");
+
+// The cells with `pareto` said: 1 for those on the front of `cost_s_per_s` and the headline error
+// of their scene at their point of a sweep.
+study::Cells with_front(study::Cells);
+
+// ---- Orders, per window and tap: cells fitted over their rates (analysis/convergence.hpp)
+
+// Of a series of two rates or more that can tell (fall_over_rates).
+struct ObservedOrder {
+    std::size_t first;  // cell of the series
+    std::size_t measure;
+    std::string tap;
+    double modes;  // NaN where they change with the rate, as a grid's do
+    Order order;
+    double from_hz, to_hz;
+};
+std::vector<ObservedOrder> convergence_of(const study::Cells&);
+// Columns scene, <swept keys>, scheme, options, modes, tap, window, order, half_width (of the 95 %
+// interval; empty with two points), points, from_hz, to_hz.
+store::Table convergence_table(const study::Cells&);
+
+// ---- Warnings
+
+// Half the distance of the quartiles of the cost over its median, of the middle one of the timed
+// cells; NaN where none was timed.
+double median_spread(const study::Cells&);
+// Above a fifth: the sentence that says so, else "".
+std::string busy_text(const study::Cells&);
+// Of cells that differ in nothing but compliance=own and matched: those in which a tap's error,
+// over the headline's window, is surely more than 1.2 times that of its own sibling; the sentence
+// that counts them and names the worst, else "".
+std::string harm_text(const study::Cells&);
+
+std::vector<std::string> warnings_of(const study::Cells&);  // all of these that say something
+
+}  // namespace jvari::bench::compare

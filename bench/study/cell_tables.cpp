@@ -1,0 +1,265 @@
+// The columns of cells.csv, facts.csv and cost.csv, each declared once; errors.csv; and cells read
+// back from them.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/store/folder.hpp"
+#include "bench/store/usage.hpp"
+#include "bench/study/cells.hpp"
+
+namespace jvari::bench::study {
+
+namespace {
+using C = TabledCell;
+using Texts = std::vector<std::string>;
+
+constexpr bool elsewhere = false;  // not in cells.csv
+
+std::size_t place_of(const Texts& names, const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+}  // namespace
+
+const std::vector<Column>& columns() {
+    static const std::vector<Column> all = {
+        {"scene", "", Rule::text, &C::scene, "the scene"},
+        {"scheme", "", Rule::text, &C::scheme, "the scheme"},
+        {"options", "", Rule::text, &C::options, "its options, where they are not the default"},
+        {"rate", "Hz", Rule::closed_form, &C::rate,
+         "steps per second; empty for a scheme in continuous time"},
+        {"modes", "", Rule::closed_form, &C::modes,
+         "modes of the first string; interior nodes of a grid"},
+        {"status", "", Rule::text, &C::status,
+         "`ok`, `diverged`, `not_converged`, `refused`, `past_time_limit`, `error` or "
+         "`not_needed`"},
+        {"flags", "", Rule::text, &C::flags,
+         "what the run's own figures say against it: `adhesion`, `psi_gap`, `energy`, "
+         "`modes_above_nyquist`"},
+        {"cost_s_per_s", "1", Rule::clock, &C::cost_s_per_s,
+         "computing time per second of sound: median of the timed runs"},
+        {"cost_lower", "1", Rule::clock, &C::cost_lower, "its quartiles"},
+        {"cost_upper", "1", Rule::clock, &C::cost_upper, ""},
+        {"processor_s_per_s", "1", Rule::clock, &C::processor_s_per_s,
+         "the same in processor time. A slow-down that all samples of a round at one rate share "
+         "counts as drift of the machine and is subtracted"},
+        {"processor_lower", "1", Rule::clock, &C::processor_lower, "", elsewhere},
+        {"processor_upper", "1", Rule::clock, &C::processor_upper, "", elsewhere},
+        {"wall_seconds", "s", Rule::clock, &C::wall_seconds, "of the whole run"},
+        {"wall_seconds_lower", "s", Rule::clock, &C::wall_seconds_lower, "", elsewhere},
+        {"wall_seconds_upper", "s", Rule::clock, &C::wall_seconds_upper, "", elsewhere},
+        {"ns_per_step", "ns", Rule::clock, &C::ns_per_step, "`wall_seconds` over the steps"},
+        {"times_real_time", "1", Rule::clock, &C::times_real_time, "1 / `cost_s_per_s`"},
+        {"worst_block_of_deadline", "1", Rule::clock, &C::worst_block_of_deadline,
+         "worst-case load: computing time of the slowest block of 64 rows over the time that those "
+         "rows sound, the best of all timed runs. Above 1 a player would stutter"},
+        {"repeats", "", Rule::clock, &C::repeats, "how many samples the clock took"},
+        {"machine", "", Rule::clock, &C::machine,
+         "what timed it: costs compare on one kind of machine alone"},
+        {"load", "", Rule::clock, &C::load, "of that machine while it did"},
+        {"governor", "", Rule::clock, &C::governor, "of its processors' clock"},
+        {"untimed", "", Rule::clock, &C::untimed, "why no clock is asked of the scheme"},
+        {"pareto", "", Rule::clock, &C::pareto,
+         "1: no other run is surely better in headline error and cost"},
+        {"below_floor", "", Rule::name, &C::below_floor,
+         "the headline errors that are no larger than their noise floor: a tie with every other "
+         "such cell"},
+        {"energy_residual_per_step", "1", Rule::ledger, &C::energy_residual_per_step,
+         "how far the energy ledger is from closing, relative to the largest stored energy"},
+        {"energy_residual_accumulated", "1", Rule::ledger, &C::energy_residual_accumulated, ""},
+        {"smallest_contact_force", "N", Rule::force, &C::smallest_contact_force,
+         "a negative force pulls"},
+        {"deepest_penetration", "m", Rule::depth, &C::deepest_penetration,
+         "how far the string went into the barrier"},
+        {"dofs", "", Rule::closed_form, &C::dofs, "doubles of state"},
+        {"state_bytes", "bytes", Rule::closed_form, &C::state_bytes, "the same in bytes",
+         elsewhere},
+        {"steps", "", Rule::closed_form, &C::steps, "steps taken"},
+        {"failed_step", "", Rule::step, &C::failed_step, "where it failed", elsewhere},
+        {"failed_at_s", "s", Rule::instant, &C::failed_at_s, "", elsewhere},
+        {"headline_nut", "", Rule::text, &C::headline_nut,
+         "the tap of the headline errors, but third octaves", elsewhere},
+        {"headline_bridge", "", Rule::text, &C::headline_bridge, "the tap of third octaves",
+         elsewhere},
+        {"reference", "", Rule::text, &C::reference, "what the errors are measured against"},
+        {"reason", "", Rule::text, &C::reason, "of a refusal or a failure"},
+        {"reference_modes", "", Rule::closed_form, &C::reference_modes, "modes of the reference",
+         elsewhere},
+        {"free_from_s", "s", Rule::closed_form, &C::free_from_s,
+         "where the windows of the errors begin: the end of the last pluck, 0 without one"},
+        {"reference_horizon_s", "s", Rule::instant, &C::reference_horizon_s,
+         "until when the reference stays within 10 % of itself, started a relative 1e-12 apart",
+         elsewhere},
+        {"reference_doubling", "", Rule::text, &C::reference_doubling,
+         "how far its modes were doubled", elsewhere},
+    };
+    return all;
+}
+
+std::string Column::text(const TabledCell& c) const {
+    if (const auto* words = std::get_if<std::string C::*>(&field)) return c.*(*words);
+    return store::text_of(c.*std::get<double C::*>(field));
+}
+
+// ---- Tables
+
+namespace {
+Texts fact_names(const Cells& cells) {
+    Texts names;
+    for (const TabledCell& c : cells)
+        for (const auto& [name, value] : c.facts)
+            if (place_of(names, name) == names.size()) names.push_back(name);
+    return names;
+}
+
+bool belongs(const Column& c, Contents to) {
+    const std::string name = c.name;
+    if (name == "scene" || name == "scheme" || name == "options" || name == "rate" ||
+        name == "modes" || name == "status")
+        return true;
+    return to == Contents::everything ||
+           (to == Contents::cells ? c.in_cells : (c.rule == Rule::clock) == (to == Contents::cost));
+}
+}  // namespace
+
+store::Table table_of(const Cells& cells, Contents contents) {
+    store::Table t{{"cell"}, std::vector<Texts>(cells.size())};
+    for (std::size_t i = 0; i < cells.size(); ++i) t.rows[i].push_back(cells[i].cell);
+    const auto add = [&](const std::string& name, const auto& text) {
+        t.columns.push_back(name);
+        for (std::size_t i = 0; i < cells.size(); ++i) t.rows[i].push_back(text(cells[i]));
+    };
+    for (const Column& column : columns()) {
+        if (belongs(column, contents))
+            add(column.name, [&](const TabledCell& c) { return column.text(c); });
+        const std::string name = column.name;
+        if (name == "scene")
+            for (const std::string& key : swept_keys(cells))
+                add(key, [&](const TabledCell& c) {
+                    const auto own = std::ranges::find(c.swept, key,
+                                                       &std::pair<std::string, std::string>::first);
+                    return own == c.swept.end() ? "" : own->second;
+                });
+        if (name == "flags" && (contents == Contents::cells || contents == Contents::everything))
+            for (std::size_t m = 0; m < measures().size(); ++m)
+                add(measures()[m].column,
+                    [m](const TabledCell& c) { return store::text_of(c.figure(m).value); });
+    }
+    if (contents == Contents::facts || contents == Contents::everything)
+        for (const std::string& name : fact_names(cells))
+            add("fact_" + name, [&](const TabledCell& c) { return store::text_of(c.fact(name)); });
+    return t;
+}
+
+store::Table errors_table(const Cells& cells) {
+    store::Table t{{"cell", "tap", "measure", "value", "floor", "certificate", "in_model",
+                    "certificate_in_model"},
+                   {}};
+    for (const TabledCell& c : cells)
+        for (std::size_t tap = 0; tap < c.taps.size(); ++tap)
+            for (std::size_t m = 0; m < measures().size(); ++m) {
+                const Figure& f = c.figures[tap][m];
+                Texts row{c.cell, c.taps[tap], measures()[m].column};
+                for (const double x :
+                     {f.value, f.floor, f.certificate, f.in_model, f.certificate_in_model})
+                    row.push_back(store::text_of(x));
+                if (std::any_of(row.begin() + 3, row.end(),
+                                [](const std::string& text) { return !text.empty(); }))
+                    t.rows.push_back(std::move(row));
+            }
+    return t;
+}
+
+store::Table rows_of(const std::string& facet, const Plan& plan,
+                     const std::vector<Record>& records) {
+    const store::Table all = table_of(cells_of(plan, records), Contents::cost);
+    Texts names(all.columns.begin(), all.columns.begin() + all.column("options") + 1);
+    names.insert(names.end(), {"rate", "modes"});
+    const store::Table named = all.only(names);
+    store::Table t{named.columns, {}};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto own = records[i].rows.find(facet);
+        if (own == records[i].rows.end()) continue;
+        if (t.columns.size() == names.size())
+            t.columns.insert(t.columns.end(), own->second.columns.begin(),
+                             own->second.columns.end());
+        for (const auto& fields : own->second.rows) {
+            t.rows.push_back(named.rows[i]);
+            t.rows.back().insert(t.rows.back().end(), fields.begin(), fields.end());
+        }
+    }
+    return t;
+}
+
+// ---- Read back
+
+namespace {
+void fill(TabledCell& c, const store::Table& t, std::size_t row) {
+    for (const Column& column : columns()) {
+        if (t.column(column.name) < 0) continue;
+        if (const auto* words = std::get_if<std::string C::*>(&column.field))
+            c.*(*words) = t.at(row, column.name);
+        else c.*std::get<double C::*>(column.field) = t.number(row, column.name);
+    }
+}
+
+Cells cells_in(const store::Table& facts) {
+    Cells cells(facts.rows.size());
+    const int from = facts.column("scene"), to = facts.column("scheme");
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        TabledCell& c = cells[i];
+        c.cell = facts.at(i, "cell");
+        fill(c, facts, i);
+        for (int k = from + 1; from >= 0 && k < to; ++k)
+            if (!facts.rows[i][k].empty()) c.swept.emplace_back(facts.columns[k], facts.rows[i][k]);
+        for (std::size_t k = 0; k < facts.columns.size(); ++k)
+            if (facts.columns[k].starts_with("fact_") && !facts.rows[i][k].empty())
+                c.facts.emplace_back(facts.columns[k].substr(5),
+                                     store::number_of(facts.rows[i][k]));
+    }
+    return cells;
+}
+}  // namespace
+
+Cells read_cells(const std::filesystem::path& path, bool whole) {
+    const store::Folder folder{path};
+    const store::Table facts = folder.table("facts");
+    if (facts.columns.empty()) return {};
+    if (facts.rows.empty())
+        throw store::UsageError(
+            path.string() + "/facts.csv: it has no row below its header; make the results again");
+    Cells cells = cells_in(facts);
+    std::map<std::string, TabledCell*> named;
+    for (TabledCell& c : cells) named[c.cell] = &c;
+    const auto refuse = [&path](const char* file, const std::string& cell) {
+        throw store::UsageError(fmt::format("{}/{}: found the cell {}, which facts.csv has not",
+                                            path.string(), file, cell));
+    };
+    const store::Table errors = folder.table("errors"), cost = folder.table("cost");
+    for (std::size_t i = 0; i < errors.rows.size(); ++i) {
+        const auto found = named.find(errors.at(i, "cell"));
+        if (found == named.end()) refuse("errors.csv", errors.at(i, "cell"));
+        TabledCell& c = *found->second;
+        const std::size_t m = measure(errors.at(i, "measure")),
+                          tap = place_of(c.taps, errors.at(i, "tap"));
+        if (m == measures().size()) continue;
+        if (tap == c.taps.size()) {
+            c.taps.push_back(errors.at(i, "tap"));
+            c.figures.emplace_back(measures().size());
+        }
+        c.figures[tap][m] = {errors.number(i, "value"), errors.number(i, "floor"),
+                             errors.number(i, "certificate"), errors.number(i, "in_model"),
+                             errors.number(i, "certificate_in_model")};
+    }
+    for (std::size_t i = 0; i < cost.rows.size(); ++i) {
+        const auto found = named.find(cost.at(i, "cell"));
+        const bool same = found != named.end() && found->second->scheme == cost.at(i, "scheme") &&
+                          store::text_of(found->second->rate) == cost.at(i, "rate");
+        if (same) fill(*found->second, cost, i);
+        else if (whole) refuse("cost.csv", cost.at(i, "cell"));
+    }
+    return cells;
+}
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,171 @@
+#include "bench/study/cells.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bench/study/judgement.hpp"
+#include "scenes/excitation.hpp"
+
+namespace jvari::bench::study {
+
+const Figure& TabledCell::figure(std::size_t measure, const std::string& tap) const {
+    static const Figure nothing;
+    const std::string& name = !tap.empty()                 ? tap
+                              : measures()[measure].bridge ? headline_bridge
+                                                           : headline_nut;
+    const auto found = std::ranges::find(taps, name);
+    return found == taps.end() ? nothing : figures[found - taps.begin()][measure];
+}
+
+double TabledCell::fact(const std::string& name) const {
+    const auto found = std::ranges::find(facts, name, &std::pair<std::string, double>::first);
+    return found == facts.end() ? store::nan : found->second;
+}
+
+std::string TabledCell::problem() const {
+    std::string text = scene;
+    for (const auto& [key, value] : swept) text += fmt::format(", {} = {}", key, value);
+    return text;
+}
+
+std::string TabledCell::run() const {
+    std::string name = variant();
+    if (!(fact(facts::grid_intervals.name) > 0) && !std::isnan(modes))
+        name += fmt::format(", {} modes", modes);
+    return std::isnan(rate) ? name : name + fmt::format(" at {:.4g} kHz", rate / 1000);
+}
+
+// ---- Of records
+
+namespace {
+Figure figure_of(const Record& r, std::size_t tap, std::size_t measure) {
+    const Against& a = r.against;
+    const auto in = [&](const Errors& e) { return tap < e.size() ? e[tap][measure] : store::nan; };
+    Figure f{in(r.cell.errors), measures()[measure].less_is_better ? in(a.floor) : store::nan,
+             store::nan, in(r.cell.in_model), store::nan};
+    const auto window = std::ranges::find(trust::Trust::columns,
+                                          "certificate" + measures()[measure].column.substr(5));
+    if (window == trust::Trust::columns.end()) return f;
+    const auto w = static_cast<std::size_t>(window - trust::Trust::columns.begin());
+    f.certificate = a.trust.of_scene(tap, w);
+    f.certificate_in_model = a.model_trust.in_model(tap, w);
+    return f;
+}
+
+// Headline errors that are no larger than what the reference's own sensitivity makes of 1e-12.
+std::string ties_of(const TabledCell& c) {
+    std::string ties;
+    for (std::size_t m = 0; m < measures().size(); ++m)
+        if (c.figure(m).value <= c.figure(m).floor)
+            ties += (ties.empty() ? "" : " ") + measures()[m].column;
+    return ties;
+}
+
+void add_clock(TabledCell& c, const Cell& cell) {
+    const Timing& t = cell.clock;
+    c.machine = t.stamp.name, c.load = t.stamp.load, c.governor = t.stamp.governor;
+    if (t.wall.count == 0) {
+        c.untimed = cell.scheme->untimed;
+        return;
+    }
+    c.repeats = t.wall.count;
+    if (!(t.wall.median > 0)) return;
+    const double seconds = cell.summary.duration > 0 ? cell.summary.duration : store::nan;
+    c.cost_s_per_s = t.wall.median / seconds;
+    c.cost_lower = t.wall.lower / seconds;
+    c.cost_upper = t.wall.upper / seconds;
+    c.processor_s_per_s = t.processor.median / seconds;
+    c.processor_lower = t.processor.lower / seconds;
+    c.processor_upper = t.processor.upper / seconds;
+    c.wall_seconds = t.wall.median;
+    c.wall_seconds_lower = t.wall.lower;
+    c.wall_seconds_upper = t.wall.upper;
+    if (cell.summary.steps > 0)
+        c.ns_per_step = t.wall.median * 1e9 / static_cast<double>(cell.summary.steps);
+    c.times_real_time = seconds / t.wall.median;
+    c.worst_block_of_deadline = t.worst_block;
+}
+
+void add_run(TabledCell& c, const Cell& cell) {
+    const Summary& s = cell.summary;
+    c.flags = names_of(flags_of(s));
+    c.energy_residual_per_step = s.energy_residual_per_step;
+    c.energy_residual_accumulated = s.energy_residual_accumulated;
+    c.smallest_contact_force = s.smallest_contact_force;
+    c.deepest_penetration = s.deepest_penetration;
+    c.dofs = s.dofs;
+    c.state_bytes = 8.0 * s.dofs;
+    c.steps = static_cast<double>(s.steps);
+    if (s.status.outcome != Outcome::ok) {
+        c.failed_step = static_cast<double>(s.status.step);
+        c.failed_at_s = s.duration;
+    }
+    for (const Fact& f : s.facts) c.facts.emplace_back(f.name, fact_of(s.facts, f.name));
+    add_clock(c, cell);
+}
+
+TabledCell cell_of(const Job& job, const Record& r) {
+    const Scene& scene = job.point->scene;
+    const Headline headline = headline_of(scene);
+    TabledCell c;
+    c.cell = job.id;
+    c.scene = scene.name;
+    c.swept = job.point->swept;
+    c.scheme = r.cell.scheme->name;
+    c.options = store::options_text(r.cell.settings.options);
+    if (r.cell.scheme->clock != Clock::continuous) c.rate = r.cell.settings.sample_rate;
+    if (r.cell.modes() > 0) c.modes = r.cell.modes();
+    c.status = r.cell.status();
+    c.reason = r.cell.reason;
+    c.reference = r.against.reference;
+    c.reference_doubling = r.against.doubling;
+    if (r.against.modes > 0) c.reference_modes = r.against.modes;
+    c.free_from_s = free_from(scene);
+    c.reference_horizon_s = horizon_of(r.against.floor, headline);
+    if (job.judged)
+        for (const Tap& tap : scene.taps) c.taps.push_back(tap.name);
+    if (!c.taps.empty()) {
+        c.headline_nut = c.taps[static_cast<std::size_t>(headline.nut)];
+        c.headline_bridge = c.taps[static_cast<std::size_t>(headline.bridge)];
+    }
+    for (std::size_t tap = 0; tap < c.taps.size(); ++tap) {
+        auto& row = c.figures.emplace_back();
+        for (std::size_t m = 0; m < measures().size(); ++m) row.push_back(figure_of(r, tap, m));
+    }
+    if (r.cell.ran()) add_run(c, r.cell);
+    c.below_floor = ties_of(c);
+    return c;
+}
+}  // namespace
+
+Cells cells_of(const Plan& plan, const std::vector<Record>& records) {
+    Cells cells;
+    for (std::size_t i = 0; i < records.size(); ++i)
+        cells.push_back(cell_of(plan.jobs[i], records[i]));
+    return cells;
+}
+
+// ---- Gathered
+
+Rows all_rows(const Cells& cells) {
+    Rows rows(cells.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    return rows;
+}
+
+std::vector<Rows> by_problem(const Cells& cells, const Rows& rows) {
+    return alike(rows, [&](std::size_t i) { return cells[i].problem(); });
+}
+
+std::vector<std::string> swept_keys(const Cells& cells) {
+    std::vector<std::string> keys;
+    for (const TabledCell& c : cells)
+        for (const auto& [key, value] : c.swept)
+            if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+    return keys;
+}
+
+}  // namespace jvari::bench::study
