@@ -1,6 +1,7 @@
 #include "reference/in_series.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,15 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     if (!positive(C) || !positive(E)) nothing();
     put_ladder(series, C.inverse(), E, std::span(sites.forces).first(series.points), kept);
     return series;
+}
+
+double series_rate(const InSeries& s) {
+    if (s.states == 0) return 0;
+    return Eigen::EigenSolver<Matrix>(Eigen::Map<const Matrix>(s.A.data(), s.states, s.states),
+                                      false)
+        .eigenvalues()
+        .cwiseAbs()
+        .maxCoeff();
 }
 
 void add_series(const Block& out, int row, const InSeries& series, const double* z,

@@ -41,6 +41,8 @@ struct InSeries {
 // What the springs of the state z add to a row of taps.
 void add_series(const Block&, int row, const InSeries&, const double* z, double F_e) noexcept;
 
+double series_rate(const InSeries&);  // its fastest own motion under given forces [1/s]
+
 // Nothing where option `compliance` says own; a Refusal where the scene is none that can carry it.
 std::optional<InSeries> in_series(const Descriptor&, const Scene&, const Modes&, const Settings&);
 

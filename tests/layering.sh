@@ -75,7 +75,7 @@ only() {  # only LIBRARY PATTERN PLACES: of the product, files that begin with P
 only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'analysis/'
 only Eigen 'Eigen/' \
-    'schemes/|reference/(in_series|exact/(touching_set|collocated_contact|series_window))|analysis/'
+    'schemes/|reference/(in_series|exact/(touching_set_making|collocated_contact))|analysis/'
 only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
 only FFTW 'fftw' 'analysis/(squared_transform|convolution)'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'

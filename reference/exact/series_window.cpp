@@ -1,6 +1,5 @@
 #include "reference/exact/series_window.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -97,16 +96,6 @@ std::vector<double> series_kernel(const InSeries& s, double rate, int point, int
         for (double& x : next) x /= rate;
     }
     return h;
-}
-
-double series_rate(const InSeries& s) {
-    if (s.states == 0) return 0;
-    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    return Eigen::EigenSolver<Matrix>(Eigen::Map<const Matrix>(s.A.data(), s.states, s.states),
-                                      false)
-        .eigenvalues()
-        .cwiseAbs()
-        .maxCoeff();
 }
 
 }  // namespace jvari

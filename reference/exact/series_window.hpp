@@ -32,6 +32,5 @@ private:
 // h^(n) of the points' D, [m/N] x rate^(n+1): what a unit impulse at `force` makes of `point`, in
 // time units of 1/rate.
 std::vector<double> series_kernel(const InSeries&, double rate, int point, int force, int count);
-double series_rate(const InSeries&);  // its fastest own motion under given forces [1/s]
 
 }  // namespace jvari
