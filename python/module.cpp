@@ -93,8 +93,7 @@ void add_run(py::module_& m) {
     py::class_<TakenRun, std::shared_ptr<TakenRun>> taken(
         m, "Run",
         "What a run produced. run[\"nut\"] is the column of a tap, shape (rows,), in "
-        "units[\"nut\"]: the engine's memory, not a copy, and "
-        "not to be written.");
+        "units[\"nut\"]: the engine's memory, not a copy, and not to be written.");
     has_no_constructor(taken);
     taken.def("__getitem__", &python::column, py::arg("tap"), "A column, shape (rows,).")
         .def(
@@ -142,8 +141,8 @@ void add_run(py::module_& m) {
           py::arg("modes") = 0, py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(),
           py::arg("energy") = false, py::arg("options") = py::dict(),
           "One scheme on one scene. rate, tap_rate [Hz]; duration [s]; energy=True adds the energy "
-          "columns; options {\"compliance\": "
-          "\"matched\"}. Raises Refusal, SceneError or UsageError.");
+          "columns; options {\"compliance\": \"matched\"}. Raises Refusal, SceneError or "
+          "UsageError.");
     m.def("run_many", &python::run_many, py::arg("scenes"), py::arg("scheme"),
           py::arg("rate") = 44100.0, py::arg("modes") = 0, py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("jobs") = 0,
@@ -160,9 +159,8 @@ void add_studies(py::module_& m) {
           py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5,
           py::arg("jobs") = 0,
           "Schemes x modes x rates [Hz] against a reference, as `jvari compare`: modes may be a "
-          "number or several, and so may the values of "
-          "options. A dict per cell, its keys the columns of cells.csv and the bounds "
-          "of the errors. None where nothing is known.");
+          "number or several, and so may the values of options. A dict per cell, its keys the "
+          "columns of cells.csv and the bounds of the errors. None where nothing is known.");
     m.def("suite", &python::suite_rows, py::arg("file"), py::arg("out") = "",
           py::arg("resume") = false, py::arg("jobs") = 0,
           "The cells of a suite, a dict each, its maps aside. out: the folder that keeps them, as "
@@ -170,17 +168,13 @@ void add_studies(py::module_& m) {
     m.def("suite_tables", &python::suite_tables, py::arg("file"), py::arg("out") = "",
           py::arg("resume") = false, py::arg("jobs") = 0,
           "The tables of a suite by name, each a list of dicts, one per row. \"cells\": the "
-          "columns of cells.csv and the bounds of the "
-          "errors. "
-          "\"maps\": a row per point, x and y in the units of x_key and y_key (rate [Hz], duration "
-          "[s], the scene's in SI), its outcome and "
-          "figures: displacement over what the energy allows, energy gained, pull over the largest "
-          "contact force, error [1]. "
-          "\"boundaries\": a row per change of outcome, between x_low and x_high [the unit of "
-          "x_key], relative_difference from theory [1]. "
+          "columns of cells.csv and the bounds of the errors. \"maps\": a row per point, x and y "
+          "in the units of x_key and y_key (rate [Hz], duration [s], the scene's in SI), its "
+          "outcome and figures: displacement over what the energy allows, energy gained, pull over "
+          "the largest contact force, error [1]. \"boundaries\": a row per change of outcome, "
+          "between x_low and x_high [the unit of x_key], relative_difference from theory [1]. "
           "Further ones, such as \"dispersion\", where the suite measures them. out: the folder "
-          "that keeps cells and points, as "
-          "`jvari suite --out` does.");
+          "that keeps cells and points, as `jvari suite --out` does.");
     py::class_<TrimmedRows> trimmed(
         m, "Trimmed", "The cheapest model of a scene within a tolerance, and how it was found.");
     has_no_constructor(trimmed);
@@ -199,40 +193,35 @@ void add_studies(py::module_& m) {
           py::arg("reference") = "", py::arg("reference_modes") = 0, py::arg("out") = "",
           py::arg("jobs") = 0,
           "No more than a scene needs, as `jvari trim`: trim(\"tanpura_c3_release\", \"1%\", "
-          "scheme=\"modal_two_point\"). duration [s], "
-          "tap_rate [Hz]; out: the folder that keeps what was judged.");
+          "scheme=\"modal_two_point\"). duration [s], tap_rate [Hz]; out: the folder that keeps "
+          "what was judged.");
 }
 
 void add_own_schemes(py::module_& m) {
     m.def("problem", &python::problem_of, py::arg("scene"), py::arg("rate") = 44100.0,
           py::arg("modes") = 0, py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(),
           "The problem that a scheme solves, as NumPy arrays: the members of a file of `jvari "
-          "export`, whose shapes, units and equations "
-          "docs/own-scheme/README.md has. rate, tap_rate [Hz]; modes 0: every mode below min(20 "
-          "kHz, rate/2).");
+          "export`, whose shapes, units and equations docs/own-scheme/README.md has. rate, "
+          "tap_rate [Hz]; modes 0: every mode below min(20 kHz, rate/2).");
     m.def("judge", &python::judge_rows, py::arg("scene"), py::arg("traces"), py::kw_only(),
           py::arg("name") = "mine", py::arg("cost") = py::none(),
           py::arg("schemes") = std::vector<std::string>(), py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("tap") = "", py::arg("reference") = "",
           py::arg("repeats") = 5, py::arg("jobs") = 0,
           "How wrong a trace is that any program made, as `jvari judge`. traces: an array of rows "
-          "x taps, a dict of taps by name, or a "
-          "dict of such by sample rate [Hz]; 44100 where there is one. cost: computing time per "
-          "second of sound, a number or by rate, "
-          "shown as reported. schemes: run beside it. A dict per cell as compare gives.");
+          "x taps, a dict of taps by name, or a dict of such by sample rate [Hz]; 44100 where "
+          "there is one. cost: computing time per second of sound, a number or by rate, shown as "
+          "reported. schemes: run beside it. A dict per cell as compare gives.");
     m.def("scheme", &python::scheme_decorator, py::arg("name"), py::kw_only(),
           py::arg("represents") = std::vector<std::string>(), py::arg("balance") = "none",
           py::arg("source") = "a scheme in Python", py::arg("compiled") = false,
           "A decorator that makes a class a scheme: __init__(self, problem), and advance(self, "
-          "rows), which gives rows x taps, or that "
-          "and rows x 3 energies [J]. represents: features as `jvari list schemes --json` names "
-          "them. "
-          "compiled: its loop is (Numba), and its "
-          "cost is compared.");
+          "rows), which gives rows x taps, or that and rows x 3 energies [J]. represents: features "
+          "as `jvari list schemes --json` names them. compiled: its loop is (Numba), and its cost "
+          "is compared.");
     m.def("check", &python::check_rows_of, py::arg("scheme"),
           "Whether a scheme keeps what every scheme promises, as `jvari check`: a dict per promise "
-          "and scene; `answer` is \"kept\", "
-          "\"broken\", \"excused\" or \"not asked\".");
+          "and scene; `answer` is \"kept\", \"broken\", \"excused\" or \"not asked\".");
 }
 }  // namespace
 

@@ -246,8 +246,8 @@ private:
             if (!(error <= allowed) || is_here.size() != is_there.size())
                 return fmt::format(
                     "{}: {}{}: tap {} {} by {:.4g} {} (root of the sum of squares) where the "
-                    "reference's does by {:.4g}; they differ by "
-                    "{:.2g}, at most {:.2g} is its own error",
+                    "reference's does by {:.4g}; they differ by {:.2g}, at most {:.2g} is its own "
+                    "error",
                     scene_.name, key, itself ? "" : " changed by a tenth", truth[2]->names[k],
                     itself ? "moves" : "changes", norm(is_here), unit_of(scene_.taps[k].quantity),
                     norm(is_there), error, allowed);

@@ -110,9 +110,8 @@ void Arguments::modes(int& modes) {
 void Arguments::options(std::vector<std::string>& options) {
     option("--option", options, assignment("[SCHEME:]NAME=VALUE"),
            "an option of a scheme, as NAME=VALUE or SCHEME:NAME=VALUE (repeatable). In compare the "
-           "short form goes to every compared "
-           "scheme that knows the name, never to the reference; several values, as "
-           "compliance=own,matched, are run one by one")
+           "short form goes to every compared scheme that knows the name, never to the reference; "
+           "several values, as compliance=own,matched, are run one by one")
         ->allow_extra_args(false);
 }
 

@@ -145,8 +145,8 @@ Act compare_verb(CLI::App& program) {
     v.set(v.r.set);
     v.option("--modes", v.r.modes, {"N,...", counting.check},
              "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many "
-             "where they lie below rate/2. "
-             "Where schemes, rates and compliance are all named, those below 20 kHz alone")
+             "where they lie below rate/2. Where schemes, rates and compliance are all named, "
+             "those below 20 kHz alone")
         ->delimiter(',');
     v.options(v.r.option_lists);
     v.schemes(v.r.schemes, "absent: every scheme that represents the scene, but for controls");
@@ -165,13 +165,11 @@ Act compare_verb(CLI::App& program) {
                             },
                             "")},
              "modes of the reference; 0, or absent: doubled until nothing moves, and the points of "
-             "a profile with them; cell: those "
-             "of the schemes");
+             "a profile with them; cell: those of the schemes");
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz,
              "rows per second that are compared; absent: 44100 for its multiples, the lowest rate "
-             "for others. 44100 and 48000 have "
-             "each their own");
+             "for others. 44100 and 48000 have each their own");
     v.option("--repeats", v.r.repeats, counting,
              "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent");
     v.jobs(v.r.jobs);

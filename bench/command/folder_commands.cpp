@@ -78,8 +78,7 @@ Act diff_verb(CLI::App& program) {
                   "Example: jvari diff results/smoke report\n"
                   "\n"
                   "Exit code 4 where something got worse: an error by more than noise and "
-                  "certificates, a certificate, a status, an outcome of a "
-                  "map,\n"
+                  "certificates, a certificate, a status, an outcome of a map,\n"
                   "or the cost of a scheme beyond its quartiles and the drift of all; and where a "
                   "cell of A is missing in B. Costs of two machines\n"
                   "are not compared.");

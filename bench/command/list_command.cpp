@@ -244,7 +244,8 @@ std::string text_of(const std::string& title, const Json& list) {
     constexpr std::size_t widest = 32;  // a longer field moves the rest of its line
     std::string text;
     if (list.is_object()) {
-        for (const auto& [name, inner] : list.items()) text += text_of(title + ": " + name, inner);
+        for (const auto& [name, inner] : list.items())
+            text += text_of(title + " of " + name, inner);
         return text;
     }
     Rows rows;
@@ -263,7 +264,11 @@ std::string text_of(const std::string& title, const Json& list) {
             line += fmt::format("  {:<{}}", row[k], widths[k]);
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
-    return title + "\n" + (rows.empty() ? "  none\n" : text);
+    if (rows.empty()) return title + "\n  none\n";
+    std::vector<std::string> fields;  // of the first entry
+    for (const auto& [key, value] : list.front().items())
+        if (fields.size() < rows.front().size()) fields.push_back(key);
+    return fmt::format("{}: {}\n{}", title, fmt::join(fields, ", "), text);
 }
 
 int list_command(ListRequest r) {

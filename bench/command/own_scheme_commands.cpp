@@ -151,8 +151,7 @@ Act judge_verb(CLI::App& program) {
     v.set(v.r.set);
     v.option("--trace", v.r.files, {"HZ=FILE"},
              "the sample rate of the scheme, and what it wrote (repeatable, a file a rate): .csv "
-             "with time_s and a column for each "
-             "tap by its name, or .wav of one tap")
+             "with time_s and a column for each tap by its name, or .wav of one tap")
         ->required()
         ->allow_extra_args(false);
     v.option("--name", v.r.name, {"NAME"}, "what tables and pictures call it; mine where absent");
@@ -172,14 +171,12 @@ Act judge_verb(CLI::App& program) {
     v.comparison_folder(v.r.out);
     return v.does(judge_command,
                   "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv "
-                  "--cost 0.8 --schemes modal_two_point --out "
-                  "report\n"
+                  "--cost 0.8 --schemes modal_two_point --out report\n"
                   "\n"
                   "Row n of a trace is at n/44100 s, from the start on; contact forces are means "
                   "over the interval that ends at the row.\n"
                   "A file that is no trace of the scene is refused with exit code 2, and nothing "
-                  "is written: other row times, a missing tap, other "
-                  "than\n"
+                  "is written: other row times, a missing tap, other than\n"
                   "all rows, NaN. `jvari export` writes the problem.");
 }
 

@@ -42,8 +42,7 @@ constexpr const char* examples =
     "contract\n"
     "\n"
     "Exit codes: 0 done; 2 bad usage or bad scene; 3 the scheme refuses the scene; 4 the run "
-    "failed, or "
-    "its result could not be written (what was written stays valid).\n"
+    "failed, or its result could not be written (what was written stays valid).\n"
     "Ctrl-C leaves whole files only; compare and suite say how many cells are kept.";
 
 constexpr const char* welcome =

@@ -46,8 +46,7 @@ std::string dearest(const std::vector<Fact>& facts) {
     if (!(coupled > 8)) return "";
     return fmt::format(
         ". Dear is its contact: {:.0f} points that push each other are solved together, each step "
-        "by up to the cube of those that touch; a "
-        "shorter profile or a coarser grid has fewer",
+        "by up to the cube of those that touch; a shorter profile or a coarser grid has fewer",
         coupled);
 }
 

@@ -329,6 +329,13 @@ TEST(CommandLine, ListShowsOptionsAndFactsAsTextAndAsJson) {
     EXPECT_EQ(levels->at("default"), "2");
     EXPECT_TRUE(says(jvari(scratch, "list options").out, "levels"));
     EXPECT_TRUE(says(jvari(scratch, "list facts").out, "smallest_contact_force"));
+    // a line for each scheme; the first of a string's pairings names the string
+    const std::string text = jvari(scratch, "list schemes").out;
+    EXPECT_TRUE(
+        says(text, "\n  modal_two_point                van Walstijn et al. 2016, eqs 16-52\n"));
+    EXPECT_TRUE(says(text,
+                     "\n  modal_three_point              gradient     modal_three_point\n"
+                     "                                 quadratised  modal_quadratised"));
     const auto schemes =
         nlohmann::json::parse(jvari(scratch, "list schemes --json").out).at("schemes");
     const auto fdm = std::find_if(schemes.begin(), schemes.end(),
