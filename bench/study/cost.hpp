@@ -12,8 +12,8 @@
 
 namespace jvari::bench::study {
 
-// One sample of a clock: the mean of as many runs back to back as last `shortest` [s], a thousand at
-// most. `worst_block` as a fraction of its deadline, NaN where none was timed.
+// One sample of a clock: the mean of as many runs back to back as last `shortest` [s], a thousand
+// at most. `worst_block` as a fraction of its deadline, NaN where none was timed.
 struct Sample {
     double wall, processor;  // [s] of one run
     double worst_block;
@@ -24,8 +24,8 @@ Sample sample_of(const Descriptor&, const Scene&, const Settings&, double shorte
 // shortest, so that it is the scheme's worst and not what the machine did meanwhile. The first
 // block of a run and failed runs do not count.
 //
-// Fills Cell::clock of every cell that was run. A sample lasts 20 ms at least; a cell that takes longer than 10 s for all its repeats gets fewer,
-// two at least.
+// Fills Cell::clock of every cell that was run. A sample lasts 20 ms at least; a cell that takes
+// longer than 10 s for all its repeats gets fewer, two at least.
 struct Contender {
     Cell* cell;
     const Scene* scene;

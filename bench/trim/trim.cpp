@@ -111,7 +111,6 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
     }
     return needs;
 }
-
 }  // namespace
 
 Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalogue,
