@@ -78,8 +78,9 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     Shared& model = of(p.reference_key);
     if (p.in_model || !p.truth_modes)
         model.make(from, [&] {
-            return Truth{
-                run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone), {}, {}};
+            Truth t;
+            t.reference = run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone);
+            return t;
         });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
     if (p.truth_modes)

@@ -98,7 +98,7 @@ TEST(SeveralPoints, OneThatIsInReachIsTheOneOfOnePoint) {
                 one = with_exponent(one, exponent);
                 Scene two = one;
                 two.strings[0].barriers.push_back(LumpedBarrier{0.6, 0, -1, {1e8}, 1, 0.5});
-                const Settings settings{is_explicit ? 8 * 44100 : 88200, 44100, 60, {}};
+                const Settings settings{is_explicit ? 8 * 44100.0 : 88200.0, 44100, 60, {}};
                 const auto a = play(form, one, settings, {.energy = true}),
                            b = play(form, two, settings, {.energy = true});
                 EXPECT_EQ(fact(b, "contact_points"), 2);
