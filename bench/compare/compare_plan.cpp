@@ -18,6 +18,13 @@
 
 namespace jvari::bench::compare {
 
+void require_rows(const Scene& scene, const Settings& settings) {
+    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
+        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
+                                            scene.duration, settings.tap_rate));
+    rows_of(scene, settings);  // throws where that is none
+}
+
 namespace {
 // The rates of each have rows in common.
 std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
@@ -151,10 +158,7 @@ Settings settings_of(const CompareRequest& r, const Scene& scene,
     settings.tap_rate = tap_rate_for(r, rates);
     settings.modes = modes_for(r, scene, rates.front());
     settings.sample_rate = rates.back();
-    if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
-                                            scene.duration, settings.tap_rate));
-    rows_of(scene, settings);  // throws where that is none
+    require_rows(scene, settings);
     return settings;
 }
 

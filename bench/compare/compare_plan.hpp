@@ -14,6 +14,10 @@ namespace jvari::bench::compare {
 // none.
 double tap_rate_for(const CompareRequest&, const std::vector<double>& rates);
 
+// BadScene where the scene has no row at that tap rate, UsageError where its rows do not fit in
+// memory.
+void require_rows(const Scene&, const Settings&);
+
 // Adds the cells of a comparison as jobs like `like`, and what they are compared on:
 // points like `common`, with references and reference modes as asked.
 //

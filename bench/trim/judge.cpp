@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/cheapest.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/time_limit.hpp"
@@ -86,6 +87,7 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
       stamp_(store::stamp_now()) {
     const double absent = judges_decay() ? own_duration_ : free_from(scene_) + 50e-3;
     scene_.duration = std::min(own_duration_, request.duration.value_or(absent));
+    compare::require_rows(scene_, {0, request.tap_rate, 0, {}});
     const int tap = compare::tap_named(scene_, request.tap);
     tap_ = static_cast<std::size_t>(request.tap.empty() ? study::headline_of(scene_).nut : tap);
     const double window = study::measures()[target_.measure].window,
