@@ -9,6 +9,7 @@
 
 #include "bench/compare/compare.hpp"
 #include "bench/compare/record/cheapest.hpp"
+#include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/study/record.hpp"
 
@@ -28,8 +29,13 @@ std::filesystem::path cells_folder(const std::filesystem::path& folder, const st
 // What is written into it, and the paths of that; nowhere ("") nothing is.
 class ResultsFolder {
 public:
+    // Two processes that share the folder write its files one after the other: they are read back
+    // together, by the report.
     ResultsFolder(std::filesystem::path folder, const store::Listener& listener)
-        : folder_(std::move(folder)), listener_(listener) {}
+        : folder_(std::move(folder)),
+          listener_(listener),
+          lock_(store::lock_of(folder_.empty() ? folder_ : folder_ / "manifest.json",
+                               "writes the tables", listener)) {}
     explicit operator bool() const { return !folder_.empty(); }
     void add(const std::string& name, const std::string& content);
     // cells.csv, facts.csv, errors.csv, cost.csv and, where there are orders to tell,
@@ -42,6 +48,7 @@ public:
 private:
     std::filesystem::path folder_;
     const store::Listener& listener_;
+    std::unique_ptr<store::FileLock> lock_;
 };
 
 // The exit code of a study: done where a run of it was, or where there was nothing to run.

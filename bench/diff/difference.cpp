@@ -187,6 +187,10 @@ Difference difference(const Folder& before, const Folder& after) {
     compare_cells(before, after, d);
     compare_dispersion(before.dispersion, after.dispersion, d);
     compare_maps(before, after, d);
+    for (const Folder* folder : {&before, &after})
+        for (const Folder::Altered& a : folder->altered)
+            d.findings.push_back({Turn::worse, folder->name + "/cells.csv " + a.cell, a.column,
+                                  a.follows, a.found, "altered: it follows from the other files"});
     if (d.compared == 0)
         throw store::UsageError(
             fmt::format("{} and {} have no cell, mode or map in common: expected two folders of "

@@ -30,6 +30,11 @@ struct Folder {
     Made made;
     study::Cells cells;
     store::Table dispersion, maps, boundaries;  // empty where the file is absent
+    // Where cells.csv does not say what the files say that it follows from: one of them was altered.
+    struct Altered {
+        std::string cell, column, follows, found;
+    };
+    std::vector<Altered> altered;
 };
 
 // Throws UsageError where there is no manifest.json, no cells or maps, or a file cannot be read.

@@ -39,6 +39,28 @@ std::string cell_text(const study::TabledCell& c) {
     text += " " + c.variant();
     return text + (std::isnan(c.rate) ? "" : " " + store::text_of(c.rate) + " Hz");
 }
+
+std::vector<Folder::Altered> altered_cells(const store::Folder& folder, const fs::path& path) {
+    const store::Table found = folder.table("cells");
+    if (found.columns.empty()) return {};
+    const study::Cells cells = study::read_cells(path, false);
+    const store::Table follows = study::table_of(cells, study::Contents::cells);
+    std::vector<Folder::Altered> altered;
+    if (found.rows.size() != follows.rows.size())
+        return {
+            {"", "rows", std::to_string(follows.rows.size()), std::to_string(found.rows.size())}};
+    for (const std::string& column : follows.columns) {
+        if (found.column(column) < 0) {
+            altered.push_back({"", column, "there", "gone"});
+            continue;
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (const std::string& is = found.at(i, column), &was = follows.at(i, column);
+                is != was && !(store::number_of(is) == store::number_of(was)))
+                altered.push_back({cell_text(cells[i]), column, was, is});
+    }
+    return altered;
+}
 }  // namespace
 
 std::string Made::machine() const {
@@ -55,7 +77,8 @@ Folder read_folder(const fs::path& path) {
                    study::read_cells(path, false),
                    folder.table("dispersion"),
                    folder.table("maps"),
-                   folder.table("boundaries")};
+                   folder.table("boundaries"),
+                   altered_cells(folder, path)};
     if (f.cells.empty() && f.maps.columns.empty())
         throw store::UsageError(fmt::format("{}: neither facts.csv nor maps.csv", f.name));
     return f;

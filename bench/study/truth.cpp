@@ -11,7 +11,6 @@
 #include "bench/store/system/time_limit.hpp"
 #include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
-#include "reference/agreement.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"

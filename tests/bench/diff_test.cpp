@@ -344,6 +344,21 @@ TEST(Diff, RefusesBadFolders) {
         0);
 }
 
+// cells.csv is to look at, and people read it.
+TEST(Diff, SeesThatCellsCsvNoLongerFollowsFromTheOtherFiles) {
+    const Scratch scratch;
+    const Outcome o =
+        shell(scratch,
+              "$J compare free_string --schemes modal_two_point --rates 44100 --modes 20 "
+              "--reference-modes 20 --duration 0.005 --repeats 1 --out one --quiet >/dev/null\n"
+              "$J diff one one --quiet; echo $?\n"
+              "for edit in 1s/status/stat/ 2s/,ok,/,refused,/ 2d; do\n"
+              "    rm -rf two; cp -r one two; sed -i $edit two/cells.csv; $J diff one two --quiet; "
+              "echo $?\n"
+              "done\n");
+    EXPECT_EQ(o.out, "0\n4\n4\n4\n") << o.err;
+}
+
 TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
     const Scratch scratch;
     const Outcome o =

@@ -35,9 +35,8 @@ Scene tanpura(double duration) {
 
 Run dense(const Scene& scene, const Settings& settings, const RunOptions& options = {}) {
     using String = ThreePointModesBy<DenseForm>;
-    Driver<String> scheme(
-        std::make_unique<String>(spatial_problem(named(newton), scene, settings)),
-        steps_per_row(settings), rule_with<GradientRule>(settings));
+    Driver<String> scheme(std::make_unique<String>(spatial_problem(named(newton), scene, settings)),
+                          steps_per_row(settings), rule_with<GradientRule>(settings));
     return run(scheme, scene, settings, options);
 }
 Run steps(const Scene& scene, double rate, double tap_rate, int modes) {
