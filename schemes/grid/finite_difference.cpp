@@ -168,6 +168,9 @@ double theta_spacing_limit(const String& s, double dt) {
 constexpr double most_intervals = 1 << 17;  // the sum of an initial shape grows with their square
 
 Grid grid_of(const Descriptor& d, const String& s, double intervals) {
+    if (std::isnan(intervals))
+        throw Refusal(std::string(d.name) +
+                      ": its least stable spacing is no number at these options and this rate");
     if (!(intervals >= 5) || intervals != std::floor(intervals) || intervals > most_intervals)
         throw Refusal(std::string(d.name) + ": the grid has " + std::to_string(intervals) +
                       " intervals, expected a whole number from 5 to " +
