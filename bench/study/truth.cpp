@@ -103,42 +103,29 @@ double change(const Trace& more, const Trace& fewer, int tap, double from, doubl
 // How far the model is solved is what its certificate says, else its noise floor: an error of
 // rounding grows like a change of the start. What the model leaves out is what is left after the
 // doublings.
-trust::Trust trust_of(const trust::Trust& solved, const Reference& last,
-                      const std::vector<Reference>& coarser, const Size& of, double from,
-                      bool matched) {
+trust::Trust trust_of(const trust::Trust& solved, const Truth& truth, const Size& of, double from) {
     trust::Trust t = solved;
-    const Run &more = last.run, &fewer = coarser.back().run;
-    const auto taps = static_cast<std::size_t>(more.trace.taps());
+    const Reference &last = truth.reference, &before = truth.coarser.back();
+    const Trace &more = last.run.trace, &fewer = before.run.trace;
+    const auto taps = static_cast<std::size_t>(more.taps());
     if (!t.any()) t.figure.assign(taps, {store::nan, store::nan, store::nan});
     const double until =
-        static_cast<double>(std::min(more.trace.rows, fewer.trace.rows) - 1) / more.trace.tap_rate -
-        from;
-    t.left_out.assign(taps, {});
+        static_cast<double>(std::min(more.rows, fewer.rows) - 1) / more.tap_rate - from;
+    t.left_out.assign(taps, {store::nan, store::nan, store::nan});
     for (std::size_t k = 0; k < taps; ++k)
-        for (std::size_t w = 0; w < t.left_out[k].size(); ++w) {
+        for (std::size_t w = 0; w < windows.size(); ++w) {
             const double end = windows[w];
-            const bool covered = w == 2 || end <= until + 1e-6;
-            const auto changed = [&](const Run& a, const Run& b) {
-                return change(a.trace, b.trace, static_cast<int>(k), from, end);
+            if (w < 2 && end > until + 1e-6) continue;
+            const auto apart = [&](const Trace& a, const Trace& b) {
+                return change(b, a, static_cast<int>(k), from, end);
             };
-            t.left_out[k][w] = store::nan;
-            if (!covered) continue;
             // beyond the certificate, too
-            if (std::isnan(t.figure[k][w])) t.figure[k][w] = changed(last.moved, more);
-            std::vector<double> changes;
-            for (std::size_t n = 0; n < coarser.size(); ++n)
-                changes.push_back(
-                    changed(n + 1 < coarser.size() ? coarser[n + 1].run : more, coarser[n].run));
-            double& left_out = t.left_out[k][w];
-            left_out = left_after(changes, matched);
-            // what is no more than either is solved to does not grow
-            if (std::isnan(left_out) && changes.back() <= t.figure[k][w])
-                left_out = left_after({&changes.back(), 1}, matched);
+            if (std::isnan(t.figure[k][w])) t.figure[k][w] = apart(more, last.moved.trace);
+            t.left_out[k][w] = left_out(truth, apart, t.figure[k][w]);
         }
-    t.doubled = of.points == 0 ? "modes"
-                : last.choice.settings.modes == coarser.back().choice.settings.modes
-                    ? "points"
-                    : "modes and points";
+    t.doubled = of.points == 0                                               ? "modes"
+                : last.choice.settings.modes == before.choice.settings.modes ? "points"
+                                                                             : "modes and points";
     return t;
 }
 
@@ -195,6 +182,22 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
 }
 }  // namespace
 
+double left_out(const Truth& t, const Apart& apart, double solved_to) {
+    std::vector<double> changes;
+    for (std::size_t n = 0; n < t.coarser.size(); ++n)
+        changes.push_back(
+            apart(t.coarser[n].run.trace,
+                  (n + 1 < t.coarser.size() ? t.coarser[n + 1] : t.reference).run.trace));
+    if (changes.empty()) return store::nan;
+    double left = left_after(changes, t.matched);
+    // what is no more than either is solved to does not grow
+    if (std::isnan(left) && changes.back() <= solved_to)
+        left = left_after({&changes.back(), 1}, t.matched);
+    return t.own.empty()
+               ? left
+               : no_less(left, apart(t.own[0], t.reference.run.trace), apart(t.own[1], t.own[0]));
+}
+
 Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes,
                 int jobs, const store::Listener& listener, double time_limit) {
     const bool find = modes == 0;
@@ -227,10 +230,10 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         is_matched(choice.settings.options) || needed_by(scene).has(Feature::rigid_barrier);
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
     double unsettled = HUGE_VAL;  // by what is left out of the headline figure
-    const auto all = find ? measured(scene) : std::nullopt;
+    const int all = find ? measured(scene).value_or(0) : 0;  // that were measured; 0: no table
+    const int most = all > 0 ? all : 2 * most_modes_found;
     const auto next = [&] {
-        return find ? size.twice(all.value_or(2 * most_modes_found))
-                    : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
+        return find ? size.twice(most) : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
     };
     while (find ? !(unsettled < settled) && next() != size &&
                       within_budget(*choice.scheme, scene, next())
@@ -239,20 +242,21 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         try {
             more = run_reference({sized(choice, next())}, scene, jobs, listener,
                                  find ? std::min(time_limit, patience) : time_limit);
-            // the best so far is the answer, with the bound that it has
         } catch (const store::PastItsLimit&) {
+            // the best so far is the answer, with the bound that it has
             if (!find || time_limit <= patience) throw;
             break;
-            // no string has as many, or there are no more that were measured
         } catch (const BadScene&) {
+            // no string has as many, or there are no more that were measured
             break;
+        } catch (const Refusal&) {
             // these are all that were measured: nothing is left out that could be matched
-        } catch (const Refusal&) { break; }
+            break;
+        }
         size = next();
         truth.coarser.push_back(std::move(truth.reference));
         truth.reference = std::move(more);
-        truth.reference.trust =
-            trust_of(solved, truth.reference, truth.coarser, size, from, truth.matched);
+        truth.reference.trust = trust_of(solved, truth, size, from);
         unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
         const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
         const auto free = [&](const Trace& t) {
@@ -266,22 +270,14 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
                                    find ? std::min(time_limit, patience) : time_limit);
         } catch (const store::PastItsLimit&) {  // without it the doublings alone tell
         } catch (const Refusal&) {}
-        for (std::size_t k = 0; k < scene.taps.size() && !truth.own.empty(); ++k)
-            for (std::size_t w = 0; w < windows.size(); ++w) {
-                const auto apart = [&](const Trace& a, const Trace& b) {
-                    return change(a, b, static_cast<int>(k), from, windows[w]);
-                };
-                double& left_out = truth.reference.trust.left_out[k][w];
-                left_out = no_less(left_out, apart(truth.reference.run.trace, truth.own[0]),
-                                   apart(truth.own[0], truth.own[1]));
-            }
+        if (!truth.own.empty()) truth.reference.trust = trust_of(solved, truth, size, from);
         unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
     }
     truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
-    if (all) {
+    if (all > 0) {
         double highest = HUGE_VAL;
         for (const String& s : scene.strings)
-            highest = std::min(highest, std::get<TableDamping>(s.damping).frequency_hz[*all - 1]);
+            highest = std::min(highest, std::get<TableDamping>(s.damping).frequency_hz[all - 1]);
         truth.said +=
             fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table",
                         highest / 1000);
@@ -294,15 +290,15 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     }
     if (!truth.coarser.empty() && std::isnan(unsettled))
         truth.said +=
-            ". Each doubling changes it by more than the one before, so what they leave out is "
-            "unknown. A start with a sharp corner does that to forces: give it a `smoothing`";
+            ". The last doubling changes it most, so what they leave out is unknown. A start with "
+            "a sharp corner can do that to forces: try a `smoothing`";
     const bool profile = needed_by(scene).any(any_profile);
-    if (all && !profile) {
+    if (all > 0 && !profile) {
         confirm(truth.reference, scene, size, jobs, listener, time_limit);
     } else if (find && !(unsettled < settled)) {
         truth.said += "; twice as many would take too long";
         if (truth.coarser.empty()) truth.said += ", so what they leave out is unknown";
-        else if (size.points > 0 && unsettled < HUGE_VAL)
+        else if (size.points > 0 && !std::isnan(unsettled))
             truth.said += fmt::format(
                 ". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} "
                 "takes more",

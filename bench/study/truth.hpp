@@ -16,6 +16,8 @@
 // is shown as a bound (bound.hpp).
 #pragma once
 
+#include <functional>
+
 #include "bench/study/cell.hpp"
 #include "bench/study/reference.hpp"
 
@@ -43,6 +45,12 @@ struct Truth {
 };
 Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, int jobs,
                 const store::Listener&, double time_limit = HUGE_VAL);
+
+// What the reference leaves out, by a measure of how far one trace lies from another: what its
+// doublings tell, and where it is matched own modes as well. NaN: unknown. `solved_to`: how far
+// each of its runs is solved.
+using Apart = std::function<double(const Trace&, const Trace& from)>;
+double left_out(const Truth&, const Apart&, double solved_to = 0);
 
 // Of those that were run the one with the cell's modes and compliance, or nullptr. `model`: with
 // the modes that cells take unasked (0: each its own); where it is matched it serves cells of

@@ -42,15 +42,7 @@ double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, 
     const auto apart = [&](const Trace& a, const Trace& b) {
         return study::error_of(measure, column(a), column(b), rate);
     };
-    std::vector<double> changes;
-    for (std::size_t n = 0; n < t.coarser.size(); ++n) {
-        const study::Reference& more = n + 1 < t.coarser.size() ? t.coarser[n + 1] : of;
-        changes.push_back(apart(t.coarser[n].run.trace, more.run.trace));
-    }
-    const double left_out = left_after(changes, t.matched);
-    return t.own.empty()
-               ? left_out
-               : no_less(left_out, apart(t.own[0], of.run.trace), apart(t.own[1], t.own[0]));
+    return study::left_out(t, apart);
 }
 }  // namespace
 
