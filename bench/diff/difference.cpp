@@ -188,9 +188,7 @@ Difference difference(const Folder& before, const Folder& after) {
     compare_dispersion(before.dispersion, after.dispersion, d);
     compare_maps(before, after, d);
     for (const Folder* folder : {&before, &after})
-        for (const Folder::Altered& a : folder->altered)
-            d.findings.push_back({Turn::worse, folder->name + "/cells.csv " + a.cell, a.column,
-                                  a.follows, a.found, "altered: it follows from the other files"});
+        for (Finding& f : altered(*folder)) d.findings.push_back(std::move(f));
     if (d.compared == 0)
         throw store::UsageError(
             fmt::format("{} and {} have no cell, mode or map in common: expected two folders of "

@@ -30,11 +30,7 @@ struct Folder {
     Made made;
     study::Cells cells;
     store::Table dispersion, maps, boundaries;  // empty where the file is absent
-    // Where cells.csv does not say what the files say that it follows from: one of them was altered.
-    struct Altered {
-        std::string cell, column, follows, found;
-    };
-    std::vector<Altered> altered;
+    store::Table shown;                         // cells.csv
 };
 
 // Throws UsageError where there is no manifest.json, no cells or maps, or a file cannot be read.
@@ -76,6 +72,9 @@ struct Finding {
     // what the numbers do not say; of a cost: how many times, and of how many cells
     std::string detail;
 };
+
+// Where cells.csv does not say what the files say that it follows from: one of them was altered.
+std::vector<Finding> altered(const Folder&);
 
 struct Only {  // what one of the folders has alone
     std::vector<std::string> before, after;

@@ -39,28 +39,6 @@ std::string cell_text(const study::TabledCell& c) {
     text += " " + c.variant();
     return text + (std::isnan(c.rate) ? "" : " " + store::text_of(c.rate) + " Hz");
 }
-
-std::vector<Folder::Altered> altered_cells(const store::Folder& folder, const fs::path& path) {
-    const store::Table found = folder.table("cells");
-    if (found.columns.empty()) return {};
-    const study::Cells cells = study::read_cells(path, false);
-    const store::Table follows = study::table_of(cells, study::Contents::cells);
-    std::vector<Folder::Altered> altered;
-    if (found.rows.size() != follows.rows.size())
-        return {
-            {"", "rows", std::to_string(follows.rows.size()), std::to_string(found.rows.size())}};
-    for (const std::string& column : follows.columns) {
-        if (found.column(column) < 0) {
-            altered.push_back({"", column, "there", "gone"});
-            continue;
-        }
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            if (const std::string& is = found.at(i, column), &was = follows.at(i, column);
-                is != was && !(store::number_of(is) == store::number_of(was)))
-                altered.push_back({cell_text(cells[i]), column, was, is});
-    }
-    return altered;
-}
 }  // namespace
 
 std::string Made::machine() const {
@@ -78,10 +56,36 @@ Folder read_folder(const fs::path& path) {
                    folder.table("dispersion"),
                    folder.table("maps"),
                    folder.table("boundaries"),
-                   altered_cells(folder, path)};
+                   folder.table("cells")};
     if (f.cells.empty() && f.maps.columns.empty())
         throw store::UsageError(fmt::format("{}: neither facts.csv nor maps.csv", f.name));
     return f;
+}
+
+std::vector<Finding> altered(const Folder& f) {
+    if (f.shown.columns.empty()) return {};
+    std::vector<Finding> all;
+    const auto add = [&](const std::string& cell, const std::string& column,
+                         const std::string& follows, const std::string& found) {
+        all.push_back({Turn::worse, f.name + "/cells.csv " + cell, column, follows, found,
+                       "altered: it follows from the other files"});
+    };
+    const store::Table follows = study::table_of(f.cells, study::Contents::cells);
+    if (f.shown.rows.size() != follows.rows.size()) {
+        add("", "rows", std::to_string(follows.rows.size()), std::to_string(f.shown.rows.size()));
+        return all;
+    }
+    for (const std::string& column : follows.columns) {
+        if (f.shown.column(column) < 0) {
+            add("", column, "there", "gone");
+            continue;
+        }
+        for (std::size_t i = 0; i < f.cells.size(); ++i)
+            if (const std::string& is = f.shown.at(i, column), &was = follows.at(i, column);
+                is != was && !(store::number_of(is) == store::number_of(was)))
+                add(cell_text(f.cells[i]), column, was, is);
+    }
+    return all;
 }
 
 bool modes_name(const study::Cells& cells) {
