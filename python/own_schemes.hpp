@@ -230,8 +230,8 @@ inline std::string add_class(const py::object& python_class, const std::string& 
     std::string text = name;
     try {
         text += py::module_::import("inspect").attr("getsource")(python_class).cast<std::string>();
-        // typed into a console: nothing is kept of it but by its name and this process
     } catch (py::error_already_set&) {
+        // typed into a console: nothing is kept of it but by its name and this process
         text += std::to_string(reinterpret_cast<std::uintptr_t>(kept));
     }
     std::string path = "scheme " + name;

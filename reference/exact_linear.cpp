@@ -1,7 +1,7 @@
 // Closed form for strings that touch nothing: every mode is a damped oscillator,
 //
-//     y_i(t) = e^(-sigma t) (cos wt + sigma sin(wt)/w) y_i(0) + e^(-sigma t) sin(wt)/w v_i(0) +
-//     Duhamel integral of the pluck,
+//     y_i(t) = e^(-sigma t) (cos wt + sigma sin(wt)/w) y_i(0) + e^(-sigma t) sin(wt)/w v_i(0)
+//              + Duhamel integral of the pluck,
 //
 // w^2 = omega0^2 - sigma^2, hyperbolic where that is negative, t itself in place of sin(wt)/w where
 // it is zero (van Walstijn et al. 2016, eqs 16-21). Rows after the last forced one come straight

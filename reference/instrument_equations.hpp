@@ -2,16 +2,15 @@
 // integrator: those of string_equations.hpp for every string, and the body's, coupled by the
 // inertia that schemes/body/body_step.hpp derives. Per mode, of strings and of the body,
 //
-//     p_i' = omega_i v_i,    m_i v_i' = -m_i (omega_i p_i + 2 sigma_i v_i) + G_i - mu_i a,    sum
-//                            over strings of (mu L/3 a + sum mu_i
-//     v_i') in G
+//     p_i' = omega_i v_i,   m_i v_i' = -m_i (omega_i p_i + 2 sigma_i v_i) + G_i - mu_i a,
+//     sum over strings of (mu L/3 a + sum mu_i v_i') in G
 //
 // with a = w''. The mass matrix is diagonal but for the body's rank: with A_i the accelerations
 // where the body is held and A_k those of the body where the strings are, b = sum 1/M_k and S = sum
 // mu_i^2/m_i,
 //
-//     f = g - sum mu_i A_i - (sum mu L/3 - S) a,   a = sum A_k + b f,   g = -(sum T/L) w + sum e_p
-//                                                  F_p + sum psi(x_e) F_e,
+//     f = g - sum mu_i A_i - (sum mu L/3 - S) a,   a = sum A_k + b f,
+//     g = -(sum T/L) w + sum e_p F_p + sum psi(x_e) F_e,
 //
 // one equation for a; then v_k' = A_k + f/M_k and v_i' = A_i - mu_i a/m_i.
 #pragma once

@@ -2,13 +2,12 @@
 // et al. 2016, eqs 5-18; contact loss of Issanchou et al. 2016, eq 24). With p = omega0 y, so that
 // every component is a velocity and energy is m/2 times their squares,
 //
-//     p_i' = omega0_i v_i,    v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,      d_ai =
-//                             g_ai/m
+//     p_i' = omega0_i v_i,   v_i' = -omega0_i p_i - 2 sigma_i v_i + sum_a d_ai F_a,   d_ai = g_ai/m
 // and where the string stretches, less EA L/8 beta_i^2/m sum (beta_j/omega0_j)^2 p_j^2 p_i/omega0_i
 // (Kirchhoff, Carrier), which solve() leaves out of J.
 //
-//     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c) - r_c
-//     v_c of the thread, F_e(t) of the pluck.
+//     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c)
+//         - r_c v_c of the thread, F_e(t) of the pluck.
 //
 // Which barriers are touched is given, not decided here: between two events the equations are
 // smooth, and odd beyond the barrier's surface so that a trial step may overshoot. Four sums ride

@@ -2,8 +2,8 @@
 // Norsett & Wanner, section II.7): the forces are polynomials, and the points' motion under them is
 // exact,
 //
-//     p_a(c_i d) = r_a(c_i d) + sum_b sum_l h_ab^(l) d^(l+1) sum_j w^l_ij F_bj,    w^l_ij =
-//     int_0^c_i (c_i - x)^l/l! L_j(x) dx,
+//     p_a(c_i d) = r_a(c_i d) + sum_b sum_l h_ab^(l) d^(l+1) sum_j w^l_ij F_bj,
+//     w^l_ij = int_0^c_i (c_i - x)^l/l! L_j(x) dx,
 //
 // so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface as
 // in string_equations.hpp. Newton's iteration solves for the node forces; the last Legendre

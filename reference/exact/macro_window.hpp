@@ -4,8 +4,8 @@
 // In between, the contact points' free motion is a short vector of derivatives and what a force
 // does to it is a kernel of derivatives:
 //
-//     y_a(t) = s_a(t) + sum_b int_0^t h_ab(t - w) F_b(w) dw,      M_i(t) = int_0^t (t - w)^i/i!
-//     F(w) dw
+//     y_a(t) = s_a(t) + sum_b int_0^t h_ab(t - w) F_b(w) dw,
+//     M_i(t) = int_0^t (t - w)^i/i! F(w) dw
 //
 // with t = 1 the full length of a window. Thread and pluck act inside s, h and the moments handed
 // to the modes (van Walstijn et al. 2016, eqs 5-22): the thread answers its own point's free motion
@@ -54,9 +54,9 @@ public:
     double reach;
 
     double seconds() const { return length / osc.rate; }  // an impulse is M_0 times this
+    // zeros before it, too
     const double* kernel(int a, int b) const {
         return &kernel_[(static_cast<long>(a) * contacts + b) * (stride + size) + size];
-        // zeros before it, too
     }
     // of the window that is open
     const double* free_motion(int a) const { return &free_[static_cast<long>(a) * stride]; }

@@ -1,8 +1,8 @@
 // The modes of one string as bare oscillators in their own unit of time, 1/rate, rate = the largest
 // |eigenvalue|:
 //
-//     y_i'' + a_i y_i' + b_i y_i = sum_f gain_fi F_f(t),      a = 2 sigma/rate <= 2, b =
-//     (omega0/rate)^2 <= 1
+//     y_i'' + a_i y_i' + b_i y_i = sum_f gain_fi F_f(t),
+//     a = 2 sigma/rate <= 2, b = (omega0/rate)^2 <= 1
 //
 // so that no power of a frequency over- or underflows. Two kernels carry every exact reference with
 // contact: the Taylor series of weighted sums of the modes, and the flight over a time t under

@@ -2,8 +2,8 @@
 // a damper). While a set of them is in touch the motion of their points obeys linear Volterra
 // equations,
 //
-//     y_a(t) = p_a(t) + sum_b int_0^t h_ab(t - s) F_b(s) ds,    F_b = k_b (height_b - y_b) - r_b
-//     y_b'
+//     y_a(t) = p_a(t) + sum_b int_0^t h_ab(t - s) F_b(s) ds,
+//     F_b = k_b (height_b - y_b) - r_b y_b'
 //
 // whose Taylor coefficients follow one from another, and whose remainder a majorant bounds: if
 // sum_b sum_i |h_ab^(i)| rho^(-i-1) (k_b + r_b rho) <= 0.9 for every a, then |y_a^(n)| <= C rho^n

@@ -1,8 +1,8 @@
 // Linear contacts in touch, their stiff oscillation split off. With p the displacements of the
 // contact points from their barriers,
 //
-//     p'' + H_0 K p' + H_1 K p + sum_{j >= 2} H_j K I^(j-1) p = r''      (I: integral from 0; r:
-//     the points' motion if they let go at 0)
+//     p'' + H_0 K p' + H_1 K p + sum_{j >= 2} H_j K I^(j-1) p = r''
+//     (I: integral from 0; r: the points' motion if they let go at 0)
 //
 // H_0 is zero where they push nothing but the string's modes: each touching point then has one fast
 // pair. With something in series (in_series.hpp) it has two decays, or a damped pair. The solution

@@ -1,8 +1,8 @@
 // Energy that a string gains and loses within a macro window (van Walstijn et al. 2016, eqs 1, 12
 // and 19):
 //
-//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 + z' Q z' dt,      supplied = int F_e
-//     v_e - F_e' sum_a C_ae F_a dt
+//     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 + z' Q z' dt,
+//     supplied = int F_e v_e - F_e' sum_a C_ae F_a dt
 //
 // with v the velocities of modes, thread and pluck, z and C_ae of what is in series
 // (in_series.hpp). Where stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S as

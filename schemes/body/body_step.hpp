@@ -14,8 +14,9 @@
 // sum_i mu_i v_i', and mu L w'^2/6. Losses of the string are those of v. So
 //
 //     the coordinate i feels  -mu_i w'',
-//     the body feels      f = -sum over strings [ sum_i mu_i v_i'' + (mu L/3) w'' + (T/L) w ] +
-//                         sum_p e_p F_p + sum psi(x_e) F_e.
+//     the body feels
+//     f = -sum over strings [ sum_i mu_i v_i'' + (mu L/3) w'' + (T/L) w ]
+//         + sum_p e_p F_p + sum psi(x_e) F_e.
 //
 // All that presses on a string, its barriers and its thread, rides on the support: it reads u(x_p)
 // - w = v(x_p) + e_p w, e_p = -x_p/L, and acts by the same weights. The player's finger and the nut
@@ -32,8 +33,8 @@
 //
 // and eliminating f leaves the contact equation of one large string:
 //
-//     f = f_0 + sum_p c_p F_p/D,   c_p = e_p - theta_mp/kappa,   Theta_pq = theta_pq + beta c_p
-//                                  c_q/D,
+//     f = f_0 + sum_p c_p F_p/D,   c_p = e_p - theta_mp/kappa,
+//     Theta_pq = theta_pq + beta c_p c_q/D,
 //     D = 1 + beta [ sum T/2L + sum (mu L/3 - theta_mm/kappa)/kappa ].
 //
 // So the strings are one string to the driver (driver/driver.hpp), whose points are those of all

@@ -63,8 +63,8 @@ CutModes cut_modes(const String&, std::span<const Footprint> points, int kept, d
 
 // What stands beside the spring C, where D' is the velocity of the points: a damper, and masses
 // behind dampers. Each mass belongs to a pattern V_k of the points.
-//     F = C^-1 D + damper D' + sum of V_k resistance_k (V_k.D' - v_k),     mass_k v_k' =
-//     resistance_k (V_k.D' - v_k)
+//     F = C^-1 D + damper D' + sum of V_k resistance_k (V_k.D' - v_k),
+//     mass_k v_k' = resistance_k (V_k.D' - v_k)
 struct Ladder {
     std::vector<double> damper;  // points x points [kg/s]
     // as many patterns as points, x points; of unit length, their first not negative

@@ -3,8 +3,8 @@
 //
 // Four cases, told apart without solving. Out: no force. Leaving (the new penetration is 0): a
 // quadratic. Staying: with z = -r/eta,
-//     G(z) = z - B + S ((1+z)^p - 1)/z = 0,   B = b/eta,  S = theta V(eta)/eta^2;   leaving is
-//                                             G(-1) >= 0.
+//     G(z) = z - B + S ((1+z)^p - 1)/z = 0,   B = b/eta,   S = theta V(eta)/eta^2;
+//     leaving is G(-1) >= 0.
 // Entering from a gap e = -eta to the depth x, free depth f = b - e:
 //     H(x) = x + T x^p/(e + x) - f = 0,       T = theta k/p.
 // Both are increasing and convex for alpha >= 1, so Newton falls to the root from above and, from

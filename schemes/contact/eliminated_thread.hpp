@@ -2,10 +2,9 @@
 // 2016, eqs 44-48. With r the motion of a thread's point over the step, span the time between the
 // outer levels and k_c, r_c its stiffness and damping,
 //
-//     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span,   r = free + theta_cc F_c + theta_bc
-//                                    F_b
-//     F_c = v - beta F_b,            v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]
-//                                    (46), (47)
+//     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span,
+//     r = free + theta_cc F_c + theta_bc F_b
+//     F_c = v - beta F_b,   v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]   (46), (47)
 //
 // and a contact sees theta_bb - theta_bc beta for its own compliance (48). A string has one thread
 // at most; on a body that moves those of all strings are eliminated together, and phi, beta and (1

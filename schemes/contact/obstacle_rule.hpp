@@ -10,8 +10,8 @@
 // The invariant: where `conserves`, the work that the contacts do on the string is what their
 // potential loses,
 //
-//     sum_a F_a r_a/levels = P(older) - P(newer),     P = sum_a potential(a, eta_a), levels = 1 in
-//     two-point steps, 2 in three-point ones
+//     sum_a F_a r_a/levels = P(older) - P(newer),
+//     P = sum_a potential(a, eta_a), levels = 1 in two-point steps, 2 in three-point ones
 //
 // less `lost()` [J] of the step, of a rule that has it. Of this the energy balance of every scheme
 // is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al. 2016, eqs 20-21).

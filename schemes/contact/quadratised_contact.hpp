@@ -13,8 +13,8 @@
 //           0).
 // released  where psi+ would turn negative, and wherever psi > 0 out of contact, gamma is the one
 // that makes psi+ = 0:
-//           c theta psi gamma^2 + r0 gamma - psi = 0. F >= 0 always, and the whole stored energy
-//           goes back to the string.
+//           c theta psi gamma^2 + r0 gamma - psi = 0.
+//           F >= 0 always, and the whole stored energy goes back to the string.
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // (quadratised_contact.hpp; Ducceschi, Bilbao, Willemsen & Serafin 2021, of several collisions).
 // With gamma taken at the level that the step is centred on,
 //
-//     psi+ = psi - gamma r,   F = c gamma (psi + psi+),   r = free + Theta F,   c = 1/2 in
-//                             two-point steps, 1 in three-point ones
+//     psi+ = psi - gamma r,   F = c gamma (psi + psi+),   r = free + Theta F,
+//     c = 1/2 in two-point steps, 1 in three-point ones
 //
 // so the forces are those of one symmetric system (I + G Theta G) x = sqrt(c) (2 psi - gamma free),
 // G = sqrt(c) gamma, F = G x: one linear solve a step in the raw form. Where psi+ would turn

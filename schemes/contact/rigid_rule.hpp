@@ -8,10 +8,10 @@
 // So each contact has one state, V, which is not 0 only in a step in which it lies on its barrier.
 // With b and gap = -eta before the step, r = -b + Theta F,
 //
-//     V = 0:   0 <= F,   0 <= gap + r,   F (gap + r) = 0,   V+ = F gap     stays out; or comes to
-//              lie on the barrier, or stays there
-//     V > 0:   F r = V,  r > 0,   V+ = 0                                   what struck the barrier
-//              is thrown back by what it gave
+//     V = 0:   0 <= F,   0 <= gap + r,   F (gap + r) = 0,   V+ = F gap
+//              stays out; or comes to lie on the barrier, or stays there
+//     V > 0:   F r = V,   r > 0,   V+ = 0
+//              what struck the barrier is thrown back by what it gave
 //
 // The first line is a linear complementarity problem. It constrains the new position, not the mean:
 // a point that strikes does so F gap before the step ends, and the second line returns this. The

@@ -2,8 +2,8 @@
 // modeling of collisions in musical instruments"; the contact equation is that of van Walstijn et
 // al. 2016, eq 48, over the span 2 dt.
 //
-//     (1 + sigma0 dt) u+ = (2 I + c^2 dt^2 D2 - kappa^2 dt^2 D4 - S) u - ((1 - sigma0 dt) I - S) u-
-//     + dt^2/(mu dx) g F
+//     (1 + sigma0 dt) u+ = (2 I + c^2 dt^2 D2 - kappa^2 dt^2 D4 - S) u
+//         - ((1 - sigma0 dt) I - S) u- + dt^2/(mu dx) g F
 //
 // with S = -2 sigma1 dt D2 + 2 sigma2 dt D4: the loss in space takes the backward difference in
 // time, that of sigma0 the central one. Written with the central one throughout, the difference is

@@ -2,8 +2,8 @@
 // schemes for the simulation of musical instrument contact dynamics", the model whose cost van
 // Walstijn et al. 2016 compare with (section 5).
 //
-//     (I + A + B) s = 2(q - A y) + xi sum g F,   y <- y + s, q <- s - q;   A = dt^2 K/4, B = dt
-//                                                R/2, xi = dt^2/(2 mu dx), q = v dt/2
+//     (I + A + B) s = 2(q - A y) + xi sum g F,   y <- y + s, q <- s - q;
+//     A = dt^2 K/4, B = dt R/2, xi = dt^2/(2 mu dx), q = v dt/2
 //
 // with K = -c^2 D2 + kappa^2 D4 and R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4: five diagonals
 // (grid_solve.hpp). The responses (I + A + B)^-1 g of contacts and thread are solved at the start

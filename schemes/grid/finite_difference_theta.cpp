@@ -2,8 +2,9 @@
 // parametric implicit three-point scheme of the kind that section 5 of van Walstijn et al. 2016
 // names.
 //
-//     (theta + (1 - theta) A) (u+ - 2u + u-)/dt^2 = c^2 D2 u - kappa^2 D4 u - R (u+ - u-)/2dt + g
-//     F/(mu dx),  A = I + dx^2/2 D2
+//     (theta + (1 - theta) A) (u+ - 2u + u-)/dt^2 = c^2 D2 u - kappa^2 D4 u - R (u+ - u-)/2dt
+//         + g F/(mu dx),
+//     A = I + dx^2/2 D2
 //
 // so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve of three diagonals, or five where the
 // loss has u_xxxxt (grid_solve.hpp). Expanding omega^2 = c^2 beta^2 + kappa^2 beta^4 in dx and dt,

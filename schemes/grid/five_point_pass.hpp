@@ -2,7 +2,7 @@
 // Highway:
 //
 //     next_l = a0 u_l + a1 p_l + a2 q_l + b0 u-_l + b1 p-_l + b2 q-_l,   p_l = u_{l-1} + u_{l+1},
-//     q_l = u_{l-2} + u_{l+2},  l = 1..N-1
+//     q_l = u_{l-2} + u_{l+2},   l = 1..N-1
 //
 // which is W u+ of (M + dt R/2) u+ = (2M - dt^2 K) u - (M - dt R/2) u- (three_point_string.hpp). b1
 // p + b2 q of a level is formed with a1 p + a2 q and kept for the next step, when the level is the

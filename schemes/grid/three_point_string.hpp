@@ -1,7 +1,7 @@
 // A string on a grid stepped by a three-point scheme,
 //
-//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),     K = -c^2 D2 + kappa^2
-//     D4, M = I + m D2 + m4 D4
+//     M (u+ - 2u + u-)/dt^2 + R (u+ - u-)/2dt + K u = sum g F/(mu dx),
+//     K = -c^2 D2 + kappa^2 D4, M = I + m D2 + m4 D4
 //
 // R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4,
 // with contacts and thread over the span 2 dt (contact/obstacle.hpp). Update solves for u+:

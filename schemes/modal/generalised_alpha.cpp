@@ -3,8 +3,8 @@
 // contacts. With x_a = (1 - a) x^{n+1} + a x^n,
 //
 //     m (v'_{alpha_m} + 2 sigma v_{alpha_f} + omega0^2 q_{alpha_f}) = f_{alpha_f}
-//     q^{n+1} = q + dt v + dt^2 [(1/2 - beta) v' + beta v'^{n+1}],   v^{n+1} = v + dt [(1 - gamma)
-//     v' + gamma v'^{n+1}]
+//     q^{n+1} = q + dt v + dt^2 [(1/2 - beta) v' + beta v'^{n+1}],
+//     v^{n+1} = v + dt [(1 - gamma) v' + gamma v'^{n+1}]
 //
 // gamma = 1/2 - alpha_m + alpha_f, beta = (1 - alpha_m + alpha_f)^2/4. rho = rho_inf, what a mode
 // far above the rate keeps in a step, is option `rho`: alpha_m = (2 rho - 1)/(rho + 1), alpha_f =

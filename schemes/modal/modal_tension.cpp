@@ -4,8 +4,8 @@
 // stretching is one force lambda along a direction d of the modes, linear in each step (Bilbao
 // 2009, ch. 8):
 //
-//     lambda = -(A + kappa r),   r = d.(q+ - q-),   d = beta^2 q,   A = EA L/8 d.q-,   kappa = EA
-//                                L/16
+//     lambda = -(A + kappa r),   r = d.(q+ - q-),   d = beta^2 q,   A = EA L/8 d.q-,
+//     kappa = EA L/16
 //
 // A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). By a gain
 // dt^2/m that would be 2x/sin 2x times as much, x = omega dt/2. The gain of an impulse, dt R

@@ -1,8 +1,8 @@
 // A string in its modes by two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 38-43, and 49,
 // 51, 52 for its energy. In modes scaled by sqrt(J/xi)
 //
-//     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;   r_p = g_p.s,
-//                              Theta_pq = g_p.g_q
+//     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;
+//     r_p = g_p.s, Theta_pq = g_p.g_q
 //
 // which is one fused pass over the modes for one contact and a thread
 // (kernels/modal_two_point_kernel.hpp). Here J = 1 + A + B, c = 4 A/J, loss = 2 B/J, xi = dt^2/2m,

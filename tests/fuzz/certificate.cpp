@@ -32,8 +32,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string written;
     try {
         written = bench::trust::json_of(*kept);
+    } catch (const nlohmann::json::exception&) {
         // text that is no UTF-8: a certificate is of scenes that were read
-    } catch (const nlohmann::json::exception&) { return 0; }
+        return 0;
+    }
     const auto again = bench::trust::read_certificate(file.holding(written));
     promise(again && bench::trust::json_of(*again) == written,
             "written and read back is the same certificate", written);

@@ -4,8 +4,8 @@
 // Each mode is scaled by sqrt(J/xi), so that one vector g both reads a contact point's displacement
 // and receives its force (e = g), and is carried as (y, u), u the free increment of the step to
 // come. One step is one pass over the modes:
-//     f = sum_z g_z F_z,   s = u + f,   y <- y + s,   u <- s + f - loss s - c y,      c = 4A/J,
-//                          loss = 2B/J
+//     f = sum_z g_z F_z,   s = u + f,   y <- y + s,   u <- s + f - loss s - c y,
+//     c = 4A/J, loss = 2B/J
 // (van Walstijn et al. 2016, eqs 40-42 with q eliminated), which also gathers the dots g_z.y and
 // g_z.u that the next step's contact forces need. g_z.y follows without a sum, y_z <- y_z + u_z +
 // sum_w theta_zw F_w (40, 41): whole steps sum it only now and then, against roundings. The small
