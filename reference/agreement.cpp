@@ -43,7 +43,7 @@ double left_after(std::span<const double> changes, bool matched) {
     if (changes.size() == 1) return (and_further_ones - 1) * last;
     const auto earlier = changes.first(changes.size() - 1);
     const double before = earlier.back();
-    if (last > 0 && last >= *std::ranges::max_element(earlier))
+    if (last > 0 && last >= *std::max_element(earlier.begin(), earlier.end()))
         return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
     if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
