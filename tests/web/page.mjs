@@ -217,14 +217,14 @@ const parts = {
       lower: cost - spread,
       upper: cost + spread,
     });
-    const points = [
+    const by_hand = [
       point("modal_two_point", 2, 0.2, 0.05),
       point("modal_quadratised", 2.3, 0.2, 0.04),
       point("modal_spatial_newton", 3, 0.2, 0.05),
       point("sitar_fdm", 1, 0.2, 0.095),
       point("modal_explicit_penalty", 0.5, 0.2, 0.01),
     ];
-    const v = await see(`verdict(${JSON.stringify(points)}, 0.1)`);
+    const v = await see(`verdict(${JSON.stringify(by_hand)}, 0.1)`);
     expect(
       v.best.scheme === "modal_quadratised" &&
         String(v.ties.map(p => p.scheme)) === "modal_two_point" &&
