@@ -314,8 +314,7 @@ function watch_controls() {
   by_id("scheme").onchange = e => choose({scheme: e.target.value});
   by_id("compliance").onchange = e => choose({compliance: e.target.value});
   by_id("rate").onchange = e => choose({rate: Number(e.target.value)});
-  by_id("modes").onchange = e =>
-    choose({modes: Math.max(0, Math.round(Number(e.target.value) || 0))});
+  by_id("modes").onchange = e => choose({modes: whole_modes(e.target.value)});
   by_id("undo").onclick = () => choose({set: {}});
   by_id("hear_scheme").onclick = () => toggle_sound("scheme");
   by_id("hear_reference").onclick = () => toggle_sound("reference");

@@ -2,7 +2,9 @@
 // reference, and one goes over into the other.
 const sound = {context: null, buffers: {}, source: null, playing: "", wanted: "", started: null};
 
+// null where the run failed before its first sample
 function buffer_of({rate, sound: samples}) {
+  if (samples.length === 0) return null;
   const loudest = samples.reduce((most, x) => Math.max(most, Math.abs(x)), 1e-12),
     buffer = new AudioBuffer({length: samples.length, sampleRate: rate, numberOfChannels: 1});
   const fade = Math.min(400, samples.length >> 3);

@@ -43,14 +43,19 @@ function address() {
   return `#${words}`;
 }
 
+// What does not fit a 32-bit integer would wrap round in the core, which refuses the largest one.
+const whole_modes = modes => Math.max(0, Math.min(Math.round(Number(modes) || 0), 2 ** 31 - 1));
+
 function read_address(hash) {
   const words = new URLSearchParams(hash.replace(/^#/, ""));
   for (const [name, as] of Object.entries(plain))
     if (words.has(name)) state[name] = as(words.get(name));
   if (!Object.hasOwn(library, state.scene)) state.scene = "tanpura_c3_release";
+  if (!Object.hasOwn(tours, state.tour)) state.tour = "";
   for (const name of ["rate", "modes", "step"])
     if (!Number.isFinite(state[name])) state[name] = name === "rate" ? 44100 : 0;
-  state.modes = Math.max(0, Math.round(state.modes));
+  state.modes = whole_modes(state.modes);
+  state.step = Math.round(state.step);
   if (state.compliance !== "matched") state.compliance = "own";
   state.text = words.get("text");
   state.set = Object.fromEntries(

@@ -586,6 +586,16 @@ const parts = {
     );
     await visit("#scene=none&rate=many&scheme=nothing_known&modes=-3");
     expect((await see("state.scene")) === "tanpura_c3_release", "a broken address leads to a page");
+    await visit("#tour=constructor&step=1.5");
+    expect((await see("state.tour")) === "", "a tour that is not there is none");
+    for (const [hash, element, sentence] of [
+      ["#modes=4294967299", "said", "no more than 1048576 are carried"],
+      ["#set.string.0.initial.amplitude=1e308", "title", "diverged at step 0"],
+    ]) {
+      await browser.page("Page.navigate", {url: "about:blank"});
+      await browser.page("Page.navigate", {url: page + hash});
+      await until(`by_id("${element}").textContent.includes("${sentence}")`, hash);
+    }
     await visit();
     await see("window.second = window.open(location.href); 0");
     for (let k = 0; k < 500; ++k) {
