@@ -5,7 +5,8 @@
 // and den = 1 + 2 R Omega + R^2:
 //     two-point   A = num/den, B = 2 (1 - R^2)/den     van Walstijn et al. 2016, eq 33
 //     three-point C = 2 R Omega, C~ = R^2              Issanchou et al. 2016, eq 14
-// num and den are formed without cancellation, so that low modes stay exact at high rates.
+// num and den are formed without cancellation, so that low modes stay exact at high rates. Neither
+// is negative, which is the stability of the three-point form (Issanchou et al. 2016, eq 23).
 #pragma once
 
 #include <algorithm>
@@ -16,11 +17,11 @@
 namespace jvari {
 
 struct ModeStep {
-    double num, den;  // as above
-    double loss;      // 1 - R^2
-    double C() const { return 0.5 * (den - num); }
+    double num, den;                                // as above
+    double loss;                                    // 1 - R^2
+    double C() const { return 0.5 * (den - num); }  // (14)
     double C_tilde() const { return 1 - loss; }
-    double A() const { return num / den; }
+    double A() const { return num / den; }  // (33)
     double B() const { return 2 * loss / den; }
 };
 

@@ -1,3 +1,4 @@
+// Source: Issanchou et al. 2016, eqs 24-28.
 #include "schemes/contact/contact_loss.hpp"
 
 #include <algorithm>
@@ -17,15 +18,16 @@ ContactLoss::ContactLoss(const Contacts& contacts, std::vector<double> theta, do
     closed_.resize(beta_.size());
 }
 
-// Theta and b of the contacts with D: with S = D^1/2 on the closed ones and M = I + S Theta S = L
-// L', X = L^-1 S Theta, Theta - X' X and b - X' L^-1 S b.
+// Theta and b of the contacts with D, (27) for any number of them: one alone has c = Theta D, and
+// divides both by 1 + c. With S = D^1/2 on the closed ones and M = I + S Theta S = L L', X = L^-1 S
+// Theta, they are Theta - X' X and b - X' L^-1 S b.
 bool ContactLoss::damp_closed(const BeforeStep& at, double* b) noexcept {
     lost_ = 0;
     const int n = static_cast<int>(beta_.size());
     int m = 0;
     for (int a = 0; a < n; ++a) {
         b_[a] = b[a];
-        drag_[a] = beta_[a] * laws_[a].force(at.now[a]) / span_;
+        drag_[a] = beta_[a] * laws_[a].force(at.now[a]) / span_;  // (24)
         root_[a] = std::sqrt(drag_[a]);
         if (drag_[a] > 0) closed_[m++] = a;
     }
@@ -69,7 +71,7 @@ void ContactLoss::settle(double* r, double* force) noexcept {
         force[closed_[i]] -= change;
         r[closed_[i]] += change / drag_[closed_[i]];
     }
-    for (int a = 0; a < n; ++a) lost_ += drag_[a] * r[a] * r[a];
+    for (int a = 0; a < n; ++a) lost_ += drag_[a] * r[a] * r[a];  // (25), (26), (28)
 }
 
 }  // namespace jvari

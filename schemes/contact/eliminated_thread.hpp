@@ -2,8 +2,8 @@
 // 2016, eqs 44-48. With r the motion of a thread's point over the step, span the time between the
 // outer levels and k_c, r_c its stiffness and damping,
 //
-//     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span,
-//     r = free + theta_cc F_c + theta_bc F_b
+//     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span                                  (45)
+//     r = free + theta_cc F_c + theta_bc F_b                                                 (44)
 //     F_c = v - beta F_b,   v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]   (46), (47)
 //
 // and a contact sees theta_bb - theta_bc beta for its own compliance (48). A string has one thread
@@ -40,8 +40,8 @@ public:
     const One& one() const { return one_; }
     // theta_bc of contact a [m/N]
     double coupling(int a, int t) const { return coupling_[a * count() + t]; }
-    double answer(int t, int a) const { return answer_[t * contacts_ + a]; }  // beta
-    // the threads yielding: contacts x contacts
+    double answer(int t, int a) const { return answer_[t * contacts_ + a]; }  // beta (47)
+    // theta of (48), the threads yielding: contacts x contacts
     std::vector<double> between_contacts(std::span<const double> theta) const;
     // of the points' readings: v of each thread
     void alone(const double* older, const double* free, double* v) const noexcept {
@@ -55,15 +55,15 @@ public:
             }
         }
     }
-    // r of a thread that started from a reading and pulled by F [m].
+    // r of a thread that started from a reading and pulled by F [m]   (45)
     double moved(int t, double older, double F) const {
         return phi_[t] > 0 ? (laws_[t].stiffness * (laws_[t].height - older) - F) / phi_[t] : 0;
     }
-    double stored(int t, double reading) const {
+    double stored(int t, double reading) const {  // (49)
         const double stretch = reading - laws_[t].height;
         return 0.5 * laws_[t].stiffness * stretch * stretch;
     }
-    // [W]
+    // [W]   (52)
     double lost(int t, double r) const { return laws_[t].damping * (r / span_) * (r / span_); }
 
 private:
@@ -102,8 +102,8 @@ struct ContactAndThread {
     EliminatedThreads::One of_thread;
     ContactTally tally;
 
-    // Of contact b and thread c: readings at the older level and at the one that the step is centred
-    // on, increments without forces [m]; F_b, F_c [N] out. False: not converged.
+    // Of contact b and thread c: readings at the older level and at the one that the step is
+    // centred on, increments without forces [m]; F_b, F_c [N] out. False: not converged.
     template <bool contact, bool thread>
     [[gnu::always_inline]] bool solve(double y_b, double now_b, double u_b, double y_c, double u_c,
                                       double& F_b, double& F_c) noexcept {

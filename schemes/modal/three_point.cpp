@@ -16,10 +16,10 @@ ThreePoint three_point(const Modes& modes, double dt, double told) {
         const double sigma = modes.sigma[j], omega0 = modes.omega0[j],
                      decay = std::exp(-sigma * dt), fallen = std::expm1(-sigma * dt);
         const double square = omega_squared_damped(omega0, sigma);
-        c.Ct.push_back(std::exp(-2 * sigma * dt));
+        c.Ct.push_back(std::exp(-2 * sigma * dt));  // (14)
         const ModeStep step = exact_step(omega0, sigma, dt);
-        c.loss.push_back(step.loss);
-        c.kappa.push_back(step.num);  // 1 + C~ - C
+        c.loss.push_back(step.loss);  // dt C3 of (17), (18)
+        c.kappa.push_back(step.num);  // 1 + C~ - C, dt^2 C2 of (17), (18)
         double rate;                  // omega/sin(omega dt), its limit or its hyperbolic form
         if (square > 0) {
             const double omega = std::sqrt(square), half = std::sin(0.5 * omega * dt),

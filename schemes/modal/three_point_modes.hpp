@@ -166,7 +166,7 @@ public:
     double share() const {
         const auto& mu = p_.update.ports[p_.points.count()].weights;
         double sum = 0;
-        for (int j = 0; j < p_.modes.count(); ++j)  // of the mass that H shows (21)
+        for (int j = 0; j < p_.modes.count(); ++j)  // of the mass that H shows, C1 - dt^2/4 C2 (22)
             sum += mu[j] * mu[j] /
                    (p_.modes.mass *
                     (1 - 0.5 * p_.three_point.loss[j] - 0.25 * p_.three_point.kappa[j]));
@@ -236,11 +236,11 @@ private:
         modal_last_.swap(modal_coming_);
         fill_coming();
         Spent spent;
-        for (int j = 0; j < p_.modes.count(); ++j) {
+        for (int j = 0; j < p_.modes.count(); ++j) {  // (20)
             const double r = modal_coming_[j] + modal_last_[j];
             spent.dissipated += p_.W[j] * p_.three_point.loss[j] * r * r;
         }
-        spent.dissipated /= 4 * p_.dt * p_.dt;  // (20)
+        spent.dissipated /= 4 * p_.dt * p_.dt;
         if (const double F_e = pluck(); F_e != 0) {
             const auto& g = p_.update.ports[pluck_port_].weights;
             for (int j = 0; j < p_.modes.count(); ++j)

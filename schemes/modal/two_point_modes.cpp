@@ -36,7 +36,7 @@ double gram(const AlignedVector& a, const AlignedVector& b) {
 }
 }  // namespace
 
-TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {
+TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {  // (33)
     const ModeStep m = exact_step(omega0, sigma, dt);
     return {m.A(), m.B()};
 }
@@ -112,7 +112,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         }
         all.push_back(&body_.mu);
     }
-    for (const AlignedVector* a : all)
+    for (const AlignedVector* a : all)  // theta of (43), (44)
         for (const AlignedVector* b : all) p_.theta.push_back(gram(*a, *b));
 
     for (const Tap& tap : scene.taps) {
@@ -220,9 +220,9 @@ Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
                      *loss = m_.stream + two_point_at(Column::loss, from);
         const double* f = push_.data() + from;
         for (int k = 0; k < two_point_line; ++k) {
-            const double s = u[k] + f[k];  // (41)
-            y[k] += s;                     // (40)
-            u[k] = s + f[k] - loss[k] * s - c[k] * y[k];
+            const double s = u[k] + f[k];                 // (41)
+            y[k] += s;                                    // (40)
+            u[k] = s + f[k] - loss[k] * s - c[k] * y[k];  // (42) of the next step
         }
     }
     return spent;
@@ -264,7 +264,7 @@ void TwoPointModes::reading(int, double* out) const noexcept {
 
 double TwoPointModes::stored() const noexcept {
     double H = 0;
-    for (int i = 0; i < m_.modes; ++i) {
+    for (int i = 0; i < m_.modes; ++i) {  // (49)
         const double q = momentum_of(i), y = at(Column::y, i);
         H += J_[i] * q * q + 0.25 * at(Column::c, i) * y * y;
     }

@@ -1,14 +1,14 @@
 // Full-modal spatial Newton: exact three-point recursion per mode, conservative contact forces on
 // the nodes x_i = iL/N of a grid with as many interior nodes as modes. Source: Issanchou et al.
-// 2016, eqs 13-16, 20-21, 24-28.
+// 2016, eqs 13-28. The matrices D of (15) and (19) are never formed, for they are full: the modes
+// are stepped (14), (17) and read at the nodes by (13).
 //
 // Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the
 // thread's force is the average of the outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ -
 // u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al. 2016, eqs
 // 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two
 // polarisations. On a body that moves (schemes/body) the points of all strings are solved for
-// together,
-// coupled as they may be, and its acceleration is one more force.
+// together, coupled as they may be, and its acceleration is one more force.
 //
 // Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from
 // the string's compliance stands in series with contacts and thread (contact/compliance.hpp,

@@ -1,5 +1,5 @@
-// Source: Issanchou et al. 2016, section 3.2 (a force density at a node); van Walstijn et al. 2016,
-// eq 20 (weights of a footprint).
+// Source: Issanchou et al. 2016, eq 13 and section 3.2 (a force density at a node); van Walstijn et
+// al. 2016, eq 20 (weights of a footprint).
 #include "schemes/spatial/spatial_ports.hpp"
 
 #include <algorithm>
@@ -32,6 +32,7 @@ int node_at(double position, double length, int intervals) {  // 0: between node
 
 }  // namespace
 
+// Row of the matrix S of (13), less its factor sqrt(2/L).
 std::vector<double> node_weights(int intervals, int node) {
     std::vector<double> w;
     for (int j = 1; j < intervals; ++j) w.push_back(sine(long(j) * node, intervals));

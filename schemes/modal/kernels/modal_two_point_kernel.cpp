@@ -22,10 +22,10 @@ HWY_INLINE void end_step(TwoPointStream& m, long summed_again, double F_b, doubl
         pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
         return;
     }
-    if constexpr (barrier)
+    if constexpr (barrier)  // (43)
         m.y_b += m.u_b + m.theta_bb * F_b + (thread ? m.theta_bc * F_c : 0) +
                  (pluck ? m.theta_be * F_e : 0);
-    if constexpr (thread)
+    if constexpr (thread)  // (44)
         m.y_c += m.u_c + m.theta_cc * F_c + (barrier ? m.theta_bc * F_b : 0) +
                  (pluck ? m.theta_ce * F_e : 0);
     pass<barrier, thread, pluck, false>(m, F_b, F_c, F_e);
