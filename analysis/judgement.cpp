@@ -45,10 +45,10 @@ Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& r
               gain.largest,
               over_bound(scene, run.trace, modes),
               run.facts};
-    std::erase_if(f.facts, [](const Fact& told) {
-        return told.name == facts::smallest_contact_force.name ||
-               told.name == facts::largest_contact_force.name ||
-               told.name == facts::deepest_penetration.name;
+    std::erase_if(f.facts, [](const Fact& fact) {
+        return fact.name == facts::smallest_contact_force.name ||
+               fact.name == facts::largest_contact_force.name ||
+               fact.name == facts::deepest_penetration.name;
     });
     return f;
 }
@@ -86,9 +86,9 @@ Verdict verdict_of(const Figures& f, Balance promised, double error) {
     if (pull > pull_allowed) return Verdict::adhesive;
     if (error > error_allowed) return Verdict::inaccurate;
     if (raised_by(f).any()) return Verdict::flagged;
-    const bool told = !std::isnan(f.largest_over_bound) || !std::isnan(f.energy_gain) ||
-                      !std::isnan(pull) || !std::isnan(error);
-    return told ? Verdict::sound : Verdict::unjudged;
+    const bool judged = !std::isnan(f.largest_over_bound) || !std::isnan(f.energy_gain) ||
+                        !std::isnan(pull) || !std::isnan(error);
+    return judged ? Verdict::sound : Verdict::unjudged;
 }
 
 }  // namespace jvari

@@ -241,8 +241,8 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
             const trim::Trimmed t = trim::trimmed(judge, r, catalogue, PythonListener());
             path = trim::path_table(t, judge);
             needs = trim::needs_table(t);
-            if (t.path.found) toml = trim::trimmed_toml(t, judge);
-            return t.path.found;
+            if (t.path.within_tolerance) toml = trim::trimmed_toml(t, judge);
+            return t.path.within_tolerance;
         },
         [&] {
             return out.empty()

@@ -23,7 +23,7 @@ constexpr Option cells_option{
     "least number of cells from end to end, 64 to 262144; at most twice as many are taken"};
 constexpr Option options[] = {cells_option};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     const double cells = number_option(settings, cells_option);
     if (!(cells >= 64 && cells <= 262144))
@@ -51,7 +51,7 @@ const Descriptor characteristic_lattice = {
     .represents = Feature::rigid_profile | Feature::initial_shape,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
-    .make = made,
+    .make = make,
     .options = options,
     .note = "An ideal string released over one rigid profile that begins at x = 0.",
     .confirmation = [](const Scene&) {

@@ -208,7 +208,7 @@ double ExactLinear::stored() const noexcept {
     return 0.5 * modes_.mass * sum;
 }
 
-std::unique_ptr<Scheme> made(const Descriptor&, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> make(const Descriptor&, const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
@@ -225,6 +225,6 @@ const Descriptor exact_linear = {.name = "exact_linear",
                                                Features(Feature::pluck),
                                  .balance = Balance::to_tolerance,
                                  .clock = Clock::continuous,
-                                 .make = made};
+                                 .make = make};
 
 }  // namespace jvari

@@ -146,9 +146,9 @@ void InstrumentEquations::slope(double t, const double* z, double* dz) const noe
         }
         g -= weighted_sum(s.mu.data(), dv + s.first, s.count);
     }
-    double held = 0;  // sum A_k
-    for (int k = body; k < padded; ++k) held += dv[k];
-    const double a = (held + give_ * g) / (1 + give_ * rest_), f = g - rest_ * a;
+    double sum_A = 0;
+    for (int k = body; k < padded; ++k) sum_A += dv[k];
+    const double a = (sum_A + give_ * g) / (1 + give_ * rest_), f = g - rest_ * a;
     for (int k = body; k < padded; ++k) dv[k] += f / mass_[k];
     for (const OfString& s : strings)
         for (int i = 0; i < s.count; ++i) dv[s.first + i] -= a / s.mass * s.mu[i];

@@ -37,7 +37,9 @@ struct Reduction {
     std::string key;      // "string.0.damping.sigma3"
     std::string becomes;  // "0"; "" if the part is left out
     std::function<void(Scene&)> apply;
-    std::string said() const { return becomes.empty() ? key + " left out" : key + " = " + becomes; }
+    std::string description() const {
+        return becomes.empty() ? key + " left out" : key + " = " + becomes;
+    }
 };
 
 // All that apply to this scene. A contact whose exponent becomes 1 keeps its force at `penetration`

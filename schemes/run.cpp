@@ -50,8 +50,8 @@ public:
     // true: the run is to end. The clock costs as much as some steps: where questions come fast,
     // few look at it
     bool tell() noexcept {
-        if (!thrown_ && ++asked_ < each_) return false;
-        asked_ = 0;
+        if (!thrown_ && ++calls_ < each_) return false;
+        calls_ = 0;
         const auto now = Steady::now();
         each_ = now - looked_ < patience / 16 ? std::min(2 * each_, 16) : std::max(1, each_ / 2);
         looked_ = now;
@@ -73,7 +73,7 @@ private:
     const std::function<void(long, long)>& progress_;
     const long rows_;
     Steady::time_point last_ = Steady::now(), looked_ = last_;
-    int asked_ = 0, each_ = 1;
+    int calls_ = 0, each_ = 1;
     std::exception_ptr thrown_;
 };
 
@@ -258,7 +258,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     scheme.reset();
     const FlushDenormals flush;
     Steady::duration stepping{};
-    bool told = false;
+    bool reported = false;
     Teller teller(options.progress, trace.stride);
     Stepper stepper(scheme, trace, scene, modes_for(scene, settings), options, teller);
     const bool listened = options.progress || options.slow;
@@ -289,9 +289,9 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
             stepper.make_anew(trace.rows);
         }
         teller.block_done();
-        if (options.slow && !told && stepping > std::chrono::duration<double>(long_run) &&
+        if (options.slow && !reported && stepping > std::chrono::duration<double>(long_run) &&
             trace.rows < trace.stride) {
-            told = true;
+            reported = true;
             options.slow(trace.rows, trace.stride,
                          with_context("tells its facts", [&] { return scheme.facts(); }));
         }

@@ -41,7 +41,7 @@ private:
     long row_ = 0;
 };
 
-std::unique_ptr<Scheme> made(const Descriptor&, const Scene&, const Settings& settings) {
+std::unique_ptr<Scheme> make(const Descriptor&, const Scene&, const Settings& settings) {
     if (settings.sample_rate > 150e3)
         throw Refusal("stumbling has no rates above 150 kHz, only walks");
     return std::make_unique<Stumbling>(settings, steps_per_row(settings));

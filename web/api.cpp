@@ -29,17 +29,17 @@ namespace jvari::web {
 namespace {
 constexpr double most_values = 3e7;  // a trace of a quarter of a gigabyte
 
-std::string said;
+std::string last_text;
 
 template <class Do>
 auto tried(Do act) -> decltype(act()) {
     try {
         return act();
     } catch (const std::bad_alloc&) {
-        said =
+        last_text =
             "The page has no more memory for this: ask for a shorter run or fewer modes, or use "
             "the program `jvari run`.";
-    } catch (const std::exception& e) { said = e.what(); }
+    } catch (const std::exception& e) { last_text = e.what(); }
     return {};
 }
 
@@ -105,16 +105,16 @@ struct Kept {
 using namespace jvari;
 using namespace jvari::web;
 
-JV const char* jv_said() { return said.c_str(); }
+JV const char* jv_said() { return last_text.c_str(); }
 
-JV const char* jv_list() { return (said = list_text()).c_str(); }
+JV const char* jv_list() { return (last_text = list_text()).c_str(); }
 
 // What the scene says once it is read, for those who draw it; nullptr: refused.
 JV const char* jv_scene(const char* text, const char* overrides) {
     const bool done = tried([&] {
-        return !(said = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty();
+        return !(last_text = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty();
     });
-    return done ? said.c_str() : nullptr;
+    return done ? last_text.c_str() : nullptr;
 }
 
 // The problem as arrays, for a scheme typed into the page; nullptr: refused.
@@ -123,10 +123,11 @@ JV const char* jv_problem(const char* text, const char* overrides, double rate, 
     const bool done = tried([&] {
         Scene scene = parse_scene(text, "scene", lines_of(overrides));
         scene.duration = duration;
-        return !(said = problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}}))
+        return !(last_text =
+                     problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}}))
                     .empty();
     });
-    return done ? said.c_str() : nullptr;
+    return done ? last_text.c_str() : nullptr;
 }
 
 // `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each.
@@ -157,7 +158,7 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
 }
 
 JV const char* jv_about(const Kept* k) {
-    return (said = run_text(k->run, k->scene, modes_for(k->scene, k->settings), k->promised))
+    return (last_text = run_text(k->run, k->scene, modes_for(k->scene, k->settings), k->promised))
         .c_str();
 }
 JV const double* jv_tap(const Kept* k, int tap) { return k->run.trace.column(tap).data(); }
@@ -197,5 +198,5 @@ JV const char* jv_cheapest(const char* schemes, const double* figures, double ac
                           figures[2], figures[3], figures[4]});
         figures += 5;
     }
-    return (said = choice_text(cheapest_within(accuracy, offers))).c_str();
+    return (last_text = choice_text(cheapest_within(accuracy, offers))).c_str();
 }

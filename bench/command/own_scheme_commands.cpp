@@ -37,7 +37,7 @@ int export_command(ExportRequest r) {
     console.print(fmt::format(
         "{} at {:.12g} Hz, {:.12g} rows a second{}", problem.scene.name, r.rate,
         problem.settings.tap_rate,
-        truth ? "; reference: " + truth->reference.choice.name() + ", " + truth->said : ""));
+        truth ? "; reference: " + truth->reference.choice.name() + ", " + truth->description : ""));
     console.print("written: " + r.out);
     console.print_json(
         store::indented({{"scene", problem.scene.name}, {"status", "ok"}, {"files", {r.out}}}));

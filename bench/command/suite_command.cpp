@@ -93,7 +93,7 @@ std::string kept_text(const study::Plan& plan, const fs::path& folder) {
 
 void note_missing_locks(const fs::path& folder, const Console& console) {
     const store::FileLock lock(folder / "cells" / "any", "begins", false);
-    if (!lock.held() && !lock.elsewhere())
+    if (!lock.locked() && !lock.elsewhere())
         console.note(folder.string() +
                      ": no file can be locked here. Processes that share this folder would each "
                      "run every cell: start only one");

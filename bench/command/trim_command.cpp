@@ -58,9 +58,9 @@ std::string verdict_text(const trim::Trimmed& t, trim::Judge& judge) {
     const trim::Target& target = judge.target();
     std::string text =
         fmt::format("truth: {}, {}; certain to {}, noise floor {}\n",
-                    judge.truth(0).reference.choice.name(), judge.truth(0).said,
+                    judge.truth(0).reference.choice.name(), judge.truth(0).description,
                     target.text(judge.certificate(0), "unknown"), target.text(judge.floor(0)));
-    if (!t.path.found)
+    if (!t.path.within_tolerance)
         return text + fmt::format("none of {} is within {} over {:g} s",
                                   fmt::join(t.path.tried, ", "), target.text(target.most),
                                   t.whole.duration);
@@ -132,8 +132,8 @@ int trim_command(TrimCall r) {
     const auto manifest = trim::manifest_of(t, judge, request);
     const store::Table needs = trim::needs_table(t), path = trim::path_table(t, judge);
     ResultsFolder folder(r.out, console);
-    if (t.path.found) folder.add("trimmed.toml", trim::trimmed_toml(t, judge));
-    if (t.path.found && folder) keep_sounds(r.out, t, judge);
+    if (t.path.within_tolerance) folder.add("trimmed.toml", trim::trimmed_toml(t, judge));
+    if (t.path.within_tolerance && folder) keep_sounds(r.out, t, judge);
     folder.add("needs.csv", store::csv(needs));
     folder.add("path.csv", store::csv(path));
     folder.add_manifest(manifest);
@@ -143,20 +143,20 @@ int trim_command(TrimCall r) {
                               judge.target().title, judge.tap().name, t.whole.duration, t.judged,
                               t.read_back));
     if (!t.path.steps.empty()) console.print(path_text(t, judge));
-    if (t.path.found) console.print(needs_text(t, judge));
+    if (t.path.within_tolerance) console.print(needs_text(t, judge));
     console.print(verdict_text(t, judge));
     std::string left = "not tried:";
     for (const std::string& what : t.not_tried) left += "\n  " + what;
     console.print(left);
-    if (t.path.found && !r.out.empty())
+    if (t.path.within_tolerance && !r.out.empty())
         console.print("written: " + r.out + "\n" +
                       trim::command_of(t, (fs::path(r.out) / "trimmed.toml").string()));
-    console.print_json(store::indented({{"status", t.path.found ? "ok" : "none"},
+    console.print_json(store::indented({{"status", t.path.within_tolerance ? "ok" : "none"},
                                         {"manifest", manifest},
                                         {"path", store::rows_json(path)},
                                         {"needs", store::rows_json(needs)},
                                         {"files", folder.files}}));
-    return t.path.found ? exit_code::done : exit_code::run_failed;
+    return t.path.within_tolerance ? exit_code::done : exit_code::run_failed;
 }
 }  // namespace
 

@@ -55,12 +55,12 @@ int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
     return fewest;
 }
 
-struct Made {
+struct SchemeSize {
     bool refused = false;
     int modes = 0;     // 0: a grid, or it does not say
     int contacts = 0;  // points of contact
 };
-Made made(const Descriptor& d, const Scene& scene, const Settings& settings) {
+SchemeSize size_of(const Descriptor& d, const Scene& scene, const Settings& settings) {
     try {
         const auto scheme = make_scheme(d, scene, settings);
         const std::vector<Fact> facts = scheme->facts();
@@ -86,10 +86,10 @@ int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, S
     const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(),
                                      [](const String& s) { return !s.barriers.empty(); });
     if (!r.modes.empty() || all == 0 || !contact) return all;
-    const Made equal = made(d, scene, settings);
+    const SchemeSize equal = size_of(d, scene, settings);
     if (equal.modes == 0 && !equal.refused) return all;
     settings.modes = 0;
-    const Made own = made(d, scene, settings);
+    const SchemeSize own = size_of(d, scene, settings);
     if (own.refused || own.modes == 0 || own.modes == all ||
         (!equal.refused && equal.contacts >= own.contacts))
         return all;

@@ -58,8 +58,8 @@ bool sets(const OptionValues& values, const Option& option) {
     return std::ranges::any_of(values, [&option](const auto& v) { return v.first == option.name; });
 }
 
-std::vector<OptionValues> asked_of(const std::vector<SchemeOption>& options, const Descriptor& d,
-                                   std::vector<bool>& used) {
+std::vector<OptionValues> combinations_of(const std::vector<SchemeOption>& options,
+                                          const Descriptor& d, std::vector<bool>& used) {
     std::vector<OptionValues> all{{}};
     const auto takes = [&d](const SchemeOption& o) {
         return o.scheme.empty() ? declares(d, o.name) : o.scheme == d.name;
@@ -120,7 +120,7 @@ std::vector<Form> forms_of(const CompareRequest& r, const Descriptor& d, const S
                            const Settings& settings, const std::vector<double>& rates,
                            std::vector<bool>& used, Untried& untried) {
     std::vector<Form> forms;
-    for (const OptionValues& values : asked_of(r.options, d, used))
+    for (const OptionValues& values : combinations_of(r.options, d, used))
         forms.push_back({values, rates});
     const bool compliance = sets(forms.front().options, compliance_option);
     const bool measured = std::ranges::any_of(

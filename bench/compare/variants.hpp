@@ -34,8 +34,8 @@ private:
 
 // Of a scheme each combination of the values asked for; `used`: which of them it takes. UsageError
 // where one option is asked for all schemes and for this one.
-std::vector<OptionValues> asked_of(const std::vector<SchemeOption>&, const Descriptor&,
-                                   std::vector<bool>& used);
+std::vector<OptionValues> combinations_of(const std::vector<SchemeOption>&, const Descriptor&,
+                                          std::vector<bool>& used);
 // Throws UsageError where one is taken by no scheme.
 void must_be_used(const std::vector<SchemeOption>&, const std::vector<bool>& used);
 bool sets(const OptionValues&, const Option&);

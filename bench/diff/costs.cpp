@@ -144,14 +144,14 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pa
     const Clock& clock = both ? processor : wall;
     std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
     if (ratios.empty()) return;
-    if (!a.made.same_machine(b.made)) {
+    if (!a.provenance.same_machine(b.provenance)) {
         d.notes.push_back(fmt::format("costs are of two machines and are not compared: {} and {}",
-                                      a.made.machine(), b.made.machine()));
+                                      a.provenance.machine(), b.provenance.machine()));
         return;
     }
-    if (a.made.system != b.made.system)
+    if (a.provenance.system != b.provenance.system)
         d.notes.push_back(fmt::format("costs are of one machine under two systems: {} and {}",
-                                      a.made.system, b.made.system));
+                                      a.provenance.system, b.provenance.system));
     std::set<std::string> names;
     for (const Ratio& r : ratios) names.insert(r.series);
     const bool few = names.size() < fewest_series;

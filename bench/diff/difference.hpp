@@ -14,20 +14,20 @@ namespace jvari::bench::diff {
 
 // ---- What lies in a folder of compare or suite, as far as two such folders can be compared
 
-struct Made {                                 // by what, as manifest.json has it
+struct Provenance {                           // by what, as manifest.json has it
     std::string commit, date;                 // commit: "unknown" outside git
     std::string compiler, flags, build;       // the program
     std::string cpu, cores, vectors, system;  // the machine
     std::string machine() const;              // "AMD EPYC, 2 cores, AVX3_DL, Linux 6.1"
     // whatever its system
-    bool same_machine(const Made& o) const {
+    bool same_machine(const Provenance& o) const {
         return cpu == o.cpu && cores == o.cores && vectors == o.vectors;
     }
 };
 
 struct Folder {
     std::string name;
-    Made made;
+    Provenance provenance;
     study::Cells cells;
     store::Table dispersion, maps, boundaries;  // empty where the file is absent
     store::Table shown;                         // cells.csv

@@ -70,12 +70,12 @@ std::string only_text(const char* what, const char* where, const std::vector<std
 
 Json json_of(const Folder& f) {
     return {{"folder", f.name},
-            {"commit", f.made.commit},
-            {"date", f.made.date},
-            {"machine", f.made.machine()},
-            {"compiler", f.made.compiler},
-            {"flags", f.made.flags},
-            {"build", f.made.build}};
+            {"commit", f.provenance.commit},
+            {"date", f.provenance.date},
+            {"machine", f.provenance.machine()},
+            {"compiler", f.provenance.compiler},
+            {"flags", f.provenance.flags},
+            {"build", f.provenance.build}};
 }
 }  // namespace
 
@@ -84,8 +84,8 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
     // first: what the figures below rest on
     std::string text = d.references.empty() ? "" : d.references + "\n";
     for (const auto& [name, f] : {std::pair{"before", &before}, std::pair{"after", &after}})
-        text += fmt::format("{:<7} {}: commit {}, {}, {}\n", name, f->name, f->made.commit,
-                            f->made.date, f->made.machine());
+        text += fmt::format("{:<7} {}: commit {}, {}, {}\n", name, f->name, f->provenance.commit,
+                            f->provenance.date, f->provenance.machine());
     for (const std::string& note : d.notes) text += "note: " + note + "\n";
     text += fmt::format(
         "{} cells in both, {} fields compared: {} worse, {} better, {} moved{}\n", d.cells_in_both,

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 
-Made made_by(const store::Folder& folder) {
+Provenance provenance_of(const store::Folder& folder) {
     const Json m = folder.manifest();
     const auto text = [&](const char* key) {
         const auto found = m.find(key);
@@ -41,7 +41,7 @@ std::string cell_text(const study::TabledCell& c) {
 }
 }  // namespace
 
-std::string Made::machine() const {
+std::string Provenance::machine() const {
     return fmt::format("{}, {} cores, {}, {}", cpu, cores, vectors, system);
 }
 
@@ -51,7 +51,7 @@ Folder read_folder(const fs::path& path) {
         throw store::UsageError(fmt::format("{}: no such folder", path.string()));
     const store::Folder folder{path};
     const Folder f{path.string(),
-                   made_by(folder),
+                   provenance_of(folder),
                    study::read_cells(path, false),
                    folder.table("dispersion"),
                    folder.table("maps"),

@@ -44,7 +44,7 @@ Json reference_json(const Scene& scene, const study::Truth& truth) {
     Json j{{"name", r.choice.name()},
            {"source", r.choice.scheme->source},
            {"modes", r.choice.settings.modes},
-           {"doubling", truth.said},
+           {"doubling", truth.description},
            {"rows", trace.rows},
            {"free_from_s", from},
            {"horizon_of_1e-12_s", horizon(free(moved), free(trace), trace.tap_rate)},

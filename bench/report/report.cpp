@@ -177,7 +177,7 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
     const std::string html = page_of(data, scripts);
     std::size_t excess = html.size() > limit ? html.size() - limit + 2000 : 0;
     if (excess == 0) return html;
-    for (const auto& [list, field, said, what] :
+    for (const auto& [list, field, key, what] :
          {std::tuple("pictures", "data", "figures", "pictures"),
           std::tuple("sounds", "samples", "sounds", "more sounds")}) {
         std::size_t count = 0;
@@ -186,7 +186,7 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
             parts.erase(parts.size() - 1);
         }
         if (count > 0)
-            data["left_out"][said].push_back(fmt::format(
+            data["left_out"][key].push_back(fmt::format(
                 "{} {} are left out for the page's size; they lie beside it.", count, what));
     }
     return page_of(data, scripts);

@@ -78,7 +78,7 @@ Table ledger_of(const Trace& trace) {
     return t;
 }
 
-Table contacts_of(const DrawnRun& r, Json& said) {
+Table contacts_of(const DrawnRun& r, Json& caption) {
     Table t{{"tap", "from", "to"}, {}};
     double sum = 0;
     std::size_t count = 0;
@@ -100,7 +100,7 @@ Table contacts_of(const DrawnRun& r, Json& said) {
         }
     }
     const double until = static_cast<double>(r.trace.rows - 1) / rate;
-    said = {
+    caption = {
         {"until", until},
         {"title",
          fmt::format(

@@ -87,20 +87,20 @@ Drawn draw(const Vega& v, const Json& data) {
     }
     std::error_code error;
     const fs::path modules = fs::absolute(v.folder, error);
-    const store::Said said =
+    const store::Said output =
         store::run_program({"env", "--chdir=" + scratch.path.string(),
                             "NODE_PATH=" + modules.string(), "node", "draw.js"});
     const auto list = whole(file("drawn.json"));
     if (!list) {
         drawn.notes.push_back(
-            said.code == 127 ? "no picture: node is missing (Debian: apt-get install nodejs npm)"
-                             : "no picture: vega failed: " + said.text.substr(0, 400));
+            output.code == 127 ? "no picture: node is missing (Debian: apt-get install nodejs npm)"
+                               : "no picture: vega failed: " + output.text.substr(0, 400));
         return drawn;
     }
-    const Json told = Json::parse(*list);
-    for (const std::string name : told.at("drawn"))
+    const Json answer = Json::parse(*list);
+    for (const std::string name : answer.at("drawn"))
         drawn.svgs.emplace_back(name, whole(file(name.c_str())).value_or(""));
-    for (const Json& one : told.at("failed"))
+    for (const Json& one : answer.at("failed"))
         drawn.notes.push_back(one.at(0).get<std::string>() + ": " + one.at(1).get<std::string>());
     return drawn;
 }

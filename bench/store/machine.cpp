@@ -114,20 +114,21 @@ Stamp stamp_of(const nlohmann::ordered_json& j) {
 
 nlohmann::ordered_json made_by() {
     const Machine& m = machine();
-    nlohmann::ordered_json made{
+    nlohmann::ordered_json provenance{
         {"program", "jvari"},        {"version", m.version}, {"commit", m.commit},
         {"compiler", m.compiler},    {"flags", m.flags},     {"build", m.build},
         {"sources", m.cell_sources}, {"vectors", m.vectors}, {"cpu", m.cpu},
         {"cores", m.cores},          {"system", m.system},   {"date", now_utc()}};
-    made["command"] = command();
+    provenance["command"] = command();
     // of the last minute
-    if (double load[3]; getloadavg(load, 3) > 0) made["load"] = std::round(100 * load[0]) / 100;
+    if (double load[3]; getloadavg(load, 3) > 0)
+        provenance["load"] = std::round(100 * load[0]) / 100;
     for (const Guest* g : guests())
-        made["plugins"].push_back({{"file", g->path},
-                                   {"hash", contents_hash(g->path)},
-                                   {"compiler", g->compiler},
-                                   {"flags", g->flags}});
-    return made;
+        provenance["plugins"].push_back({{"file", g->path},
+                                         {"hash", contents_hash(g->path)},
+                                         {"compiler", g->compiler},
+                                         {"flags", g->flags}});
+    return provenance;
 }
 
 std::string now_utc() {

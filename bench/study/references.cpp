@@ -48,9 +48,12 @@ private:
 Against References::Of::against() const {
     if (!truth) return {};
     const Reference& r = truth->reference;
-    return {r.choice.name(), r.choice.settings.modes,
-            truth->said,     *floor,
-            r.trust,         model ? model->trust : trust::Trust{}};
+    return {r.choice.name(),
+            r.choice.settings.modes,
+            truth->description,
+            *floor,
+            r.trust,
+            model ? model->trust : trust::Trust{}};
 }
 
 References::References(std::span<const Job> jobs) {

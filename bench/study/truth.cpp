@@ -215,7 +215,7 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     Truth truth;
     truth.reference = run_reference(first, scene, jobs, listener, time_limit);
     if (truth.reference.choice.oversampled) {
-        truth.said = "a stand-in, as it is: no modes to double";
+        truth.description = "a stand-in, as it is: no modes to double";
         return truth;
     }
     const ReferenceChoice choice = truth.reference.choice;
@@ -273,37 +273,38 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         if (!truth.own.empty()) truth.reference.trust = trust_of(solved, truth, size, from);
         unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
     }
-    truth.said = size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
+    truth.description =
+        size.text() + (is_matched(choice.settings.options) ? ", compliance matched" : "");
     if (all > 0) {
         double highest = HUGE_VAL;
         for (const String& s : scene.strings)
             highest = std::min(highest, std::get<TableDamping>(s.damping).frequency_hz[all - 1]);
-        truth.said +=
+        truth.description +=
             fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table",
                         highest / 1000);
     }
     if (!truth.coarser.empty()) {
-        truth.said += fmt::format(
+        truth.description += fmt::format(
             "; half of them change {} over {} by {:.1e}", scene.taps.at(tap).name,
             std::isinf(end) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end),
             change(truth.reference.run.trace, truth.coarser.back().run.trace, tap, from, end));
     }
     if (!truth.coarser.empty() && std::isnan(unsettled))
-        truth.said +=
+        truth.description +=
             ". The last doubling changes it most, so what they leave out is unknown. A start with "
             "a sharp corner can do that to forces: try a `smoothing`";
     const bool profile = needed_by(scene).any(any_profile);
     if (all > 0 && !profile) {
         confirm(truth.reference, scene, size, jobs, listener, time_limit);
     } else if (find && !(unsettled < settled)) {
-        truth.said += "; twice as many would take too long";
-        if (truth.coarser.empty()) truth.said += ", so what they leave out is unknown";
+        truth.description += "; twice as many would take too long";
+        if (truth.coarser.empty()) truth.description += ", so what they leave out is unknown";
         else if (size.points > 0 && !std::isnan(unsettled))
-            truth.said += fmt::format(
+            truth.description += fmt::format(
                 ". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} "
                 "takes more",
                 size.points, 100 * unsettled, choice.scheme->name, 2 * size.points);
-        if (profile) truth.said += "; a shorter --duration lets more points be tried";
+        if (profile) truth.description += "; a shorter --duration lets more points be tried";
     }
     return truth;
 }

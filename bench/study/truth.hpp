@@ -30,16 +30,17 @@ constexpr double settled = 1e-4;
 constexpr double budget = 1.5e6;
 
 // The reference with the modes of the scene. `modes` 0: found by doubling. Else N: with N/4 and N/2
-// before it, to tell what N leaves out. A stand-in is left as it is. `said` tells how far it went.
-// Throws as run_reference.
+// before it, to tell what N leaves out. A stand-in is left as it is. `description`: how far it
+// went. Throws as run_reference.
 struct Truth {
     Reference reference;
     bool matched = false;            // also where no option says so: over a rigid barrier
     std::vector<Reference> coarser;  // those that it was doubled from, the coarsest first
-    // Where the reference is matched: the motion with as many own modes and with half as many, each
-    // extrapolated. Empty where the scene has no own solution (a rigid barrier) or it took too long.
+    // Where the reference is matched: the motion with as many own modes and with half as many,
+    // each extrapolated. Empty where the scene has no own solution (a rigid barrier) or it took too
+    // long.
     std::vector<Trace> own;
-    std::string said;
+    std::string description;
     // [s], of the headline against itself with half the modes and points
     double horizon = std::numeric_limits<double>::quiet_NaN();
 };

@@ -132,7 +132,7 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
     }
     MapRun result;
     result.boundaries.resize(changes.size());
-    std::vector<int> asked(changes.size());
+    std::vector<int> bisections(changes.size());
     store::side_by_side(
         std::vector<double>(changes.size(), 1), request.jobs, listener, "boundaries",
         [&](std::size_t i, store::Done& done) {
@@ -153,7 +153,7 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
                        low.map->refine, axis.whole, [&](double x) {
                            PointPlace at = low;
                            at.x = axis_text(axis, x);
-                           ++asked[i];
+                           ++bisections[i];
                            return trials(trial_at(at)).judgement.verdict;
                        });
             result.boundaries[i] = {low.map,
@@ -170,7 +170,8 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
     compare_with_theory(result.boundaries);
     result.ran = trials.ran();
     result.read_back =
-        std::accumulate(asked.begin(), asked.end(), static_cast<int>(places.size())) - result.ran;
+        std::accumulate(bisections.begin(), bisections.end(), static_cast<int>(places.size())) -
+        result.ran;
     return result;
 }
 

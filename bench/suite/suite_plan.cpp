@@ -68,9 +68,9 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
 study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
                     const std::vector<std::string>& plugins) {
     study::Plan all;
-    for (const SuitePoint& asked : points_of(suite)) {
-        const CellSet& set = *asked.set;
-        const compare::CompareRequest& r = asked.request;
+    for (const SuitePoint& point : points_of(suite)) {
+        const CellSet& set = *point.set;
+        const compare::CompareRequest& r = point.request;
         const std::string where = "scene " + r.scene + ": ";
         study::Point common;
         common.scene = compare::load_scene(r);

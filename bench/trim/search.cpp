@@ -56,16 +56,16 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene,
                                  const std::vector<compare::SchemeOption>& options) {
     std::vector<Variant> all;
     std::vector<bool> used(options.size());
-    for (const OptionValues& asked : compare::asked_of(options, d, used)) {
-        all.push_back({&d, asked});
-        const bool named = compare::sets(asked, compliance_option);
+    for (const OptionValues& values : compare::combinations_of(options, d, used)) {
+        all.push_back({&d, values});
+        const bool named = compare::sets(values, compliance_option);
         if (named || !declares(d, compliance_option.name) || !compare::touched(scene)) continue;
         Variant matched = all.back();
         matched.options.emplace_back(compliance_option.name, "matched");
         all.push_back(matched);
         const bool profile =
             declares(d, profile_points_option.name) && needed_by(scene).any(any_profile);
-        if (!profile || compare::sets(asked, profile_points_option)) continue;
+        if (!profile || compare::sets(values, profile_points_option)) continue;
         for (const char* points : {"8", "4"})
             all.emplace_back(matched).options.emplace_back(profile_points_option.name, points);
     }
@@ -111,7 +111,7 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
             const bool gone = left_out.size() > now->model.left_out.size();
             if (gone && !judge.saves(found->model, now->model)) continue;
             now = found;
-            step((gone ? "" : "put back: ") + judge.reductions()[c.part].said(), *now);
+            step((gone ? "" : "put back: ") + judge.reductions()[c.part].description(), *now);
             listener.note(
                 fmt::format("{}: {}", path.steps.back().change, now->model.settings_text()));
             return true;
@@ -125,7 +125,7 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
         now = again;
         step("scheme, rate and modes once more", *now);
     }
-    path.found = true;
+    path.within_tolerance = true;
     return path;
 }
 

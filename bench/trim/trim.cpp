@@ -123,15 +123,15 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
                         "certain is {}. A shorter "
                         "--duration or more --reference-modes may help",
                         target.text(target.most), judge.truth(0).reference.choice.name(),
-                        judge.truth(0).said, target.text(judge.certificate(0), "unknown")));
+                        judge.truth(0).description, target.text(judge.certificate(0), "unknown")));
     const std::vector<const Descriptor*> schemes = schemes_of(r, judge.scene(), catalogue);
     std::vector<bool> used(r.options.size());
-    for (const Descriptor* d : schemes) compare::asked_of(r.options, *d, used);
+    for (const Descriptor* d : schemes) compare::combinations_of(r.options, *d, used);
     compare::must_be_used(r.options, used);
     for (std::vector<int> by{0};;) {
         t.path = search(judge, schemes, by, listener);
         t.verified.clear();
-        if (!t.path.found) break;
+        if (!t.path.within_tolerance) break;
         for (int s = 0; s < starts; ++s)
             t.verified.push_back(verified(judge, t.last().model, s, std::ranges::count(by, s) > 0));
         const auto worst = std::ranges::max_element(t.verified, {}, [&](const Verified& v) {
@@ -247,7 +247,7 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
             return n.part == r.key && (r.becomes.empty() || n.becomes == r.becomes);
         });
         const bool known = need != t.needs.end() && !std::isnan(need->error);
-        text += comment("   " + r.said() +
+        text += comment("   " + r.description() +
                         (known ? fmt::format(" (alone: error {})", target.text(need->error)) : ""));
     }
     if (t.own_duration > t.scene.duration)
@@ -271,7 +271,7 @@ Json manifest_of(const Trimmed& t, Judge& judge, const Request& r) {
     for (int s = 0; s < std::max(1, static_cast<int>(t.verified.size())); ++s) {
         const study::Truth& truth = judge.truth(s);
         truths.push_back({{"reference", truth.reference.choice.name()},
-                          {"said", truth.said},
+                          {"said", truth.description},
                           {"modes", truth.reference.choice.settings.modes},
                           {"certificate", judge.certificate(s)},
                           {"floor", judge.floor(s)},
@@ -287,8 +287,8 @@ Json manifest_of(const Trimmed& t, Judge& judge, const Request& r) {
                        {"tap", judge.tap().name},
                        {"scheme", r.scheme},
                        {"duration", t.whole.duration}}},
-                     {"found", t.path.found},
-                     {"command", t.path.found ? command_of(t, "trimmed.toml") : ""},
+                     {"found", t.path.within_tolerance},
+                     {"command", t.path.within_tolerance ? command_of(t, "trimmed.toml") : ""},
                      {"verified", verified},
                      {"truths", truths},
                      {"judged", t.judged},

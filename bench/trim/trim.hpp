@@ -52,7 +52,7 @@ struct Step {
 struct Path {
     // [0]: the whole scene without matched compliance; the last is the trimmed model
     std::vector<Step> steps;
-    bool found = false;              // the last step is within the tolerance
+    bool within_tolerance = false;   // the last step is
     std::vector<std::string> tried;  // schemes that represent the whole scene
     // variants of the whole scene, after a first look: "name (its errors)"
     std::vector<std::string> passed_over;

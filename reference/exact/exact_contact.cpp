@@ -572,9 +572,9 @@ double ExactContact::stored(double F_e) const noexcept {
 
 std::vector<Fact> ExactContact::facts() const {
     // a smaller force may be none
-    const double told = tolerance_ / window_share * extremes_.largest_force;
+    const double least_certain = tolerance_ / window_share * extremes_.largest_force;
     const double smallest =
-        extremes_.smallest_force == HUGE_VAL || std::abs(extremes_.smallest_force) < told
+        extremes_.smallest_force == HUGE_VAL || std::abs(extremes_.smallest_force) < least_certain
             ? 0
             : extremes_.smallest_force;
     std::vector<Fact> f = {{facts::events, extremes_.events},
@@ -596,20 +596,20 @@ constexpr Option tolerance_option{"tolerance", "1e-10",
                                   "may cause, forces included, between 0 and 1"};
 constexpr Option options[] = {tolerance_option, nodes_option, compliance_option};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     const double tolerance = number_option(settings, tolerance_option);
     if (!(tolerance > 0 && tolerance < 1))
         throw Refusal("option tolerance: expected a number between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    Settings asked = settings;  // over a rigid barrier matched unasked, as nothing else will do
+    Settings chosen = settings;  // over a rigid barrier matched by itself, as nothing else will do
     const auto says = [](const auto& o) { return o.first == compliance_option.name; };
     if (needed_by(scene).has(Feature::rigid_barrier) &&
-        std::none_of(asked.options.begin(), asked.options.end(), says))
-        asked.options.emplace_back(compliance_option.name, "matched");
+        std::none_of(chosen.options.begin(), chosen.options.end(), says))
+        chosen.options.emplace_back(compliance_option.name, "matched");
     Modes modes = modes_of(scene.strings.at(0), unsampled);
-    const auto series = in_series(descriptor, scene, modes, asked);
+    const auto series = in_series(descriptor, scene, modes, chosen);
     const String s =
         with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)),
                      descriptor, series);
@@ -634,7 +634,7 @@ const Descriptor exact_contact = {
                   Features(Feature::pluck) | Features(Feature::rigid_barrier),
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
-    .make = made,
+    .make = make,
     .options = options,
     .approximates = approximates,
     .confirmation = [](const Scene&) {

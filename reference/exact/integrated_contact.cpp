@@ -268,7 +268,7 @@ constexpr Option flight_option{"flight",
 constexpr Option options[] = {method_option, rtol_option, flight_option, nodes_option,
                               compliance_option};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     const Features needed = needed_by(scene);
     const bool moves = needed.has(Feature::moving_body),
@@ -312,7 +312,7 @@ const Descriptor sundials = {
                   Features(Feature::tension_modulation),
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
-    .make = made,
+    .make = make,
     .options = options,
     .approximates = points_for_a_profile,
     .confirmation = [](const Scene&) {

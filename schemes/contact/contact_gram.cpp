@@ -135,14 +135,14 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
     }
     if (out) return {};
 
-    // a first guess: each contact with the others' forces held
+    // a first guess: each contact with the others' forces kept
     for (int sweep = 0; sweep < 2; ++sweep)
         for (int i = 0; i < n; ++i) {
             const int a = set[i];
-            double held = b[a];
+            double rest = b[a];
             for (int j = 0; j < n; ++j)
-                if (j != i) held -= theta_[a * stride + set[j]] * f[set[j]];
-            f[a] = alone(a, eta[a], held).force;
+                if (j != i) rest -= theta_[a * stride + set[j]] * f[set[j]];
+            f[a] = alone(a, eta[a], rest).force;
         }
 
     const auto reach = [&](int a) {  // the scale of rounding in r_a's equation

@@ -1,4 +1,4 @@
-// Several contacts whose forces are found one by one, the others' held, until no r changes
+// Several contacts whose forces are found one by one, the others' kept, until no r changes
 // (Gauss-Seidel). It converges where each force falls with its r, since Theta is a Gram matrix and
 // the problem convex. One contact is solved once.
 #pragma once
@@ -17,7 +17,7 @@ template <class ForceOf>
 GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::size_t n, double* r,
                            double* force, ForceOf force_of) {
     constexpr int most_sweeps = 10000;
-    const auto held = [&](std::size_t a) {  // sum of Theta F over the others
+    const auto by_others = [&](std::size_t a) {  // sum of Theta F over the others
         double sum = 0;
         for (std::size_t c = 0; c < n; ++c)
             if (c != a) sum += theta[a * n + c] * force[c];
@@ -30,7 +30,7 @@ GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::
         // of r [m]: what forces do that Theta hardly tells apart is left open
         double change = 0, reach = 0;
         for (std::size_t a = 0; a < n; ++a) {
-            const double others = held(a), F = force_of(a, b[a] - others),
+            const double others = by_others(a), F = force_of(a, b[a] - others),
                          theta_aa = theta[a * n + a];
             change = std::max(change, theta_aa * std::abs(F - force[a]));
             reach = std::max(reach, std::abs(b[a]) + std::abs(others) + theta_aa * F);
@@ -41,7 +41,7 @@ GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::
     }
     --s.iterations;
     if (n == 1) s = {};
-    for (std::size_t a = 0; a < n; ++a) r[a] = theta[a * n + a] * force[a] + held(a) - b[a];
+    for (std::size_t a = 0; a < n; ++a) r[a] = theta[a * n + a] * force[a] + by_others(a) - b[a];
     return s;
 }
 

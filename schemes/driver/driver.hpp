@@ -93,14 +93,14 @@ public:
     Status advance(const Block& out) noexcept override {
         for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
             if constexpr (fuses)
-                if (const FusedRows made =
+                if (const FusedRows fused =
                         out.energy ? FusedRows{} : string_->fused_rows(out, row, means_.sum());
-                    made.steps > 0) {
-                    if (made.stopped) return {};
-                    done_ += made.steps;
-                    if (!made.converged) status_ = {Outcome::not_converged, done_ - 1};
+                    fused.steps > 0) {
+                    if (fused.stopped) return {};
+                    done_ += fused.steps;
+                    if (!fused.converged) status_ = {Outcome::not_converged, done_ - 1};
                     else if (string_->failed()) status_ = {Outcome::diverged, done_ - 1};
-                    row += made.rows - 1;
+                    row += fused.rows - 1;
                     continue;
                 }
             write(out, row);

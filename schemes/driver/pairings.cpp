@@ -82,7 +82,7 @@ std::vector<Pairing> pairings() {
 const std::vector<Descriptor>& schemes_of_pairings() {
     static std::list<std::string> names;
     static const std::vector<Descriptor> all = [] {
-        std::vector<Descriptor> made;
+        std::vector<Descriptor> paired;
         for (const StringRow* row : rows())
             for (std::size_t c = 0; c < std::size(columns); ++c) {
                 if (known_cell(*row, columns[c])) continue;
@@ -96,9 +96,9 @@ const std::vector<Descriptor>& schemes_of_pairings() {
                 d.balance = columns[c].conserves ? Balance::exact : Balance::none;
                 d.make = row->makers[c];
                 d.stand_in_rank = 0;
-                made.push_back(d);
+                paired.push_back(d);
             }
-        return made;
+        return paired;
     }();
     return all;
 }

@@ -29,7 +29,7 @@ struct StringRow {
     };
     Known known[rule_count] = {};  // cells that have a name already
 };
-#define JVARI_MAKER(name, Rule, source) made<Rule>,
+#define JVARI_MAKER(name, Rule, source) make<Rule>,
 
 struct Pairing {
     std::string string, rule, scheme, options;  // options: by which the scheme is this pairing

@@ -187,16 +187,16 @@ double spacing_margin(const String& s, const Settings& settings, double limit) {
 Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, double limit) {
     const double finest = s.length / limit, most = std::floor(finest * (1 + 1e-12));
     const double over = number_option(settings, over_limit_option, 0),
-                 asked = number_option(settings, grid_option, 0);
+                 chosen = number_option(settings, grid_option, 0);
     if (over != 0 && !(over > 1))
         throw Refusal("option over_limit: found " + std::to_string(over) +
                       ", expected a factor above 1");
-    if (asked > std::max(most, over * finest))
-        throw Refusal(std::string(d.name) + ": " + std::to_string(asked) +
+    if (chosen > std::max(most, over * finest))
+        throw Refusal(std::string(d.name) + ": " + std::to_string(chosen) +
                       " intervals are over the stability limit, " + std::to_string(most) + " at " +
                       std::to_string(settings.sample_rate) +
                       " Hz; option over_limit goes there on purpose");
-    return grid_of(d, s, asked != 0 ? asked : over != 0 ? std::ceil(finest * over) : most);
+    return grid_of(d, s, chosen != 0 ? chosen : over != 0 ? std::ceil(finest * over) : most);
 }
 
 // ---- A string of the scene on its grid.

@@ -52,7 +52,7 @@ std::unique_ptr<Scheme> explicit_scheme(const Descriptor& descriptor, const Scen
     });
 }
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return explicit_scheme(descriptor, scene, settings, rule_of<Rule>(settings));
 }
@@ -70,7 +70,7 @@ extern const Descriptor finite_difference_explicit = {
     .represents = grid_features | Features(Feature::moving_body),
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule>,
+    .make = make<GradientRule>,
     .options = options,
     .approximates = grid_approximates,
     .limit = {"grid_limit", grid_margin}};

@@ -37,7 +37,7 @@ struct AtTheMiddle<QuadratisedRule<variant>> {
 };
 
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     const double dt = 1 / settings.sample_rate;
     const String& s = scene.strings.front();
@@ -55,7 +55,7 @@ extern const Descriptor finite_difference_hamiltonian = {
     .represents = grid_features,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule>,
+    .make = make<GradientRule>,
     .options = options,
     .approximates = grid_approximates};
 

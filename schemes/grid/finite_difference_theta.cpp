@@ -50,15 +50,15 @@ double spacing_limit(const String& s, double dt, double theta) {  // theta 0: th
 std::unique_ptr<Scheme> theta_scheme(const Descriptor& descriptor, const Scene& scene,
                                      const Settings& settings, const RuleChoice& rule) {
     using OfOne = ThreePointString<ThetaUpdate>;
-    const double dt = 1 / settings.sample_rate, asked = number_option(settings, theta_option, 0);
-    if (asked != 0 && !(asked > 0.5))
-        throw Refusal("option theta: found " + std::to_string(asked) + ", expected more than 0.5");
+    const double dt = 1 / settings.sample_rate, chosen = number_option(settings, theta_option, 0);
+    if (chosen != 0 && !(chosen > 0.5))
+        throw Refusal("option theta: found " + std::to_string(chosen) + ", expected more than 0.5");
     return on_three_point_support<OfOne>(descriptor, scene, settings, rule, [&](const Scene& one) {
         const String& s = one.strings.front();
-        const double limit = spacing_limit(s, dt, asked);
+        const double limit = spacing_limit(s, dt, chosen);
         const Grid grid = grid_for(descriptor, s, settings, limit);
         const GridString g = on_grid(descriptor, one, settings, grid, fit_losses(s));
-        const double theta = asked != 0 ? asked : tuned_theta(s, dt, grid.dx),
+        const double theta = chosen != 0 ? chosen : tuned_theta(s, dt, grid.dx),
                      m = 0.5 * (1 - theta) * grid.dx * grid.dx;
         ThetaUpdate update{
             FivePoint(g, dt, m, 0, 1, FivePoint::Of::increment),
@@ -70,7 +70,7 @@ std::unique_ptr<Scheme> theta_scheme(const Descriptor& descriptor, const Scene& 
     });
 }
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return theta_scheme(descriptor, scene, settings, rule_of<Rule>(settings));
 }
@@ -89,7 +89,7 @@ extern const Descriptor finite_difference_theta = {
     .represents = grid_features | Features(Feature::moving_body),
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule>,
+    .make = make<GradientRule>,
     .options = options,
     .approximates = grid_approximates,
     .limit = {"grid_limit", grid_margin}};

@@ -188,7 +188,7 @@ private:
     double F_e_ = 0, sum_ = 0;
 };
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
     const Weights w = weights_of(settings);
@@ -208,7 +208,7 @@ extern const Descriptor modal_generalised_alpha = {
     .represents = modal_features_of_points,
     .balance = Balance::none,
     .clock = Clock::stepped,
-    .make = made,
+    .make = make,
     .options = options,
     .approximates = modal_approximates_elastic,
     .stand_in_rank = 0};

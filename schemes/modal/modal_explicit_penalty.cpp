@@ -77,7 +77,7 @@ private:
     }
 };
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return driven(std::make_unique<PenalisedModes>(problem_of_modes(descriptor, scene, settings)),
                   descriptor, settings, rule_of<ExplicitRule>(settings));
@@ -94,7 +94,7 @@ extern const Descriptor modal_explicit_penalty = {
     .represents = modal_features_of_points,
     .balance = Balance::none,
     .clock = Clock::stepped,
-    .make = made,
+    .make = make,
     .options = options,
     .approximates = modal_approximates_elastic,
     .limit = {"penalty_limit", margin_of}};

@@ -19,7 +19,7 @@ double static_gain(double omega0, double sigma, double dt) {  // over dt^2/m
     return exact_step(omega0, sigma, dt).num / (omega0 * omega0 * dt * dt);
 }
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return driven(std::make_unique<ThreePointModes>(
                       problem_of_modes(descriptor, scene, settings, static_gain)),
@@ -34,7 +34,7 @@ extern const Descriptor modal_moreau_jean = {
     .represents = (modal_features_of_points - Feature::contact_loss) | any_rigid,
     .balance = Balance::none,
     .clock = Clock::stepped,
-    .make = made,
+    .make = make,
     .options = options,
     .approximates = MoreauJeanRule::approximates,
     .stand_in_rank = 0};

@@ -198,7 +198,7 @@ private:
     long step_ = 0;
 };
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return driven(std::make_unique<StretchingString>(
                       problem_of_modes(descriptor, scene, settings, impulse_gain)),
@@ -213,7 +213,7 @@ extern const Descriptor modal_tension = {
                   Feature::tension_modulation,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made,
+    .make = make,
     .stand_in_rank = 0};
 
 }  // namespace jvari

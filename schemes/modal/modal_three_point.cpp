@@ -12,7 +12,7 @@ namespace jvari {
 
 namespace {
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     matched_without_loss(descriptor, scene, settings);
     return driven(std::make_unique<ThreePointModes>(problem_of_modes(descriptor, scene, settings)),
@@ -27,7 +27,7 @@ const Descriptor modal_three_point = {
     .represents = modal_features_of_points | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule>,
+    .make = make<GradientRule>,
     .options = matched_options,
     .approximates = modal_approximates,
     .stand_in_rank = 0};

@@ -37,7 +37,7 @@ std::unique_ptr<Scheme> two_point_scheme(const Descriptor& descriptor, const Sce
         [&] { return TwoPointBody(scene.body->modes, 1 / settings.sample_rate, law); });
 }
 template <class Rule, TwoPointLaw law = exact_two_point>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return two_point_scheme(descriptor, scene, settings, law, rule_of<Rule>(settings));
 }
@@ -50,7 +50,7 @@ extern const Descriptor modal_two_point = {
     .represents = modal_features_of_points | Feature::moving_body | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule>,
+    .make = make<GradientRule>,
     .options = matched_options,
     .approximates = modal_approximates,
     .stand_in_rank = 2};
@@ -60,7 +60,7 @@ extern const Descriptor modal_two_point_trapezoidal = {
     .represents = modal_features_of_points | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule, trapezoidal>,
+    .make = make<GradientRule, trapezoidal>,
     .options = matched_options,
     .approximates = modal_approximates};
 

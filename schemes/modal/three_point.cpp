@@ -9,7 +9,7 @@
 
 namespace jvari {
 
-ThreePoint three_point(const Modes& modes, double dt, double told) {
+ThreePoint three_point(const Modes& modes, double dt, double exact_below) {
     ThreePoint c;
     c.gain = dt * dt / modes.mass;
     for (int j = 0; j < modes.count(); ++j) {
@@ -38,7 +38,7 @@ ThreePoint three_point(const Modes& modes, double dt, double told) {
             c.start.push_back(fallen + decay * sigma * dt);
             rate = 1 / dt;
         }
-        const bool exact = omega0 * dt < told && sigma * dt < 1;
+        const bool exact = omega0 * dt < exact_below && sigma * dt < 1;
         c.velocity.push_back(exact ? 0.5 * rate / decay : 0.0);
     }
     return c;

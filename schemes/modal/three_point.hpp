@@ -24,9 +24,9 @@ struct ThreePoint {
     int above_nyquist = 0;
 };
 
-// `told` bounds omega0 dt of the modes whose velocity is exact. Without contact: 0.95 pi. A contact
-// force drives a mode of high omega dt too hard by omega dt/sin(omega dt), which the centred
-// difference undoes and G does not: with contact pi/4.
-ThreePoint three_point(const Modes&, double dt, double told);
+// `exact_below` bounds omega0 dt of the modes whose velocity is exact. Without contact: 0.95 pi. A
+// contact force drives a mode of high omega dt too hard by omega dt/sin(omega dt), which the
+// centred difference undoes and G does not: with contact pi/4.
+ThreePoint three_point(const Modes&, double dt, double exact_below);
 
 }  // namespace jvari

@@ -79,13 +79,13 @@ public:
     std::vector<Fact> facts() const override {
         std::vector<Fact> all;
         if (!table_.facts) return all;
-        std::vector<jvari_fact> told(static_cast<std::size_t>(most_facts));
-        const std::int64_t count = table_.facts(state_, told.data(), most_facts);
+        std::vector<jvari_fact> reported(static_cast<std::size_t>(most_facts));
+        const std::int64_t count = table_.facts(state_, reported.data(), most_facts);
         if (count < 0)
-            throw BadScheme(told.front().name ? told.front().name
-                                              : "the scheme cannot tell its facts");
+            throw BadScheme(reported.front().name ? reported.front().name
+                                                  : "the scheme cannot tell its facts");
         for (const jvari_fact& f :
-             std::span(told).first(static_cast<std::size_t>(std::min(count, most_facts))))
+             std::span(reported).first(static_cast<std::size_t>(std::min(count, most_facts))))
             if (f.name) all.emplace_back(f.name, f.value, f.unit ? f.unit : "");
         return all;
     }

@@ -161,7 +161,7 @@ constexpr Approximation approximates[] = {sitar_damping, sitar_ignored_stiffness
                                           sitar_power_law};
 
 template <BridgeRule rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     Grid g;
     g.steps_per_row = steps_per_row(settings);
@@ -177,7 +177,7 @@ std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
 
 std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, const Scene& scene,
                                                   const Settings& settings) {
-    return made<BridgeRule::characteristic>(descriptor, scene, settings);
+    return make<BridgeRule::characteristic>(descriptor, scene, settings);
 }
 
 extern const Descriptor sitar_fdm = {
@@ -188,7 +188,7 @@ extern const Descriptor sitar_fdm = {
                   Features(Feature::initial_shape) | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
-    .make = made<BridgeRule::clamping>,
+    .make = make<BridgeRule::clamping>,
     .options = options,
     .approximates = approximates,
     .note =

@@ -352,7 +352,7 @@ constexpr Approximation approximates[] = {
     sitar_profile,
     sitar_power_law};
 
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     const std::string length = choice_option(settings, length_option);
     const std::string stiffness = choice_option(settings, stiffness_option);
@@ -397,7 +397,7 @@ extern const Descriptor sitar_waveguide = {
                   Features(Feature::initial_shape) | Feature::polarisation | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
-    .make = made,
+    .make = make,
     .options = options,
     .approximates = approximates,
     .note =

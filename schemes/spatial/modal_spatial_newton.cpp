@@ -60,7 +60,7 @@ std::unique_ptr<Scheme> spatial_scheme(const Descriptor& descriptor, const Scene
         [&] { return ThreePointBody(scene.body->modes, 1 / settings.sample_rate); });
 }
 template <class Rule>
-std::unique_ptr<Scheme> made(const Descriptor& descriptor, const Scene& scene,
+std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
     return spatial_scheme(descriptor, scene, settings, rule_of<Rule>(settings));
 }
@@ -73,7 +73,7 @@ extern const Descriptor modal_spatial_newton = {
     .represents = modal_features_of_points | Feature::moving_body | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
-    .make = made<GradientRule>,
+    .make = make<GradientRule>,
     .options = matched_options,
     .note =
         "But on a moving body several contact points only where each is a node of the grid, and a "

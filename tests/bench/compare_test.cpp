@@ -620,7 +620,7 @@ TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
     EXPECT_GE(left(truth.coarser.back()), bench::study::settled);
     for (std::size_t k = 0; k < truth.coarser.size(); ++k)
         EXPECT_EQ(truth.coarser[k].choice.settings.modes, 133 << k);
-    EXPECT_FALSE(says(truth.said, "too long"));
+    EXPECT_FALSE(says(truth.description, "too long"));
     // by the reference itself: what it leaves out is what it says, or less
     const auto finer = truth_of(2 * modes);
     const double is = relative_difference(truth.reference.run.trace.column(nut),
@@ -646,8 +646,8 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
     const bench::study::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
     const auto truth = bench::study::run_truth(plan.points.front().references, scene, 0, 1,
                                                bench::store::Listener());
-    EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.said;
-    EXPECT_TRUE(says(truth.said, "too long"));
+    EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.description;
+    EXPECT_TRUE(says(truth.description, "too long"));
 }
 
 TEST(Truth, AGivenNumberIsTakenWithItsHalfAndItsQuarterToTellWhatItLeavesOut) {
@@ -728,10 +728,10 @@ TEST(Truth, TheForceOfASharpCornerOnAStiffStringIsUnknown) {
     const bench::study::Plan plan = plan_for("free_string", {"modal_two_point"});
     const auto truth = bench::study::run_truth(plan.points.front().references, scene, 1024, 1,
                                                bench::store::Listener());
-    ASSERT_GE(truth.coarser.size(), 2u) << truth.said;
-    EXPECT_TRUE(std::isnan(truth.reference.trust.left_out[0][0])) << truth.said;
+    ASSERT_GE(truth.coarser.size(), 2u) << truth.description;
+    EXPECT_TRUE(std::isnan(truth.reference.trust.left_out[0][0])) << truth.description;
     EXPECT_LT(truth.reference.trust.left_out[1][0], 1e-3);  // its displacement is known
-    EXPECT_TRUE(says(truth.said, "smoothing")) << truth.said;
+    EXPECT_TRUE(says(truth.description, "smoothing")) << truth.description;
 }
 
 TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
@@ -912,9 +912,9 @@ TEST(Truth, OfMeasuredModesHasAllOfThemAndIsConfirmedByAnotherSolver) {
     const auto truth = bench::study::run_truth(references, scene, 0, 1, bench::store::Listener());
     EXPECT_EQ(truth.reference.choice.settings.modes, 200);
     EXPECT_EQ(truth.reference.choice.settings.options, OptionValues());
-    EXPECT_TRUE(says(truth.said, "200 modes, all that were measured: what lies above"))
-        << truth.said;
-    EXPECT_FALSE(says(truth.said, "too long")) << truth.said;
+    EXPECT_TRUE(says(truth.description, "200 modes, all that were measured: what lies above"))
+        << truth.description;
+    EXPECT_FALSE(says(truth.description, "too long")) << truth.description;
     EXPECT_EQ(truth.reference.trust.against, "sundials");
     EXPECT_GT(truth.reference.trust.of_scene(0, 2), 0);
     EXPECT_LT(truth.reference.trust.of_scene(0, 2), 1e-6);

@@ -39,7 +39,7 @@ Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
     std::normal_distribution<double> normal;
     Folder f;
     f.name = "made up";
-    f.made.cpu = cpu;
+    f.provenance.cpu = cpu;
     for (int s = 0; s < schemes; ++s)
         for (int r = 0; r < rates; ++r) {
             std::vector<double> samples;

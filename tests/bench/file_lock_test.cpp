@@ -66,13 +66,13 @@ TEST(FileLock, SaysWhoHoldsItAndWhatForAndGoesWithItsHolder) {
     const Scratch scratch;
     {
         const FileLock lock(scratch / "a", "makes it");
-        EXPECT_TRUE(lock.held());
+        EXPECT_TRUE(lock.locked());
         char host[256] = "";
         gethostname(host, sizeof host - 1);
         // in one process, too
         const FileLock second(scratch / "a", "makes it", false);
         EXPECT_TRUE(second.elsewhere());
-        EXPECT_FALSE(second.held());
+        EXPECT_FALSE(second.locked());
         struct Ear : bench::store::Listener {
             mutable std::string last;
             struct Line : bench::store::Progress {
@@ -91,12 +91,12 @@ TEST(FileLock, SaysWhoHoldsItAndWhatForAndGoesWithItsHolder) {
         EXPECT_THROW(bench::store::lock_of(scratch / "a", "makes it", ear), std::runtime_error);
         EXPECT_EQ(ear.last, "0 of 1, waiting for process " + std::to_string(getpid()) + " on " +
                                 host + ", which makes it");
-        EXPECT_TRUE(FileLock(scratch / "b", "").held());
+        EXPECT_TRUE(FileLock(scratch / "b", "").locked());
     }
     EXPECT_EQ(scratch.files(), 0);
     // what lies there says nothing about who holds it
     std::ofstream(scratch / "a.lock") << "\033[2Jsomebody\n";
-    EXPECT_TRUE(FileLock(scratch / "a", "").held());
+    EXPECT_TRUE(FileLock(scratch / "a", "").locked());
 }
 
 TEST(FileLock, OfAProcessThatIsKilledIsFreeAtOnce) {
@@ -107,7 +107,7 @@ TEST(FileLock, OfAProcessThatIsKilledIsFreeAtOnce) {
               }),
               SIGKILL);
     ASSERT_TRUE(std::filesystem::exists(scratch / "a.lock"));
-    EXPECT_TRUE(FileLock(scratch / "a", "").held());
+    EXPECT_TRUE(FileLock(scratch / "a", "").locked());
     EXPECT_EQ(scratch.files(), 0);
 }
 
@@ -139,8 +139,8 @@ TEST(FileLock, IsNoneWhereNoneCanBeAndNothingWaits) {
     ASSERT_EQ(mkfifo((scratch / "pipe.lock").c_str(), 0600), 0);
     EXPECT_EQ(status_of_child([&] {
                   for (const char* name : {"link", "folder", "pipe", "no/such/folder"})
-                      if (FileLock(scratch / name, "").held()) return 1;
-                  return FileLock("", "").held() ? 1 : 0;
+                      if (FileLock(scratch / name, "").locked()) return 1;
+                  return FileLock("", "").locked() ? 1 : 0;
               }),
               0);
     EXPECT_EQ(content(scratch / "target"), "as it was");

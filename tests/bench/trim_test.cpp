@@ -116,7 +116,7 @@ TEST(Judge, KeepsWhatIsListenedTo) {
         const bool loss = x.part == Part::damping || x.part == Part::damping_term;
         EXPECT_EQ(judge.may_go(k), !loss && x.key != "tap.thread" && x.part != Part::thread &&
                                        x.part != Part::barrier)
-            << x.said();
+            << x.description();
     }
     r.tap = "nuts";
     EXPECT_THROW(trim::Judge(r, catalogue(), silent), store::UsageError);
@@ -153,7 +153,7 @@ TEST(Judge, KeepsThreadAndBarriersWhereTheirForcesAreListenedTo) {
             if (const Reduction& x = judge.reductions()[k];
                 x.part == Part::thread || x.part == Part::barrier) {
                 EXPECT_EQ(judge.may_go(k), quantity == std::string("nut_force"))
-                    << quantity << " without " << x.said();
+                    << quantity << " without " << x.description();
                 ++parts;
             }
         EXPECT_EQ(parts, 2);
@@ -188,7 +188,7 @@ TEST_P(NothingIsCheaper, OnAGridByMoreThanAFifth) {
     const trim::Path path = trim::search(
         judge, {&catalogue().find("modal_two_point"), &catalogue().find("modal_quadratised")}, {0},
         silent);
-    ASSERT_TRUE(path.found);
+    ASSERT_TRUE(path.within_tolerance);
     const trim::Step& last = path.steps.back();
     EXPECT_LE(last.error, judge.target().most);
     const Cheapest left = of_grid(judge, last.model.left_out), whole = of_grid(judge, {});
@@ -226,7 +226,7 @@ TEST(Search, IsWithinAtEachStepWhichSavesAndKeepsNothingThatWouldSave) {
     trim::Judge judge(request("tanpura_c3_release", "5%"), catalogue(), silent, counted);
     const trim::Path path =
         trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent);
-    ASSERT_TRUE(path.found);
+    ASSERT_TRUE(path.within_tolerance);
     const trim::Step& last = path.steps.back();
     EXPECT_EQ(judge.scene_of(last.model).taps.size(), 1u);
     for (std::size_t k = 1; k < path.steps.size(); ++k) {
@@ -245,7 +245,7 @@ TEST(Search, IsWithinAtEachStepWhichSavesAndKeepsNothingThatWouldSave) {
         if (judge.scene_of(m) == judge.scene_of(last.model)) continue;  // it went with another
         EXPECT_FALSE(judge.cost(m) <= trim::worth * last.cost &&
                      judge.within(judge.judged(m, 0), 0))
-            << r.said();
+            << r.description();
     }
 }
 
@@ -277,11 +277,11 @@ TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
                              "modal_quadratised", "modal_two_point"})
         any.push_back(&catalogue().find(name));
     const trim::Path path = trim::search(judge, any, {0}, silent);
-    ASSERT_TRUE(path.found);
+    ASSERT_TRUE(path.within_tolerance);
     double cheapest = HUGE_VAL;
     for (const Descriptor* d : any) {
         const trim::Path alone = trim::search(judge, {d}, {0}, silent);
-        if (alone.found) {
+        if (alone.within_tolerance) {
             cheapest = std::min(cheapest, alone.steps.back().cost);
             continue;
         }
@@ -335,7 +335,7 @@ TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {
     r.options = {{"", "compliance", "own"}};
     trim::Judge judge(r, catalogue(), silent, counted);
     const trim::Path path = trim::search(judge, {&d}, {0}, silent);
-    ASSERT_TRUE(path.found);
+    ASSERT_TRUE(path.within_tolerance);
     for (std::size_t k = 1; k < path.steps.size(); ++k)
         EXPECT_EQ(path.steps[k].model.settings.options, (OptionValues{{"compliance", "own"}}))
             << path.steps[k].change;
@@ -350,11 +350,11 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     r.scheme = "modal_two_point";
     trim::Judge judge(r, catalogue(), silent, counted);
     const trim::Path by_one = trim::search(judge, {&catalogue().find(r.scheme)}, {0}, silent);
-    ASSERT_TRUE(by_one.found);
+    ASSERT_TRUE(by_one.within_tolerance);
     ASSERT_FALSE(judge.within(judge.judged(by_one.steps.back().model, 1), 1))
         << "another tolerance is needed for this test";
     const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
-    ASSERT_TRUE(t.path.found);
+    ASSERT_TRUE(t.path.within_tolerance);
     ASSERT_GT(t.independent(), 0);
     ASSERT_EQ(t.verified.size(), static_cast<std::size_t>(trim::starts));
     EXPECT_TRUE(t.verified[0].judged_by && t.verified[1].judged_by);
@@ -393,7 +393,7 @@ TEST(Trim, WritesASceneThatIsReadWhateverItsNameHolds) {
     r.scheme = "modal_two_point";
     trim::Judge judge(r, catalogue(), silent, counted);
     const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
-    ASSERT_TRUE(t.path.found);
+    ASSERT_TRUE(t.path.within_tolerance);
     const Scene back = parse_scene(trim::trimmed_toml(t, judge), "trimmed.toml");
     EXPECT_EQ(back.name, scene.name + "_trimmed");
     EXPECT_EQ(back.strings, t.scene.strings);
@@ -411,14 +411,14 @@ TEST(Trim, IsTakenUpWhereItWasStoppedAndVerifiedByAnotherStart) {
     for (int k = 0; k < 2; ++k) {
         trim::Judge judge(r, catalogue(), silent, counted);
         const trim::Trimmed t = trim::trimmed(judge, r, catalogue(), silent);
-        ASSERT_TRUE(t.path.found);
+        ASSERT_TRUE(t.path.within_tolerance);
         ASSERT_GE(t.verified.size(), 2u);
         EXPECT_TRUE(t.verified.back().within);
         const std::string toml = trim::trimmed_toml(t, judge);
         const Scene back = parse_scene(toml, "trimmed.toml");
         EXPECT_EQ(back.strings, t.scene.strings);
         for (const int part : t.last().model.left_out)
-            EXPECT_TRUE(says(toml, judge.reductions()[part].said()));
+            EXPECT_TRUE(says(toml, judge.reductions()[part].description()));
         EXPECT_TRUE(says(toml, trim::command_of(t, "trimmed.toml")));
         EXPECT_EQ(trim::path_table(t, judge).rows.size(), t.path.steps.size());
         if (k == 0) first = trim::command_of(t, "");

@@ -14,7 +14,7 @@ using namespace jvari;
 namespace {
 const Reduction& named(const std::vector<Reduction>& all, const std::string& said) {
     const auto found =
-        std::ranges::find_if(all, [&](const Reduction& r) { return r.said() == said; });
+        std::ranges::find_if(all, [&](const Reduction& r) { return r.description() == said; });
     if (found == all.end()) throw std::runtime_error("no reduction " + said);
     return *found;
 }
@@ -26,10 +26,11 @@ TEST(Reductions, EachOfEveryLibrarySceneChangesItAndLeavesAScene) {
         for (const Reduction& r : reductions_of(whole)) {
             Scene left = whole;
             r.apply(left);
-            EXPECT_NE(left, whole) << name << ": " << r.said();
+            EXPECT_NE(left, whole) << name << ": " << r.description();
             remove_idle_taps(left);
-            EXPECT_NO_THROW(validate(left)) << name << ": " << r.said();
-            EXPECT_TRUE(said.insert(r.said()).second) << name << ": " << r.said() << " comes twice";
+            EXPECT_NO_THROW(validate(left)) << name << ": " << r.description();
+            EXPECT_TRUE(said.insert(r.description()).second)
+                << name << ": " << r.description() << " comes twice";
         }
     }
 }
@@ -71,7 +72,8 @@ TEST(Reductions, ATermOfALawGoesAloneAndALawOfOneTermGoesWhole) {
     EXPECT_GT(law.sigma0, 0);
     named(reductions_of(s), "string.0.damping.sigma3 = 0").apply(s);
     // sigma0 alone is left
-    for (const Reduction& r : reductions_of(s)) EXPECT_NE(r.part, Part::damping_term) << r.said();
+    for (const Reduction& r : reductions_of(s))
+        EXPECT_NE(r.part, Part::damping_term) << r.description();
     EXPECT_NO_THROW(named(reductions_of(s), "string.0.damping left out"));
 }
 

@@ -35,7 +35,7 @@ function convergence_spec(choice, print) {
     names = in_order(all.map(p => p.series)),
     {color, shape, strokeDash} = encodings_of(names);
   for (const p of all)
-    p.told = told([
+    p.tooltip = tooltip([
       ["scheme", spoken(p.series)],
       ["rate", p.label],
       ["error", error_text(p.y, error)],
@@ -43,11 +43,11 @@ function convergence_spec(choice, print) {
     ]);
   const ends = names
     .map(name => all.filter(p => p.series === name).reduce((a, b) => (b.rate > a.rate ? b : a)))
-    .filter(p => p.told.order && !p.control)
+    .filter(p => p.tooltip.order && !p.control)
     .sort((a, b) => a.y - b.y);
   const labels = ends
     .filter((p, k) => k === 0 || p.y > 1.15 * ends[k - 1].y)
-    .map(p => ({rate: p.rate, y: p.y, text: p.told.order.split(" ")[0]}));
+    .map(p => ({rate: p.rate, y: p.y, text: p.tooltip.order.split(" ")[0]}));
   const shown = all.filter(p => p.y < 1),
     from = Math.min(...shown.map(p => p.rate)),
     to = Math.max(...shown.map(p => p.rate)),
@@ -247,7 +247,7 @@ function sweep_chart(key, keys) {
     ).filter(p => p.status === "ok" && p.y > 0);
     for (const p of all) Object.assign(p, {at: place.get(p.n).at, others: place.get(p.n).others});
     for (const p of all)
-      p.told = told([
+      p.tooltip = tooltip([
         ["scheme", spoken(p.series)],
         [with_unit(key), digits(p.at, 6)],
         ["at", p.others],
@@ -342,7 +342,7 @@ function dispersion_spec(choice, print) {
       frequency_hz: d.frequency_hz,
       own: d.own[of] === null ? null : size(d.own[of]),
       trace: d.trace[of] === null ? null : size(d.trace[of]),
-      told: told([
+      tooltip: tooltip([
         ["scheme", spoken(d.series)],
         ["mode", d.mode],
         ["frequency", `${digits(d.frequency_hz, 7)} Hz`],

@@ -285,11 +285,11 @@ const brought_out = {
   value: 0.1,
 };
 // What hovering shows: what has a value, each under its name.
-const told = pairs =>
+const tooltip = pairs =>
   Object.fromEntries(
     pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined),
   );
-const hover = {tooltip: {field: "told", type: "nominal"}};
+const hover = {tooltip: {field: "tooltip", type: "nominal"}};
 // By wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set the
 // signals zoom_FIELD.
 const zoomed = (...channels) => ({

@@ -74,7 +74,7 @@ function map_rows(name) {
       upper,
       outcome: r.outcome,
       detail: r.detail,
-      told: told([
+      tooltip: tooltip([
         ["scheme", spoken(r.series)],
         [x.title, r.x],
         [y.title, r.y],
@@ -252,7 +252,7 @@ function overview_spec(choice, print) {
   const values = shares().map(s => ({
     ...s,
     share: (100 * s.sound) / s.runs,
-    told: told([
+    tooltip: tooltip([
       ["scheme", spoken(s.series)],
       ["map", s.map],
       ["sound runs", `${s.sound} of ${s.runs}`],
@@ -361,7 +361,7 @@ function path_spec(choice, print) {
     cost_before: k ? number(all[k - 1].cost_s_per_s) : null,
     error: number(r.error),
     target: number(r.target),
-    told: told([
+    tooltip: tooltip([
       ["", r.change],
       ["scheme", spoken(variant(r))],
       ["modes", r.modes],

@@ -70,7 +70,7 @@ function points_of(rows, error, cost, series = "series") {
       may_win: c.may_win,
       control: looks.get(c.series).control,
       order: finite(Number.isNaN(rate) ? modes : differ ? x : rate),
-      told: told([
+      tooltip: tooltip([
         ["scheme", spoken(c.series)],
         ["rate", kilohertz(rate)],
         ["modes", c.modes],

@@ -79,7 +79,7 @@ FileLock::FileLock(const fs::path& file, const std::string& doing, bool wait)
         Wait::sleep(pause, who + ", which " + doing);
         pause = std::min(2 * pause, longest);
     }
-    if (!held()) return;
+    if (!locked()) return;
     const std::string who = own_name();
     // a full disk: it holds without a name
     if (ftruncate(file_, 0) != 0 || pwrite(file_, who.data(), who.size(), 0) < 0) errno = 0;
@@ -87,7 +87,7 @@ FileLock::FileLock(const fs::path& file, const std::string& doing, bool wait)
 }
 
 FileLock::~FileLock() {
-    if (!held()) return;
+    if (!locked()) return;
     removed_too_.reset();
     unlink(path_.c_str());
     close(file_);

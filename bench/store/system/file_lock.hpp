@@ -3,8 +3,9 @@
 // systems ask their server for it, and it holds between threads as well.
 //
 // No two can wait for each other: who waits for a lock holds none but of an earlier kind in this
-// order: the tables of a folder, a certificate, the costs of a folder, a boundary or a failure of a map, a reference of a
-// study, a reference of the user's cache, a job. The holder of a job waits for nothing.
+// order: the tables of a folder, a certificate, the costs of a folder, a boundary or a failure of a
+// map, a reference of a study, a reference of the user's cache, a job. The holder of a job waits
+// for nothing.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +30,7 @@ public:
     ~FileLock();
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
-    bool held() const { return file_ >= 0; }
+    bool locked() const { return file_ >= 0; }
     bool elsewhere() const { return elsewhere_; }
 
 private:

@@ -57,7 +57,7 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 
 // In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for
 // one, and a pass waits for its loads.
-HWY_INLINE V held(V v) {
+HWY_INLINE V in_register(V v) {
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     asm("" : "+v"(v.raw));
 #endif
@@ -85,11 +85,11 @@ HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
         V forced = hn::Zero(d), g_b{}, g_c{};
         if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
         if constexpr (thread) {
-            g_c = held(hn::Load(d, of(Column::g_c)));
+            g_c = in_register(hn::Load(d, of(Column::g_c)));
             forced = pluck ? hn::MulAdd(g_c, fc, forced) : hn::Mul(g_c, fc);
         }
         if constexpr (barrier) {
-            g_b = held(hn::Load(d, of(Column::g_b)));
+            g_b = in_register(hn::Load(d, of(Column::g_b)));
             forced = hn::MulAdd(g_b, fb, forced);
         }
         const V s = hn::Add(u0, forced);  // (41)
