@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "bench/command/console.hpp"
-#include "bench/command/program.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"

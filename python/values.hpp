@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/compare/request.hpp"
+#include "bench/compare/catalogue.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"

@@ -44,4 +44,9 @@ private:
     bool json_, quiet_;
 };
 
+// ---- The program: reads its arguments and does what they ask for.
+
+// Returns the exit code, or throws: UsageError, BadScene, SceneFileError (2), Refusal (3).
+int call(int argc, const char* const* argv);
+
 }  // namespace jvari::bench::command

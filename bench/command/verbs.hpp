@@ -2,9 +2,83 @@
 // and what it does with them.
 #pragma once
 
-#include "bench/command/arguments.hpp"
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/compare/catalogue.hpp"
 
 namespace jvari::bench::command {
+
+// ---- The arguments of a verb: those that several verbs have, and what the text of one may be.
+
+struct Common {
+    bool json = false, quiet = false;
+};
+struct Running : Common {  // of a verb that runs schemes
+    std::vector<std::string> plugins;
+};
+
+struct Value {  // of an option: what help calls it, and what it may be
+    const char* type;
+    CLI::Validator check = {};
+};
+// A number > 0; a whole one; one that may be 0; then such that may have a unit behind them: the
+// text becomes the number in SI units.
+extern const Value positive, counting, counting_or_0, hertz, seconds, metres;
+
+// Runs a verb once its arguments are read, and returns the exit code of the program.
+// Throws UsageError, BadScene, SceneFileError (2), Refusal (3).
+using Act = std::function<int()>;
+
+class Arguments {
+public:
+    explicit Arguments(CLI::App& verb) : verb_(verb) {}
+    template <class T>
+    CLI::Option* option(const char* name, T& to, const Value& value, const std::string& help) {
+        return verb_.add_option(name, to, help)->type_name(value.type)->transform(value.check);
+    }
+    void flag(const char* name, bool& to, const char* help) { verb_.add_flag(name, to, help); }
+
+    void common(Common&);
+    void common(Running&);
+    void scene(std::string&);
+    void set(std::vector<std::string>&);
+    void modes(int&);
+    void options(std::vector<std::string>&);
+    void jobs(int&);
+    void duration(std::optional<double>&);
+    void schemes(std::vector<std::string>&, const char* help);
+    void comparison_folder(std::string&);
+
+protected:
+    CLI::App& verb_;
+};
+
+template <class Request>
+class Verb : public Arguments {
+    const std::shared_ptr<Request> request_ = std::make_shared<Request>();
+
+public:
+    Verb(CLI::App& program, const char* name, const char* about)
+        : Arguments(*program.add_subcommand(name, about)) {}
+    Request& r = *request_;  // the arguments; an `act` gets them once they are read
+    Act does(int (*act)(Request), const char* footer) {
+        common(r);
+        verb_.footer(footer);
+        return [request = request_, act] { return act(*request); };
+    }
+};
+
+std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts);
+// Each value of a list for itself; UsageError where an option is named twice.
+std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts);
+
+// ---- The verbs
 
 Act new_verb(CLI::App& program);
 Act list_verb(CLI::App& program);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/request.hpp"
 #include "bench/study/job.hpp"
 
 namespace jvari::bench::compare {

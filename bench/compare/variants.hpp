@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/compare/request.hpp"
+#include "bench/compare/catalogue.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari::bench::compare {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/store/folder.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::diff {

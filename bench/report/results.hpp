@@ -10,7 +10,7 @@
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/sound.hpp"
-#include "bench/study/spectrogram_levels.hpp"
+#include "bench/study/record.hpp"
 
 namespace jvari::bench::report {
 

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include "bench/store/json.hpp"
+#include "bench/store/usage.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari::bench::store {
@@ -155,6 +158,39 @@ nlohmann::ordered_json rows_json(const Table& table) {
         rows.push_back(std::move(j));
     }
     return rows;
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+[[noreturn]] void refuse(const Folder& folder, const std::string& file, const char* why) {
+    throw UsageError(fmt::format("{}/{}: {}", folder.path.string(), file, why));
+}
+
+std::optional<std::string> content(const fs::path& file) {  // nothing where there is none
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return std::nullopt;
+    return read_whole(file);
+}
+}  // namespace
+
+nlohmann::ordered_json Folder::manifest() const {
+    const auto text = content(path / "manifest.json");
+    if (!text)
+        throw UsageError(path.string() +
+                         ": no manifest.json, expected a folder that compare, suite or trim wrote");
+    try {
+        auto m = parsed(*text);
+        return m.is_object() ? m : throw std::runtime_error("it holds no object");
+    } catch (const std::exception& e) { refuse(*this, "manifest.json", e.what()); }
+}
+
+Table Folder::table(const std::string& file) const {
+    const auto text = content(path / (file + ".csv"));
+    if (!text) return {};
+    try {
+        return read_csv(as_utf8(*text));
+    } catch (const std::exception& e) { refuse(*this, file + ".csv", e.what()); }
 }
 
 }  // namespace jvari::bench::store

@@ -3,6 +3,7 @@
 // apostrophe in front in the file; so has one that begins with an apostrophe.
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -42,5 +43,14 @@ nlohmann::ordered_json rows_json(const Table&);  // one object per row, numbers 
 std::string csv(const Table&);
 // throws std::runtime_error with the line where a row has too few or too many fields
 Table read_csv(const std::string& text);
+
+// A folder of results: its manifest and its tables. What cannot be read throws UsageError with the
+// folder's name, the file and why.
+struct Folder {
+    std::filesystem::path path;
+
+    nlohmann::ordered_json manifest() const;
+    Table table(const std::string& file) const;  // FILE.csv; empty where there is none
+};
 
 }  // namespace jvari::bench::store

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "bench/store/records.hpp"
-#include "bench/store/system/time_limit.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 #include "schemes/run.hpp"

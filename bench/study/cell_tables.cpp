@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/store/folder.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/cells.hpp"
 

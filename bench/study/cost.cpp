@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bench/store/json.hpp"
-#include "bench/store/system/time_limit.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::study {

@@ -5,14 +5,30 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bench/store/records.hpp"
 #include "bench/study/cell.hpp"
-#include "bench/study/spectrogram_levels.hpp"
 #include "bench/trust/certificate_library.hpp"
 
 namespace jvari::bench::study {
+
+// A spectrogram made coarse enough to be drawn: the strongest bin in each row of frequency, frame
+// by frame.
+struct Levels {
+    int frames = 0, rows = 0;
+    double start = 0, hop = 0;  // of the first frame's left edge, from frame to frame [s]
+    double row_hz = 0;
+    // frames x rows, tenths of a decibel re the unit squared; -4000 and below is silence
+    std::vector<int> level;
+};
+constexpr int silent_level = -4000;  // [0.1 dB]
+
+// At most 60 frames of 46 ms (Hann; shorter where the signal is) and 100 rows; none for fewer than
+// 64 rows of signal.
+Levels levels_of(std::span<const double> signal, double rate);
 
 struct Against {            // what a cell was measured against
     std::string reference;  // its name, "" where there is none: then the rest is empty

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <span>
 
+#include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/store/system/time_limit.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/trust/kept_run.hpp"
 #include "reference/references.hpp"

@@ -9,8 +9,8 @@
 
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/store/system/time_limit.hpp"
 #include "bench/study/cost.hpp"
 #include "scenes/excitation.hpp"
 

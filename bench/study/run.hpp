@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/store/system/listener.hpp"
-#include "bench/study/references.hpp"
+#include "bench/study/job.hpp"
 
 namespace jvari::bench::study {
 

@@ -8,7 +8,7 @@
 
 #include "analysis/error.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/system/time_limit.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
 #include "reference/profile_points.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/request.hpp"
 #include "bench/store/keys.hpp"
 #include "bench/study/job.hpp"
 #include "scenes/scene.hpp"

@@ -9,7 +9,7 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/system/time_limit.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/study/cost.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"

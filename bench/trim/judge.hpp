@@ -17,7 +17,6 @@
 
 #include "analysis/statistics.hpp"
 #include "bench/compare/catalogue.hpp"
-#include "bench/compare/request.hpp"
 #include "bench/study/judgement.hpp"
 #include "bench/study/run.hpp"
 #include "scenes/reduction.hpp"

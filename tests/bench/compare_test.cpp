@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "bench/compare/bound.hpp"
+#include "bench/compare/compare.hpp"
 #include "bench/compare/compare_plan.hpp"
-#include "bench/compare/needed_cells.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/study/cell.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "analysis/energy.hpp"
-#include "bench/store/system/time_limit.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/study/judgement.hpp"
 #include "bench/study/run.hpp"
 #include "bench/trust/certificate_library.hpp"

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "bench/store/system/interruption.hpp"
-#include "bench/store/system/time_limit.hpp"
 
 namespace jvari::bench::store {
 

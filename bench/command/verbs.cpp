@@ -1,4 +1,4 @@
-#include "bench/command/arguments.hpp"
+#include "bench/command/verbs.hpp"
 
 #include <fmt/core.h>
 
