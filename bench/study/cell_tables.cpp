@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bench/store/records.hpp"
@@ -204,6 +205,11 @@ void fill(TabledCell& c, const store::Table& t, std::size_t row) {
     }
 }
 
+bool is_swept(const std::string& column) {  // of those between scene and scheme
+    return column != "cell" && !column.starts_with("fact_") &&
+           std::ranges::find(columns(), column, &Column::name) == columns().end();
+}
+
 Cells cells_in(const store::Table& facts) {
     Cells cells(facts.rows.size());
     const int from = facts.column("scene"), to = facts.column("scheme");
@@ -212,11 +218,12 @@ Cells cells_in(const store::Table& facts) {
         c.cell = facts.at(i, "cell");
         fill(c, facts, i);
         for (int k = from + 1; from >= 0 && k < to; ++k)
-            if (!facts.rows[i][k].empty()) c.swept.emplace_back(facts.columns[k], facts.rows[i][k]);
+            if (!facts.rows[i][k].empty() && is_swept(facts.columns[k]))
+                c.swept.emplace_back(facts.columns[k], facts.rows[i][k]);
         for (std::size_t k = 0; k < facts.columns.size(); ++k)
-            if (facts.columns[k].starts_with("fact_") && !facts.rows[i][k].empty())
-                c.facts.emplace_back(facts.columns[k].substr(5),
-                                     store::number_of(facts.rows[i][k]));
+            if (const double x = store::number_of(facts.rows[i][k]);
+                facts.columns[k].starts_with("fact_") && !std::isnan(x))
+                c.facts.emplace_back(facts.columns[k].substr(5), x);
     }
     return cells;
 }
@@ -231,7 +238,12 @@ Cells read_cells(const std::filesystem::path& path, bool whole) {
             path.string() + "/facts.csv: it has no row below its header; make the results again");
     Cells cells = cells_in(facts);
     std::map<std::string, TabledCell*> named;
-    for (TabledCell& c : cells) named[c.cell] = &c;
+    for (TabledCell& c : cells)
+        if (!named.emplace(c.cell, &c).second)
+            throw store::UsageError(
+                fmt::format("{}/facts.csv: row {}: found the cell {} for the second time, expected "
+                            "one row per cell",
+                            path.string(), &c - cells.data() + 1, c.cell));
     const auto refuse = [&path](const char* file, const std::string& cell) {
         throw store::UsageError(fmt::format("{}/{}: found the cell {}, which facts.csv has not",
                                             path.string(), file, cell));
