@@ -231,7 +231,16 @@ Cells cells_in(const store::Table& facts) {
 
 Cells read_cells(const std::filesystem::path& path, bool whole) {
     const store::Folder folder{path};
-    const store::Table facts = folder.table("facts");
+    const auto with = [&](const char* name, std::initializer_list<const char*> columns) {
+        const store::Table t = folder.table(name);
+        for (const char* column : columns)
+            if (!t.columns.empty() && t.column(column) < 0)
+                throw store::UsageError(
+                    fmt::format("{}/{}.csv: found no column {}; make the results again",
+                                path.string(), name, column));
+        return t;
+    };
+    const store::Table facts = with("facts", {"cell", "scheme", "rate", "status", "flags"});
     if (facts.columns.empty()) return {};
     if (facts.rows.empty())
         throw store::UsageError(
@@ -248,7 +257,8 @@ Cells read_cells(const std::filesystem::path& path, bool whole) {
         throw store::UsageError(fmt::format("{}/{}: found the cell {}, which facts.csv has not",
                                             path.string(), file, cell));
     };
-    const store::Table errors = folder.table("errors"), cost = folder.table("cost");
+    const store::Table errors = with("errors", {"cell", "tap", "measure", "value", "floor"}),
+                       cost = with("cost", {"cell", "scheme", "rate"});
     for (std::size_t i = 0; i < errors.rows.size(); ++i) {
         const auto found = named.find(errors.at(i, "cell"));
         if (found == named.end()) refuse("errors.csv", errors.at(i, "cell"));

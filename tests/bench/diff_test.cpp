@@ -334,6 +334,11 @@ TEST(Diff, RefusesBadFolders) {
               "mkdir x; echo '{}' >x/manifest.json; printf 'a,b\\n1\\n' >x/facts.csv; $J diff x x")
             .code,
         2);
+    EXPECT_TRUE(ends(shell(scratch,
+                           "mkdir y; echo '{}' >y/manifest.json; printf "
+                           "'cell,scheme,rate,status\\na,x,1,ok\\n' >y/facts.csv; "
+                           "$J diff y y"),
+                     2, "facts.csv: found no column flags"));
     EXPECT_EQ(shell(scratch, "$J diff x").code, 2);
     EXPECT_EQ(
         jvari(scratch, "diff " JVARI_SOURCE "/results/smoke " JVARI_SOURCE "/results/stability")
@@ -365,11 +370,11 @@ TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
         shell(scratch,
               "make() {\n"
               "    mkdir $1; cd $1; echo '{}' >manifest.json; shift\n"
-              "    echo cell,scheme,rate,status,headline_nut >facts.csv\n"
-              "    echo cell,tap,measure,value >errors.csv\n"
+              "    echo cell,scheme,rate,status,flags,headline_nut >facts.csv\n"
+              "    echo cell,tap,measure,value,floor >errors.csv\n"
               "    for cell; do\n"
-              "        echo ${cell%=*},${cell%=*},1,ok,nut >>facts.csv\n"
-              "        echo ${cell%=*},nut,error_l2_50ms,${cell#*=} >>errors.csv\n"
+              "        echo ${cell%=*},${cell%=*},1,ok,,nut >>facts.csv\n"
+              "        echo ${cell%=*},nut,error_l2_50ms,${cell#*=}, >>errors.csv\n"
               "    done; cd ..\n"
               "}\n"
               "make both a=0.1 b=0.1; make one a=0.1; make empty a= b=nan\n"

@@ -68,7 +68,7 @@ TEST(Report, AFolderWithoutResultsIsRefused) {
 
 TEST(Report, ATableThatWasCutAfterItsHeaderIsRefusedAndThePageStays) {
     const MadeUp folder({"manifest.json", "maps.csv"});
-    std::ofstream(folder / "facts.csv") << "scheme,rate\n";
+    std::ofstream(folder / "facts.csv") << "cell,scheme,rate,status,flags\n";
     std::ofstream(folder / "report.html") << "the page";
     EXPECT_TRUE(ends(jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere"),
                      2, "facts.csv: it has no row"));
