@@ -45,7 +45,7 @@ unseen "grids see contacts and the seam" "$(schemes 'modal|spatial|sitar')" $(fi
 unseen "sitars see contacts and the seam" "$(schemes 'modal|spatial|grid')" $(files schemes/sitar)
 above=
 # each room of bench sees itself and those after it here
-for room in command report trim check suite diff judge compare study trust store; do
+for room in command report trim check suite diff judge compare study store; do
     [ -z "$above" ] || unseen "bench/$room sees nothing of the rooms above it" "bench/($above)/" \
         $(files bench/$room)
     above=${above:+$above|}$room
@@ -63,7 +63,7 @@ unseen "the page's module sees the core and no room of bench" 'bench/' $(files w
 unseen "nothing sees the page's module" 'web/' $(files $engine bench python)
 unseen "the Python module sees the engine, not the command line" 'bench/command/' $(files python)
 unseen "the engine sees no Python" 'python/' $(files $engine bench)
-unseen "store and trust measure nothing" 'analysis/' $(files bench/store bench/trust)
+unseen "the store measures nothing" 'analysis/' $(files bench/store)
 unseen "analysis never sees which scheme made a trace" \
     'schemes/[^tr]|schemes/t[^r]|schemes/r[^u]|reference/|bench/' $(files analysis)
 # Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the

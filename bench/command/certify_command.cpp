@@ -17,15 +17,15 @@
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/trust/certificate_library.hpp"
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/certificate_library.hpp"
+#include "bench/study/kept_run.hpp"
 
 namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-using trust::Certificate;
+using study::Certificate;
 
 struct CertifyRequest : Running {
     std::string scene, out;
@@ -47,8 +47,8 @@ fs::path path_for(const CertifyRequest& r, const Scene& scene) {
     const fs::path folder = "results/certificates";
     store::make_folder(folder);
     return folder /
-           (trust::file_stem(scene.name) +
-            (r.set.empty() ? "" : "-" + trust::timeless_hash(scene).substr(0, 8)) + ".json");
+           (study::file_stem(scene.name) +
+            (r.set.empty() ? "" : "-" + study::timeless_hash(scene).substr(0, 8)) + ".json");
 }
 
 std::string entries_text(const Certificate& c) {
@@ -173,17 +173,17 @@ int certify_command(CertifyRequest r) {
     if (scene.duration * tap_rate * static_cast<double>(scene.taps.size()) > 1e8)
         throw store::UsageError(
             fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, tap_rate));
-    Certificate c = trust::certificate_plan(scene, {r.modes, tap_rate});
+    Certificate c = study::certificate_plan(scene, {r.modes, tap_rate});
     const fs::path path = path_for(r, scene);
     store::must_be_writable(path);
-    store::must_be_writable(trust::cost_path(path));
+    store::must_be_writable(study::cost_path(path));
 
     bool cached = false;
     std::error_code error;
     // another process may be making the same
     const auto lock = store::lock_of(path, "makes " + path.string(), console);
     if (fs::exists(path, error)) {
-        auto found = trust::read_certificate(path);
+        auto found = study::read_certificate(path);
         if (found && covers_more(*found, c))
             throw store::UsageError(fmt::format(
                 "{} covers more of this scene than is asked for: {:g} s against {:g} s; it is "
@@ -200,9 +200,9 @@ int certify_command(CertifyRequest r) {
                                            "flags, vector instructions)"));
     }
     if (cached) {
-        trust::read_costs(path, c);
+        study::read_costs(path, c);
     } else {
-        const fs::path runs = trust::kept_runs_folder();
+        const fs::path runs = study::kept_runs_folder();
         const store::WhenInterrupted last_word([&] {
             console.note(runs.empty() ? "interrupted: nothing is kept, until all runs of a "
                                         "certificate are done"
@@ -210,9 +210,9 @@ int certify_command(CertifyRequest r) {
                                         "kept in " +
                                             runs.string());
         });
-        c = trust::certify(scene, std::move(c), console, runs);
-        store::write_fresh(trust::cost_path(path), trust::cost_json_of(c));
-        store::write_fresh(path, trust::json_of(c));
+        c = study::certify(scene, std::move(c), console, runs);
+        store::write_fresh(study::cost_path(path), study::cost_json_of(c));
+        store::write_fresh(path, study::json_of(c));
     }
     console.print(text_of(c));
     console.print((cached ? "read: " : "written: ") + path.string());
@@ -227,8 +227,8 @@ int certify_command(CertifyRequest r) {
                                         {"status", good ? "ok" : "failed"},
                                         {"cached", cached},
                                         {"file", path.string()},
-                                        {"cost_file", trust::cost_path(path).string()},
-                                        {"certificate", Json::parse(trust::json_of(c))},
+                                        {"cost_file", study::cost_path(path).string()},
+                                        {"certificate", Json::parse(study::json_of(c))},
                                         {"wall_seconds", costs}}));
     return good ? exit_code::done : exit_code::run_failed;
 }

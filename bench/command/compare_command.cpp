@@ -74,7 +74,7 @@ std::string truth_text(const compare::Comparison& c) {
 }
 
 std::string certificate_text(const compare::Comparison& c) {
-    const trust::Trust& t = c.against.trust;
+    const study::Trust& t = c.against.trust;
     const std::string note = c.reference.note.empty() ? "" : "\n" + c.reference.note;
     if (!t.any()) return "its uncertainty is unknown, so no error is certain" + note;
     std::string by = t.against;

@@ -49,9 +49,9 @@ Json reference_json(const Scene& scene, const study::Truth& truth) {
            {"free_from_s", from},
            {"horizon_of_1e-12_s", horizon(free(moved), free(trace), trace.tap_rate)},
            {"horizon_of_half_s", truth.horizon}};
-    for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
+    for (std::size_t w = 0; w < study::Trust::columns.size(); ++w) {
         const std::string window =
-            std::string(trust::Trust::columns[w]).substr(std::string("certificate_").size());
+            std::string(study::Trust::columns[w]).substr(std::string("certificate_").size());
         Json known = Json::array();
         for (std::size_t k = 0; k < scene.taps.size(); ++k) known.push_back(r.trust.of_scene(k, w));
         j["uncertainty_" + window] = known;

@@ -46,10 +46,10 @@ Figure figure_of(const Record& r, std::size_t tap, std::size_t measure) {
     const auto in = [&](const Errors& e) { return tap < e.size() ? e[tap][measure] : store::nan; };
     Figure f{in(r.cell.errors), measures()[measure].less_is_better ? in(a.floor) : store::nan,
              store::nan, in(r.cell.in_model), store::nan};
-    const auto window = std::ranges::find(trust::Trust::columns,
-                                          "certificate" + measures()[measure].column.substr(5));
-    if (window == trust::Trust::columns.end()) return f;
-    const auto w = static_cast<std::size_t>(window - trust::Trust::columns.begin());
+    const auto window =
+        std::ranges::find(Trust::columns, "certificate" + measures()[measure].column.substr(5));
+    if (window == Trust::columns.end()) return f;
+    const auto w = static_cast<std::size_t>(window - Trust::columns.begin());
     f.certificate = a.trust.of_scene(tap, w);
     f.certificate_in_model = a.model_trust.in_model(tap, w);
     return f;

@@ -123,12 +123,8 @@ private:
 Against References::Of::against() const {
     if (!truth) return {};
     const Reference& r = truth->reference;
-    return {r.choice.name(),
-            r.choice.settings.modes,
-            truth->description,
-            *floor,
-            r.trust,
-            model ? model->trust : trust::Trust{}};
+    return {r.choice.name(), r.choice.settings.modes,       truth->description, *floor,
+            r.trust,         model ? model->trust : Trust{}};
 }
 
 References::References(std::span<const Job> jobs) {

@@ -11,7 +11,7 @@
 
 #include "bench/store/records.hpp"
 #include "bench/study/cell.hpp"
-#include "bench/trust/certificate_library.hpp"
+#include "bench/study/certificate_library.hpp"
 
 namespace jvari::bench::study {
 
@@ -33,9 +33,9 @@ Levels levels_of(std::span<const double> signal, double rate);
 struct Against {            // what a cell was measured against
     std::string reference;  // its name, "" where there is none: then the rest is empty
     int modes = 0;
-    std::string doubling;             // how far the doubling of its modes went
-    Errors floor;                     // of the reference started 1e-12 apart
-    trust::Trust trust, model_trust;  // of the reference, and of the one with the cells' modes
+    std::string doubling;      // how far the doubling of its modes went
+    Errors floor;              // of the reference started 1e-12 apart
+    Trust trust, model_trust;  // of the reference, and of the one with the cells' modes
 };
 
 struct Record {

@@ -8,7 +8,7 @@
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/cell.hpp"
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/kept_run.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 
@@ -25,9 +25,9 @@ Run reference_run(const ReferenceChoice& choice, const Scene& scene, const Progr
     options.progress = progress;
     const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
     if (!choice.kept) return make();
-    const std::string key = trust::run_key(*choice.scheme, scene, choice.settings);
-    const auto cached = [&] { return trust::kept_run(trust::kept_runs_folder(), key, make); };
-    return choice.kept_in.empty() ? cached() : trust::kept_run(choice.kept_in, key, cached, 0);
+    const std::string key = run_key(*choice.scheme, scene, choice.settings);
+    const auto cached = [&] { return kept_run(kept_runs_folder(), key, make); };
+    return choice.kept_in.empty() ? cached() : kept_run(choice.kept_in, key, cached, 0);
 }
 
 double last_instant(const Run& r) {
@@ -46,7 +46,7 @@ void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progres
             oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
         if (o.rate == r.choice.settings.sample_rate) {
             r.run = std::move(o.run);
-            r.trust = trust::trust_of(o, last_instant(r.run) - free_from(scene));
+            r.trust = trust_of(o, last_instant(r.run) - free_from(scene));
             return;
         }
         r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
@@ -145,8 +145,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
                 continue;
             }
             if (!choice.oversampled && !alone)
-                r.trust = trust::trust_of(scene, choice.scheme->name, choice.settings,
-                                          last_instant(r.run));
+                r.trust =
+                    trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/store/system/listener.hpp"
-#include "bench/trust/certificate_library.hpp"
+#include "bench/study/certificate_library.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::bench::study {
@@ -40,8 +40,8 @@ std::vector<ReferenceChoice> references_of(const Scene&, const Settings& at,
 
 struct Reference {
     ReferenceChoice choice;
-    Run run, moved;      // moved: started 1e-12 apart
-    trust::Trust trust;  // what its certificate, or its own estimate, says of it
+    Run run, moved;  // moved: started 1e-12 apart
+    Trust trust;     // what its certificate, or its own estimate, says of it
 };
 // The first of the choices that represents the scene and gets going, its two runs side by side
 // where `jobs` are not 1; of the schemes that may stand in the one that estimates its own error

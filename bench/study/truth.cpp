@@ -103,8 +103,8 @@ double change(const Trace& more, const Trace& fewer, int tap, double from, doubl
 // How far the model is solved is what its certificate says, else its noise floor: an error of
 // rounding grows like a change of the start. What the model leaves out is what is left after the
 // doublings.
-trust::Trust trust_of(const trust::Trust& solved, const Truth& truth, const Size& of, double from) {
-    trust::Trust t = solved;
+Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double from) {
+    Trust t = solved;
     const Reference &last = truth.reference, &before = truth.coarser.back();
     const Trace &more = last.run.trace, &fewer = before.run.trace;
     const auto taps = static_cast<std::size_t>(more.taps());
@@ -221,8 +221,7 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     const ReferenceChoice choice = truth.reference.choice;
     Settings certified = choice.settings;
     certified.modes = first_size(scene, choice.settings.options).modes;
-    const trust::Trust solved =
-        trust::trust_of(scene, choice.scheme->name, certified, scene.duration);
+    const Trust solved = trust_of(scene, choice.scheme->name, certified, scene.duration);
     const int tap = headline_of(scene).nut;
     const double from = free_from(scene), end = headline_window(scene);
     const std::size_t window = std::isinf(end) ? 2 : end >= 50e-3 ? 1 : 0;

@@ -33,7 +33,7 @@ constexpr double worth_keeping = 5e-3;  // of a model: below, a file takes longe
 double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, double from) {
     const study::Reference& of = t.reference;
     // the waveform's windows come first among the measures
-    if (measure < trust::Trust::columns.size())
+    if (measure < study::Trust::columns.size())
         return of.trust.any() ? of.trust.of_scene(tap, measure) : store::nan;
     const double rate = of.run.trace.tap_rate;
     const auto column = [&](const Trace& t) {

@@ -1,7 +1,7 @@
 // Certificates as they are computed: which references run, which are compared, what is doubled.
 #include <gtest/gtest.h>
 
-#include "bench/trust/certificate.hpp"
+#include "bench/study/certificate.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/c3.hpp"
@@ -9,9 +9,9 @@
 namespace jvari::test {
 namespace {
 
-using bench::trust::Certificate;
+using bench::study::Certificate;
 
-Certificate certified(const Scene& scene, const bench::trust::CertifySettings& settings) {
+Certificate certified(const Scene& scene, const bench::study::CertifySettings& settings) {
     return certify(scene, certificate_plan(scene, settings));
 }
 

@@ -7,7 +7,7 @@
 
 #include "bench/store/checksum.hpp"
 #include "bench/study/cells.hpp"
-#include "bench/trust/certificate_library.hpp"
+#include "bench/study/certificate_library.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using namespace bench::trust;
+using namespace bench::study;
 
 void write(const fs::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/kept_run.hpp"
 #include "reference/references.hpp"
 #include "tests/command_line.hpp"
 
@@ -50,7 +50,7 @@ TEST(FileLock, ProcessesThatAskForAReferenceAtOnceMakeItOnce) {
     for (int k = 0; k < 6; ++k) {
         children.push_back(fork());
         if (children.back() != 0) continue;
-        _exit(bench::trust::kept_run(scratch / "runs", "key", make, 0).trace.rows > 100 ? 0 : 1);
+        _exit(bench::study::kept_run(scratch / "runs", "key", make, 0).trace.rows > 100 ? 0 : 1);
     }
     for (const pid_t child : children) {
         int status = 0;
@@ -158,7 +158,7 @@ TEST(FileLock, ThatIsStaleInAFolderThatCannotBeWrittenIsPassedBy) {
                   // root may write everywhere
                   if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 2;
                   int made = 0;
-                  bench::trust::kept_run(
+                  bench::study::kept_run(
                       scratch / "runs", "key", [&made] { return ++made, jvari::Run(); }, 0);
                   return made == 1 ? 0 : 1;
               }),

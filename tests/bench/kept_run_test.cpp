@@ -1,6 +1,6 @@
 // Runs of references that are kept: what is read back is what was run, and nothing else is
 // believed.
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/kept_run.hpp"
 
 #include <cmath>
 
@@ -34,8 +34,8 @@ TEST(KeptRun, IsTheRunToTheLastBit) {
     jvari::Run before = a_run();
     before.status = {jvari::Outcome::not_converged, 12};
     before.facts.push_back({"nothing", std::nan(""), "m"});
-    bench::trust::write_run(scratch / "a.run", "key", before);
-    const auto after = bench::trust::read_run(scratch / "a.run", "key");
+    bench::study::write_run(scratch / "a.run", "key", before);
+    const auto after = bench::study::read_run(scratch / "a.run", "key");
     ASSERT_TRUE(after);
     EXPECT_EQ(after->trace.tap, before.trace.tap);
     EXPECT_EQ(after->trace.names, before.trace.names);
@@ -55,33 +55,33 @@ TEST(KeptRun, IsTheRunToTheLastBit) {
 TEST(KeptRun, IsNotBelievedWhereItIsBrokenAlteredOrOfAnother) {
     const Scratch scratch;
     const fs::path path = scratch / "a.run";
-    bench::trust::write_run(path, "key", a_run());
+    bench::study::write_run(path, "key", a_run());
     const std::string whole = content(path.string());
-    EXPECT_FALSE(bench::trust::read_run(path, "another"));
-    EXPECT_FALSE(bench::trust::read_run(scratch / "none.run", "key"));
+    EXPECT_FALSE(bench::study::read_run(path, "another"));
+    EXPECT_FALSE(bench::study::read_run(scratch / "none.run", "key"));
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{7}, std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
         overwrite(path, whole.substr(0, size));
-        EXPECT_FALSE(bench::trust::read_run(path, "key")) << size;
+        EXPECT_FALSE(bench::study::read_run(path, "key")) << size;
     }
     for (std::size_t k = 0; k < 9; ++k) {  // a number is 9 bytes long
         std::string altered = whole;
         altered[whole.size() / 2 + k] ^= 1;
         overwrite(path, altered);
-        EXPECT_FALSE(bench::trust::read_run(path, "key"));
+        EXPECT_FALSE(bench::study::read_run(path, "key"));
     }
     overwrite(path, whole);
-    EXPECT_TRUE(bench::trust::read_run(path, "key"));
+    EXPECT_TRUE(bench::study::read_run(path, "key"));
 }
 
 TEST(KeptRun, IsNotBelievedWhereItsChecksumIsRightAndItsContentIsNot) {
     const Scratch scratch;
     const fs::path path = scratch / "a.run";
-    bench::trust::write_run(path, "key", a_run());
+    bench::study::write_run(path, "key", a_run());
     const std::string right = content(path.string()).substr(32);
     const auto believed = [&](const std::string& text) {
         overwrite(path, bench::store::hash_of(text) + text);
-        return bench::trust::read_run(path, "key").has_value();
+        return bench::study::read_run(path, "key").has_value();
     };
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string text = right;
@@ -106,7 +106,7 @@ TEST(KeptRun, OfSizesThatCannotBeIsNotBelievedWhateverItsChecksum) {
             R"(,"steps":0,"wall_seconds":1,"facts":[],"worst_block":0,"tap_rate":44100,"stride":)" +
             stride + R"(,"rows":)" + rows + R"(,"names":["a","b","c","d","e","f","g","h"]})" + "\n";
         overwrite(scratch / "a.run", bench::store::hash_of(content) + content);
-        return bench::trust::read_run(scratch / "a.run", "key").has_value();
+        return bench::study::read_run(scratch / "a.run", "key").has_value();
     };
     EXPECT_TRUE(believed("4", "9", "0"));
     // a run has its first row at least
@@ -125,45 +125,45 @@ TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {
     const fs::path folder = scratch / "runs";
     int made = 0;
     const auto make = [&made] { return ++made, a_run(); };
-    const jvari::Run first = bench::trust::kept_run(folder, "key", make),
-                     second = bench::trust::kept_run(folder, "key", make);
+    const jvari::Run first = bench::study::kept_run(folder, "key", make),
+                     second = bench::study::kept_run(folder, "key", make);
     EXPECT_EQ(made, 1);
     EXPECT_EQ(first.trace.tap, second.trace.tap);
     overwrite(folder / "key.run", "half");
-    bench::trust::kept_run(folder, "key", make);
+    bench::study::kept_run(folder, "key", make);
     EXPECT_EQ(made, 2);
-    bench::trust::kept_run(folder, "key", make);
+    bench::study::kept_run(folder, "key", make);
     EXPECT_EQ(made, 2);
-    bench::trust::kept_run({}, "key", make);
+    bench::study::kept_run({}, "key", make);
     EXPECT_EQ(made, 3);
 }
 
 TEST(KeptRun, OfLessThanHalfASecondIsNotKeptAndAFolderThatCannotBeIsNoError) {
     const Scratch scratch;
     const fs::path folder = scratch / "runs";
-    bench::trust::kept_run(folder, "key", [] { return a_run(0.1); });
+    bench::study::kept_run(folder, "key", [] { return a_run(0.1); });
     EXPECT_FALSE(fs::exists(folder / "key.run"));
     overwrite(folder, "a file");
-    EXPECT_GT(bench::trust::kept_run(folder, "key", [] { return a_run(); }).trace.rows, 0);
+    EXPECT_GT(bench::study::kept_run(folder, "key", [] { return a_run(); }).trace.rows, 0);
 }
 
 TEST(KeptRun, HasAKeyOfEverythingThatItsNumbersDependOn) {
     const Scene scene = released();
-    const std::string key = bench::trust::run_key(exact_contact, scene, settings);
-    EXPECT_EQ(bench::trust::run_key(exact_contact, released(), settings), key);
-    EXPECT_NE(bench::trust::run_key(sundials, scene, settings), key);
+    const std::string key = bench::study::run_key(exact_contact, scene, settings);
+    EXPECT_EQ(bench::study::run_key(exact_contact, released(), settings), key);
+    EXPECT_NE(bench::study::run_key(sundials, scene, settings), key);
     Scene longer = scene;
     longer.duration *= 2;
-    EXPECT_NE(bench::trust::run_key(exact_contact, longer, settings), key);
+    EXPECT_NE(bench::study::run_key(exact_contact, longer, settings), key);
     Settings other = settings;
     other.modes = 21;
-    EXPECT_NE(bench::trust::run_key(exact_contact, scene, other), key);
+    EXPECT_NE(bench::study::run_key(exact_contact, scene, other), key);
     other = settings;
     other.tap_rate = 48000;
-    EXPECT_NE(bench::trust::run_key(exact_contact, scene, other), key);
+    EXPECT_NE(bench::study::run_key(exact_contact, scene, other), key);
     other = settings;
     other.options[0].second = "1e-9";
-    EXPECT_NE(bench::trust::run_key(exact_contact, scene, other), key);
+    EXPECT_NE(bench::study::run_key(exact_contact, scene, other), key);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 #include "analysis/energy.hpp"
 #include "bench/store/system/interruption.hpp"
+#include "bench/study/certificate_library.hpp"
 #include "bench/study/judgement.hpp"
 #include "bench/study/run.hpp"
-#include "bench/trust/certificate_library.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
@@ -210,7 +210,7 @@ double apart(const Trace& a, const Trace& b, int k, double from) {
 // What is known of an error against what is claimed of it: the distance from the truth less what
 // the truth itself may be off. Figures within the noise floor are left out: no two programs can
 // agree better.
-std::vector<Claim> claims(const bench::trust::Trust& trust, const Trace& trace, const Trace& truth,
+std::vector<Claim> claims(const bench::study::Trust& trust, const Trace& trace, const Trace& truth,
                           double from, const std::vector<double>& off,
                           const std::vector<double>& floor, bool about_scene = false) {
     std::vector<Claim> all;
@@ -235,7 +235,7 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
     if (!best || !needs.has(Feature::lumped_barrier) || needs.has(Feature::profile_barrier)) return;
     at("certificate");
     const double until = std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate;
-    using namespace bench::trust;
+    using namespace bench::study;
     const Certificate certificate =
         certify(c.scene, certificate_plan(c.scene, {c.settings.modes, c.settings.tap_rate}));
     const auto with = [&](const char* rtol) {
@@ -278,7 +278,7 @@ void check_certificate(const RandomCase& c, Tally& tally, const Finding& finding
         *scheme, c.scene, {c.settings.tap_rate, c.settings.tap_rate, certificate.modes, {}},
         stand_in_multiple);
     if (o.run.status.outcome != Outcome::ok) return;
-    for (const Claim& x : claims(bench::trust::trust_of(o, until - certificate.from), o.run.trace,
+    for (const Claim& x : claims(bench::study::trust_of(o, until - certificate.from), o.run.trace,
                                  r.trace, certificate.from, none, floor)) {
         ++tally.estimates;
         tally.low_estimates += x.ratio() >= 1;
@@ -311,7 +311,7 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
     } ear;
     ear.look = look;
     at("certificate about the scene");
-    using namespace bench::trust;
+    using namespace bench::study;
     const Certificate certificate =
         certify(c.scene,
                 certificate_plan(
@@ -321,7 +321,7 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
         return trust_of(certificate, best->name, options,
                         std::round(c.scene.duration * c.settings.tap_rate) / c.settings.tap_rate);
     };
-    const bench::trust::Trust trust = trust_in({});
+    const bench::study::Trust trust = trust_in({});
     const auto matching = matched(*best, c.scene, {});
     // there are no more modes than those that were measured
     if (trust.doubled != (profile ? "modes and points" : "modes")) return;
@@ -352,7 +352,7 @@ void check_certificate_about_scene(const RandomCase& c, Tally& tally, const Find
     for (const Agreement& a : certificate.floor)
         floor.push_back(above_floor * std::max(floor_displacement, a.relative_l2.back()));
     ++tally.judged;
-    const auto hold = [&](const bench::trust::Trust& claimed, const Trace& trace) {
+    const auto hold = [&](const bench::study::Trust& claimed, const Trace& trace) {
         for (const Claim& x :
              claims(claimed, truth.trace, trace, certificate.from, off, floor, true)) {
             if (!(x.claimed < 1)) continue;  // as large as the motion itself: nothing is claimed

@@ -6,7 +6,7 @@
 #include "bench/store/checksum.hpp"
 #include "bench/store/sound.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/kept_run.hpp"
 #include "fuzz.hpp"
 
 using namespace jvari;
@@ -25,11 +25,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         bench::store::read_wav(sound.holding(text), 1.0);
     } catch (const bench::store::UsageError&) {}
-    const auto run = bench::trust::read_run(file.holding(bench::store::hash_of(text) + text), key);
+    const auto run = bench::study::read_run(file.holding(bench::store::hash_of(text) + text), key);
     if (!run) return 0;
     ++inputs_read;
-    bench::trust::write_run(file.path(), key, *run);
-    const auto again = bench::trust::read_run(file.path(), key);
+    bench::study::write_run(file.path(), key, *run);
+    const auto again = bench::study::read_run(file.path(), key);
     promise(again.has_value(), "what is written is read back");
     promise(again->trace.names == run->trace.names && again->trace.rows == run->trace.rows,
             "with its columns");

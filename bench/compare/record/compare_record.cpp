@@ -24,13 +24,13 @@ void append(Json& object, std::string new_key, double value) {
 }
 
 Json certificate_json(const Comparison& c) {
-    const trust::Trust& t = c.against.trust;
+    const study::Trust& t = c.against.trust;
     if (!t.any()) return {{"missing", t.missing}};
     Json figures = Json::object();
-    for (std::size_t w = 0; w < trust::Trust::columns.size(); ++w) {
-        figures[trust::Trust::columns[w]] = t.of_scene(c.headline.nut, w);
+    for (std::size_t w = 0; w < study::Trust::columns.size(); ++w) {
+        figures[study::Trust::columns[w]] = t.of_scene(c.headline.nut, w);
         for (std::size_t tap = 0; tap < c.scene().taps.size(); ++tap)
-            append(figures, trust::Trust::columns[w] + ("_" + c.scene().taps[tap].name),
+            append(figures, study::Trust::columns[w] + ("_" + c.scene().taps[tap].name),
                    t.of_scene(tap, w));
     }
     Json j{{"against", t.against}};

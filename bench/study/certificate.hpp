@@ -24,7 +24,7 @@
 #include "reference/agreement.hpp"
 #include "schemes/run.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 struct Certificate {
     using Options = std::vector<std::pair<std::string, std::string>>;
@@ -101,4 +101,4 @@ std::filesystem::path cost_path(const std::filesystem::path& certificate);  // a
 // Fills in the wall seconds from the file beside the certificate, if it is of the same identity.
 void read_costs(const std::filesystem::path& certificate, Certificate&);
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study

@@ -6,9 +6,9 @@
 #include "bench/store/checksum.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
-#include "bench/trust/certificate.hpp"
+#include "bench/study/certificate.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -176,4 +176,4 @@ void read_costs(const std::filesystem::path& certificate, Certificate& c) {
         c.entries[i].wall_seconds = (*seconds)[i];
 }
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study

@@ -14,7 +14,7 @@
 
 #include "schemes/run.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 // $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari;
 // may be emptied at any time. "", for nowhere, where JVARI_CACHE is empty.
@@ -36,4 +36,4 @@ constexpr double worth_keeping = 0.5;  // [s] of stepping
 Run kept_run(const std::filesystem::path& folder, const std::string& key,
              const std::function<Run()>& make, double least = worth_keeping);
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study

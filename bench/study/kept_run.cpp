@@ -1,4 +1,4 @@
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/kept_run.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -13,7 +13,7 @@
 #include "bench/store/system/file_lock.hpp"
 #include "scenes/scene_file.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 namespace fs = std::filesystem;
 
@@ -119,4 +119,4 @@ Run kept_run(const fs::path& folder, const std::string& key, const std::function
     return r;
 }
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study

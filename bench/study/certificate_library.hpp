@@ -20,10 +20,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/trust/certificate.hpp"
+#include "bench/study/certificate.hpp"
 #include "reference/oversampled.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 struct Trust {
     static constexpr std::array<const char*, 3> columns = {
@@ -58,4 +58,4 @@ Trust trust_of(const Oversampled&, double until);  // of a stand-in; `until`: it
 
 std::string file_stem(const std::string& scene_name);  // what its file may be called
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study

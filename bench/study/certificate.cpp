@@ -1,10 +1,10 @@
-#include "bench/trust/certificate.hpp"
+#include "bench/study/certificate.hpp"
 
 #include <algorithm>
 
 #include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/trust/kept_run.hpp"
+#include "bench/study/kept_run.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"
@@ -13,7 +13,7 @@
 #include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 namespace {
 constexpr int multiple = 4;  // of the coarsest of the oversampled runs
@@ -181,4 +181,4 @@ Certificate certify(const Scene& scene, Certificate c, const store::Listener& li
     return c;
 }
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study

@@ -1,4 +1,4 @@
-#include "bench/trust/certificate_library.hpp"
+#include "bench/study/certificate_library.hpp"
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@
 #include "scenes/installed.hpp"
 #include "schemes/making.hpp"
 
-namespace jvari::bench::trust {
+namespace jvari::bench::study {
 
 namespace fs = std::filesystem;
 
@@ -218,4 +218,4 @@ Trust trust_of(const Oversampled& o, double until) {
     return t;
 }
 
-}  // namespace jvari::bench::trust
+}  // namespace jvari::bench::study
