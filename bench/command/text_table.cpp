@@ -57,7 +57,7 @@ std::string TextTable::text(std::size_t width) const {
 namespace {
 constexpr const char* errors[] = {"error_l2_10ms", "error_l2_50ms", "error_l2_whole"};
 
-std::string number_text(double x, const char* format) {
+std::string formatted(double x, const char* format) {
     return std::isnan(x) ? "-" : fmt::format(fmt::runtime(format), x);
 }
 
@@ -122,8 +122,8 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
         if (!c.flags.empty())
             flagged +=
                 fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n", c.run(),
-                            c.flags, number_text(c.smallest_contact_force, "{:.2g} N"),
-                            number_text(c.energy_residual_accumulated, "{:.1e}"));
+                            c.flags, formatted(c.smallest_contact_force, "{:.2g} N"),
+                            formatted(c.energy_residual_accumulated, "{:.1e}"));
         TextTable::Row row{c.pareto == 1      ? '*'
                            : !c.flags.empty() ? '!'
                                               : ' ',
@@ -136,11 +136,11 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
             return c.figure(study::measure(measure)).value;
         };
         for (const std::string& text :
-             {number_text(value("horizon_s"), "{:.4f} s"),
-              number_text(value("third_octave_db"), "{:.2f} dB"),
-              number_text(c.energy_residual_accumulated, "{:.1e}"),
-              number_text(c.cost_s_per_s, "{:.3g}"), spread_text(c),
-              number_text(c.times_real_time, "{:.3g}"), number_text(c.ns_per_step, "{:.1f}")})
+             {formatted(value("horizon_s"), "{:.4f} s"),
+              formatted(value("third_octave_db"), "{:.2f} dB"),
+              formatted(c.energy_residual_accumulated, "{:.1e}"),
+              formatted(c.cost_s_per_s, "{:.3g}"), spread_text(c),
+              formatted(c.times_real_time, "{:.3g}"), formatted(c.ns_per_step, "{:.1f}")})
             row.fields.push_back(text);
         table.rows.push_back(std::move(row));
     }
