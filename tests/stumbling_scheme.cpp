@@ -52,7 +52,7 @@ constexpr Descriptor table[] = {{"stumbling", "none: made for a test",
                                      Features(Feature::frequency_dependent_damping) |
                                      Features(Feature::initial_shape) | Features(Feature::pluck) |
                                      Features(Feature::lumped_barrier),
-                                 Balance::exact, Clock::stepped, made, options}};
+                                 Balance::exact, Clock::stepped, make, options}};
 }  // namespace
 
 JVARI_PLUGIN(table)
