@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "scenes/scene_file.hpp"
-#include "scenes/schema.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari {
@@ -46,7 +46,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 struct ColumnLine {
     std::string place;  // "modes.csv:12"
 
-    std::size_t find(const std::vector<std::string_view>& header, const Column& c) const {
+    std::optional<std::size_t> find(const std::vector<std::string_view>& header, const Column& c,
+                                    bool may_lack) const {
         for (const char* name : {c.name, c.alias}) {
             const auto at = std::find(header.begin(), header.end(), name);
             if (at == header.end()) continue;
@@ -55,6 +56,7 @@ struct ColumnLine {
                                      ", expected one");
             return static_cast<std::size_t>(at - header.begin());
         }
+        if (may_lack) return {};
         const bool semicolons =
             header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos;
         throw SceneFileError(
@@ -74,10 +76,10 @@ struct ColumnLine {
 };
 }  // namespace
 
-void read_columns(const std::string& path, const std::string& text, const Column& first,
-                  std::vector<double>& a, const Column& second, std::vector<double>& b) {
-    std::size_t column_a = 0, column_b = 0;
-    bool header = true;
+void read_columns(const std::string& path, const std::string& text,
+                  std::span<const ColumnTo> columns) {
+    constexpr std::size_t lacking = -1;
+    std::vector<std::size_t> places;
     int line = 0;
     for (std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
          begin < text.size();) {
@@ -87,17 +89,18 @@ void read_columns(const std::string& path, const std::string& text, const Column
         begin = end + 1;
         if (one.empty() || one.front() == '#') continue;
         const auto cells = cells_of(one);
-        if (header) {
-            column_a = at.find(cells, first), column_b = at.find(cells, second);
-            header = false;
-            continue;
+        const bool header = places.empty();
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const ColumnTo& c = columns[k];
+            if (header) places.push_back(at.find(cells, c.column, c.may_lack).value_or(lacking));
+            else if (places[k] != lacking) c.to.push_back(at.number(cells, places[k], c.column));
         }
-        a.push_back(at.number(cells, column_a, first));
-        b.push_back(at.number(cells, column_b, second));
     }
-    if (header)
-        throw SceneFileError(path + ":1: found no header, expected the columns " +
-                             list_of({first.name, second.name}));
+    if (!places.empty()) return;
+    std::vector<std::string> names;
+    for (const ColumnTo& c : columns)
+        if (!c.may_lack) names.emplace_back(c.column.name);
+    throw SceneFileError(path + ":1: found no header, expected the columns " + list_of(names));
 }
 
 }  // namespace jvari

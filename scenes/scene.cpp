@@ -1,6 +1,8 @@
 // Names, and what a scene asks of a scheme. What a scene may not say is in validate.cpp.
 #include "scenes/scene.hpp"
 
+#include <algorithm>
+
 namespace jvari {
 
 const char* name_of(Quantity q) {
@@ -77,6 +79,8 @@ const char* name_of(Feature f) {
         case Feature::rigid_barrier: return "rigid barrier";
         case Feature::rigid_profile: return "rigid profile";
         case Feature::tension_modulation: return "tension modulation";
+        case Feature::initial_velocity: return "initial velocity";
+        case Feature::equilibrium: return "static equilibrium";
     }
     return "?";
 }
@@ -129,6 +133,16 @@ Features needed_by(const Barrier& barrier) {
         barrier);
     return f;
 }
+
+Features needed_by(const std::optional<Start>& start) {
+    if (!start) return {};
+    if (std::holds_alternative<RestStart>(*start)) return Feature::equilibrium;
+    const auto* table = std::get_if<TableStart>(&*start);
+    const bool moves = table && std::any_of(table->velocity.begin(), table->velocity.end(),
+                                            [](double v) { return v != 0; });
+    return moves ? Feature::initial_shape | Feature::initial_velocity
+                 : Features(Feature::initial_shape);
+}
 }  // namespace
 
 Features needed_by(const Scene& scene) {
@@ -140,7 +154,8 @@ Features needed_by(const Scene& scene) {
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
         if (s.barriers.size() > 1) f = f | Feature::several_barriers;
         if (s.thread) f = f | Feature::thread;
-        if (s.initial) f = f | Feature::initial_shape;
+        f = f | needed_by(s.start);
+        if (s.velocity) f = f | Feature::initial_velocity;
         if (s.pluck) f = f | Feature::pluck;
         if (s.polarisation) f = f | Feature::polarisation;
     }

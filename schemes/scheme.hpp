@@ -77,6 +77,11 @@ struct FreeMode {
     double sigma = 0;  // decay rate [1/s]
 };
 
+// Of the modes of one string at one instant.
+struct ModalState {
+    std::vector<double> displacement, velocity;  // [m], [m/s]
+};
+
 class Scheme {
 public:
     virtual ~Scheme() = default;
@@ -96,6 +101,10 @@ public:
     // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread;
     // none where the scheme has no relation in closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
+
+    // At the instant of the next row, where another run that starts from it goes on as this one
+    // does: a scheme that keeps more than this, as of its contacts, has none. Between blocks only.
+    virtual ModalState state() const { return {}; }
 };
 
 struct Settings {

@@ -87,7 +87,7 @@ std::vector<Scene> make_scenes_of_numbers() {
     played.tension = 33.1;
     played.bending_stiffness = 2e-3;
     played.damping = PolynomialDamping{40, 1, 2e-4};
-    played.initial = TriangleInitial{0.1, 1e-3, 0.15};
+    played.start = TriangleShape{0.1, 1e-3, 0.15};
     const auto scene = [&](const char* name, std::vector<String> strings) {
         Scene s;
         s.name = name;

@@ -37,7 +37,7 @@ struct RunRequest : Running {
     bool energy = false, facts = false;
     std::vector<std::string> set;
     std::vector<std::string> options;
-    std::string out, plot, width;
+    std::string out, plot, width, state;
 };
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
@@ -123,6 +123,29 @@ std::optional<Player> checked_output(const RunRequest& r, const Scene& scene, do
     return std::nullopt;
 }
 
+// Before a long run: that its end can be kept.
+void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, Settings settings) {
+    if (r.state.empty()) return;
+    if (scene.strings.size() != 1)
+        throw store::UsageError(fmt::format("--state: scene {} has {} strings; a state is of one",
+                                            scene.name, scene.strings.size()));
+    if (d.clock == Clock::continuous) settings.sample_rate = 0;
+    if (make_scheme(d, scene, settings)->state().displacement.empty())
+        throw store::UsageError(fmt::format(
+            "--state: {} keeps more here than displacement and velocity of each mode, so no run "
+            "goes on from them as this one would; modal_two_point and the references keep no more, "
+            "without compliance=matched",
+            d.name));
+    store::must_be_writable(r.state);
+}
+
+std::string state_text(const ModalState& state) {
+    std::string text = "mode,displacement_m,velocity_m_per_s\n";
+    for (std::size_t i = 0; i < state.displacement.size(); ++i)
+        text += fmt::format("{},{},{}\n", i + 1, state.displacement[i], state.velocity[i]);
+    return text;
+}
+
 // The taps of one scene in a trace of a scene that has more.
 Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
     Trace part = all;
@@ -187,6 +210,7 @@ int run_command(RunRequest r) {
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
     const std::optional<report::Vega> vega = vega_for(r);
+    check_state(r, d, scene, settings);
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
@@ -199,6 +223,7 @@ int run_command(RunRequest r) {
         const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
         RunOptions options;
         options.energy = r.energy || vega;
+        options.state = !r.state.empty();
         options.progress = [&progress](long done, long rows) {
             progress->show(static_cast<double>(done) / static_cast<double>(rows));
         };
@@ -220,6 +245,11 @@ int run_command(RunRequest r) {
         if (!level.empty()) json["level"] = level;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out,
                             level.empty() ? "" : "  (" + level + ")");
+    }
+    if (!r.state.empty() && result.status.outcome == Outcome::ok) {
+        store::write_fresh(r.state, state_text(result.state));
+        json["state"] = r.state;
+        text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
     }
     if (vega) {
         if (drawn > 0) draw(r.plot, d, own, summary, part_of(result.trace, 0, own), *vega, r.width);
@@ -253,6 +283,9 @@ Act run_verb(CLI::App& program) {
            "every fact that the scheme reports, its solver's counters among them; --json always "
            "has them");
     v.option("--out", v.r.out, {"FILE"}, "writes the trace, .csv, or what is heard of it, .wav");
+    v.option("--state", v.r.state, {"FILE.csv"},
+             "writes displacement and velocity of each mode in the last row: another run goes on "
+             "from there by --set string.0.start=FILE.csv");
     v.option("--width", v.r.width, {"WIDTH"}, "of the picture, as 85mm for a column of a paper");
     v.option("--plot", v.r.plot, {"FILE"},
              "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact "

@@ -23,10 +23,12 @@
 #include "reference/exact/pluck_series.hpp"
 #include "reference/exact/touching_set.hpp"
 #include "reference/exact/window_energies.hpp"
+#include "reference/pluck_parts.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -90,6 +92,12 @@ public:
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
+    ModalState state() const override {
+        if (window_.series()) return {};
+        ModalState s{{y_.begin(), y_.begin() + modes_.count()}, {}};
+        for (int i = 0; i < modes_.count(); ++i) s.velocity.push_back(u_[i] / window_.seconds());
+        return s;
+    }
     std::vector<Fact> facts() const override;
 
 private:
@@ -125,9 +133,11 @@ private:
         // spring
         sets_;
     Readout readout_;
-    std::vector<Pluck> pluck_;                // none or one
+    std::vector<Pluck> pluck_;  // none or one
+    PluckParts parts_;
     double tap_rate_, tolerance_, interval_;  // of an interval: windows
-    std::vector<double> start_, stiffness_;   // y at t = 0; m omega0^2, per mode
+    // y and u at t = 0; m omega0^2, per mode; z at t = 0
+    std::vector<double> start_, start_u_, stiffness_, start_z_;
 
     std::vector<double> y_, u_;  // the state
     std::vector<double> z_;      // and that of what is in series
@@ -161,18 +171,24 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
       collocation_(window_, law_),
       spending_(window_, modes_, share_of(tolerance, window_share)),
       readout_(scene, modes_),
+      parts_(s.pluck),
       tap_rate_(tap_rate),
       tolerance_(share_of(tolerance, window_share)),
       interval_(window_.per_row),
       steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    start_ = window_.osc.pad(initial_displacement(modes_, s));
+    ModalStart start =
+        start_of(modes_, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{});
+    for (double& v : start.velocity) v *= window_.seconds();
+    start_ = window_.osc.pad(start.displacement);
+    start_u_ = window_.osc.pad(start.velocity);
+    if (series) start_z_ = series->resting(start.force);
     std::vector<double> stiffness;
     for (int i = 0; i < modes_.count(); ++i)
         stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
     stiffness_ = window_.osc.pad(stiffness);
     y_ = u_ = start_;
-    if (series) z_.assign(series->states, 0.0);
+    z_ = start_z_;
     const int contacts = window_.contacts;
     touching_.resize(contacts + 1);
     known_zero_.resize(contacts + 1);
@@ -200,8 +216,8 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
 
 void ExactContact::reset() noexcept {
     std::copy(start_.begin(), start_.end(), y_.begin());
-    std::fill(u_.begin(), u_.end(), 0.0);
-    std::fill(z_.begin(), z_.end(), 0.0);
+    std::copy(start_u_.begin(), start_u_.end(), u_.begin());
+    std::copy(start_z_.begin(), start_z_.end(), z_.begin());
     std::fill(touching_.begin(), touching_.end(), 0);
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     row_ = idle_ = 0;
@@ -233,14 +249,9 @@ void ExactContact::write(const Block& out, int row) const noexcept {
 bool ExactContact::interval(const Block& out) noexcept {
     bridge_impulse_ = thread_impulse_ = 0;
     energies_ = {};
-    double from = interval_, to = interval_;  // of the pluck within this interval
-    if (!pluck_.empty()) {
-        const double start = pluck_[0].start - row_ / tap_rate_;
-        from = std::clamp(start / window_.seconds(), 0.0, interval_);
-        to = std::clamp((start + pluck_[0].duration) / window_.seconds(), 0.0, interval_);
-    }
-    return stretch(0, from, false, out) && stretch(from, to, true, out) &&
-           stretch(to, interval_, false, out);
+    return parts_.each(
+        row_ / tap_rate_, interval_, window_.seconds(),
+        [&](double from, double to, bool plucked) { return stretch(from, to, plucked, out); });
 }
 
 bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
@@ -631,7 +642,8 @@ const Descriptor exact_contact = {
                   Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
                   Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
                   Features(Feature::thread) | Features(Feature::initial_shape) |
-                  Features(Feature::pluck) | Features(Feature::rigid_barrier),
+                  Features(Feature::pluck) | Features(Feature::rigid_barrier) |
+                  Feature::initial_velocity | Feature::equilibrium,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -169,6 +169,10 @@ private:
                 points_.threads.push_back(thread);
                 place(k, of_strings[k].contacts.count());
             }
+        points_.start_velocity.assign(points_.count(), 0.0);
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            for (std::size_t p = 0; p < of_strings[k].start_velocity.size(); ++p)
+                points_.start_velocity[parts_[k].place[p]] = of_strings[k].start_velocity[p];
     }
     void refuse_light(const std::vector<StringPoints>& of_strings) const {
         double taken = 0, ends = 0;

@@ -54,11 +54,12 @@ Obstacle Obstacle::halved(ThreadStart how, std::span<const double> theta,
     return {elastic, std::move(threads), theta, 0.5 * span_, levels_, 1, same, series};
 }
 
-void Obstacle::begin(const double* reading) {
-    for (int a = 0; a < contacts(); ++a) eta_[a] = contacts_.heights[a] - reading[a];
+void Obstacle::begin(const double* reading, const double* moving, const double* force) {
+    if (series_) series_->rest(force);
+    for (int a = 0; a < contacts(); ++a)
+        eta_[a] = contacts_.heights[a] - (reading[a] + (series_ ? series_->yields(0)[a] : 0));
     rule_->set(loss_.undamped());
-    rule_->begin(eta_.data());
-    if (series_) series_->rest();
+    rule_->begin(eta_.data(), moving);
 }
 
 void Obstacle::set(std::span<const double> theta) noexcept {

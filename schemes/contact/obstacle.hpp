@@ -57,7 +57,9 @@ public:
     int dofs() const { return rule_->dofs(); }
 
     void clear() { one_.tally = {}; }
-    void begin(const double* reading);  // at rest at t = 0
+    // at t = 0: reading, how far each point would move in dt by its speed [m], and its force on a
+    // string in equilibrium [N]
+    void begin(const double* reading, const double* moving, const double* force);
     // of a step; without thread, contact loss and series
     void set(std::span<const double> theta) noexcept;
     void follow(const Obstacle& first);  // after `first` made the first half step

@@ -61,7 +61,11 @@ public:
                 if (points().start_theta.empty()) theta.push_back(0.5 * x);
             start_ = obstacle_.halved(string_->thread_start(), theta, series());
         }
-        for (auto* v : {&older_, &free_, &now_, &force_}) v->assign(points().count(), 0.0);
+        for (auto* v : {&older_, &free_, &now_, &force_, &moving_, &resting_})
+            v->assign(points().count(), 0.0);
+        for (std::size_t p = 0; p < points().start_velocity.size(); ++p)
+            moving_[p] = points().dt * points().start_velocity[p];
+        std::copy(points().start_force.begin(), points().start_force.end(), resting_.begin());
         plucked_in_series_ = points().series && !points().series->pluck.empty();
         dt_ = points().dt;
         if constexpr (fuses) string_->fuse(obstacle_.one(), obstacle_.series(), steps_);
@@ -78,14 +82,17 @@ public:
         if constexpr (levels == 2) {
             start_->clear();
             const ReadingsBeforeStep at = with_pluck(string_->readings(), 0, 0, 1);
-            start_->begin(at.older);
+            start_->begin(at.older, moving_.data(), resting_.data());
             if constexpr (stretches) start_->set(string_->theta());
             if (!start_->start(at, force_.data())) status_ = {Outcome::not_converged, 0};
             string_->start(force_.data(), 0);
             obstacle_.follow(*start_);
         } else {
             string_->reading(0, now_.data());
-            obstacle_.begin(now_.data());
+            const double F_e = plucked_in_series_ ? pluck_at(0) : 0;
+            for (int p = 0; F_e != 0 && p < points().count(); ++p)
+                now_[p] += points().series->pluck[p] * F_e;
+            obstacle_.begin(now_.data(), moving_.data(), resting_.data());
         }
         if constexpr (requires { string_->expect(0.0); }) string_->expect(stored());
     }
@@ -114,6 +121,11 @@ public:
 
     int dofs() const override { return string_->dofs() + obstacle_.dofs(); }
     std::vector<FreeMode> free_modes() const override { return string_->free_modes(); }
+    ModalState state() const override {
+        if constexpr (requires(const String s) { s.state(); })
+            if (obstacle_.dofs() == 0 && !points().series) return string_->state();
+        return {};
+    }
     std::vector<Fact> facts() const override {
         std::vector<Fact> f = string_->facts();
         if (obstacle_.contacts() == 0) return f;
@@ -213,6 +225,7 @@ private:
     Obstacle obstacle_;
     std::optional<Obstacle> start_;  // of three-point schemes
     std::vector<double> older_, free_, now_, force_;
+    std::vector<double> moving_, resting_;  // at t = 0: of dt by their speeds [m], forces [N]
     long done_ = 0;                         // steps
     double supplied_ = 0, dissipated_ = 0;  // since the last row [J]
     Status status_;
@@ -223,7 +236,7 @@ template <StringStep String>
 std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme,
                                const Settings& settings, const RuleChoice& rule) {
     const bool stiff = rule.rigid && string->points().contacts.any_rigid();
-    if (stiff) {
+    if (stiff && string->points().start_force.empty()) {
         std::vector<double> start(string->points().count());
         string->reset();
         string->reading(0, start.data());

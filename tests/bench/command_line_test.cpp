@@ -715,7 +715,7 @@ TEST(Units, ValuesThatLookLikeAnotherUnitAreNamed) {
     };
     EXPECT_TRUE(says(said("--set string.0.length=62"), "length = 62 m"));
     EXPECT_TRUE(says(said("--set string.0.tension=1e9"), "the pitch that"));
-    EXPECT_TRUE(says(said("--set string.0.initial.amplitude=1.9"), "initial.amplitude = 1.9 m"));
+    EXPECT_TRUE(says(said("--set string.0.start.amplitude=1.9"), "start.amplitude = 1.9 m"));
     EXPECT_FALSE(says(said(""), "warning"));
 }
 
@@ -743,7 +743,7 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
         "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
     EXPECT_EQ(jvari(scratch, sympathetic).err, "")
         << "its bridge shakes the strings that nobody plucks";
-    const Outcome still = jvari(scratch, sympathetic + " --set string.0.initial.amplitude=0");
+    const Outcome still = jvari(scratch, sympathetic + " --set string.0.start.amplitude=0");
     EXPECT_TRUE(says(still.err, "string 2 of sitar_sympathetic stays silent"));
     const std::string rest =
         "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.amplitude=0 "

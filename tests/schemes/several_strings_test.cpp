@@ -50,7 +50,7 @@ Scene scene_for(const Descriptor& d) {
 String variant(String s, int k) {
     s.tension *= 1 - 0.06 * k;
     if (s.pluck) s.pluck->amplitude *= 1 + 0.3 * k, s.pluck->start = 1e-4 * k;
-    if (s.initial) std::visit([k](auto& i) { i.amplitude *= 1 + 0.3 * k; }, *s.initial);
+    if (s.start) std::visit([k](auto& i) { i.amplitude *= 1 + 0.3 * k; }, *s.start);
     return s;
 }
 
