@@ -81,6 +81,7 @@ const char* name_of(Feature f) {
         case Feature::tension_modulation: return "tension modulation";
         case Feature::initial_velocity: return "initial velocity";
         case Feature::equilibrium: return "static equilibrium";
+        case Feature::clipped_loss: return "contact loss that does not pull";
     }
     return "?";
 }
@@ -128,7 +129,9 @@ Features needed_by(const Barrier& barrier) {
     std::visit(
         [&f](const auto& b) {
             if (b.exponent != 1) f = f | Feature::power_law_contact;
-            if (b.contact_loss != 0) f = f | Feature::contact_loss;
+            if (b.contact_loss == 0) return;
+            f = f | Feature::contact_loss;
+            if (b.loss_law == LossLaw::clipped) f = f | Feature::clipped_loss;
         },
         barrier);
     return f;

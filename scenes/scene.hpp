@@ -61,6 +61,9 @@ struct StiffnessDensity {
     double K = 0;  // [N/m^(exponent+1)], or rigid
     bool operator==(const StiffnessDensity&) const = default;
 };
+// What a contact loss makes of the force F_s of the spring while the string leaves at the speed v:
+// F_s (1 - beta v), which pulls where v > 1/beta, or 0 in place of that.
+enum class LossLaw { hunt_crossley, clipped };
 // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
 struct LumpedBarrier {
     double position = 0;  // centre [m]
@@ -69,6 +72,7 @@ struct LumpedBarrier {
     LumpedStiffness stiffness;
     double exponent = 1;
     double contact_loss = 0;  // Hunt-Crossley beta [s/m]
+    LossLaw loss_law = LossLaw::hunt_crossley;
     bool operator==(const LumpedBarrier&) const = default;
 };
 struct FlatCurve {  // g = 0
@@ -94,6 +98,7 @@ struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et 
     StiffnessDensity stiffness;
     double exponent = 1;
     double contact_loss = 0;  // [s/m]
+    LossLaw loss_law = LossLaw::hunt_crossley;
     bool operator==(const ProfileBarrier&) const = default;
 };
 inline bool is_rigid(const LumpedBarrier& b) { return b.stiffness.k == rigid; }
@@ -250,9 +255,10 @@ enum class Feature : unsigned {
     rigid_profile = 1u << 15,  // in place of profile_barrier
     tension_modulation = 1u << 16,
     initial_velocity = 1u << 17,
-    equilibrium = 1u << 18,  // a start at rest under what presses
+    equilibrium = 1u << 18,   // a start at rest under what presses
+    clipped_loss = 1u << 19,  // a contact loss that does not pull
 };
-constexpr int feature_count = 19;
+constexpr int feature_count = 20;
 const char* name_of(Feature);
 
 struct Features {

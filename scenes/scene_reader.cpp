@@ -214,6 +214,11 @@ public:
     void choice(const char* key, Enum& e, std::span<const char* const> names) {
         e = static_cast<Enum>(index_of(key, names));
     }
+    template <class Enum>
+    void choice(const char* key, Enum& e, std::span<const char* const> names, Enum absent) {
+        e = absent;
+        if (table_.find(key)) choice(key, e, names);
+    }
     void refused(const char* key, const char* expected) {
         const Value* v = table_.find(key);
         if (v && !(overridden_ && v->place > 0)) fail(*v, at(key), v->found(), expected);

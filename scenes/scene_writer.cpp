@@ -1,6 +1,7 @@
 // A scene as TOML: the writing pass over the schema. Values that equal their default are left out.
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"
@@ -41,8 +42,9 @@ struct Writer {
         if (!s.empty()) text(key, s);
     }
     template <class Enum>
-    void choice(const char* key, Enum e, std::span<const char* const> names) {
-        line(key, quote(names[static_cast<std::size_t>(e)]));
+    void choice(const char* key, Enum e, std::span<const char* const> names,
+                std::optional<std::type_identity_t<Enum>> absent = {}) {
+        if (e != absent) line(key, quote(names[static_cast<std::size_t>(e)]));
     }
     void refused(const char*, const char*) {}
     void columns(const char* key, const std::string& file, auto&&...) { text(key, file); }

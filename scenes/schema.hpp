@@ -49,6 +49,7 @@ inline constexpr const char* quantity_names[] = {"displacement", "velocity",    
 inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_factor", "table",
                                                 "per_period"};
 inline constexpr const char* barrier_names[] = {"lumped", "profile"};
+inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* shape_names[] = {"mode", "triangle"};
 
@@ -96,6 +97,7 @@ void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.stiffness("stiffness", b.stiffness.k, "N/m^exponent");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
+    pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
 }
 void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.one_of("curve", b.curve, curve_names);
@@ -104,6 +106,7 @@ void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.stiffness("stiffness_density", b.stiffness.K, "N/m^(exponent+1)");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
+    pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
 }
 void fields(auto& pass, Is<Barrier> auto& b) { pass.one_of("shape", b, barrier_names); }
 

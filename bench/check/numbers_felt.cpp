@@ -78,6 +78,7 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
                 [f](auto& one) {
                     if (!f.has(Feature::power_law_contact)) one.exponent = 1;
                     if (!f.has(Feature::contact_loss)) one.contact_loss = 0;
+                    if (!f.has(Feature::clipped_loss)) one.loss_law = LossLaw::hunt_crossley;
                 },
                 b);
     }

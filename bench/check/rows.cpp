@@ -66,7 +66,8 @@ Verdict never_pulls(const Case& c) {
     const auto touches = [](const String& s) { return !s.barriers.empty(); };
     if (std::none_of(c.scene.strings.begin(), c.scene.strings.end(), touches))
         return not_asked("the string touches nothing");
-    if (needed_by(c.scene).has(Feature::contact_loss))
+    const Features needed = needed_by(c.scene);
+    if (needed.has(Feature::contact_loss) && !needed.has(Feature::clipped_loss))
         return not_asked("a contact with a loss may pull");
     Case one = c;
     one.scene.taps = {{"contact", Quantity::bridge_force, std::nullopt, 0}};

@@ -75,6 +75,12 @@ Scene with(Feature feature, Scene scene) {
             break;
         case Feature::power_law_contact: on_its_barriers([](auto& b) { b.exponent = 1.5; }); break;
         case Feature::contact_loss: on_its_barriers([](auto& b) { b.contact_loss = 0.5; }); break;
+        case Feature::clipped_loss:
+            on_its_barriers([](auto& b) {
+                b.contact_loss = 5;
+                b.loss_law = LossLaw::clipped;
+            });
+            break;
         case Feature::thread:
             s.thread = Thread{5e-3 * s.length, 1.2e-3 * s.length, 1.2e5, 0, 0};
             break;
@@ -220,6 +226,9 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
             break;
         case Feature::power_law_contact: each_barrier([](auto& b) { b.exponent += 0.25; }); break;
         case Feature::contact_loss: each_barrier([](auto& b) { b.contact_loss *= 2; }); break;
+        case Feature::clipped_loss:
+            each_barrier([](auto& b) { b.loss_law = LossLaw::hunt_crossley; });
+            break;
         case Feature::thread:
             add([](String& s) { return s.thread && (s.thread->stiffness *= 0.5, true); });
             break;

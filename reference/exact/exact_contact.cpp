@@ -47,6 +47,28 @@ constexpr double share_of(double tolerance, double share) {
 // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
 constexpr long phases_between_questions = 64;
 
+// The largest value in [0, end]. A lossy contact pushes hardest on the way in and may pull on the
+// way out: the extremes of its force are those of a polynomial in time, sought by samples and, where
+// a sample is the largest of three, by golden sections around it.
+template <class Force>
+double most_in(double end, const Force& force) {
+    constexpr int samples = 16;
+    constexpr double golden = 0.6180339887498949;
+    double at[samples + 1], most = -HUGE_VAL;
+    for (int k = 0; k <= samples; ++k) most = std::max(most, at[k] = force(end * k / samples));
+    for (int k = 1; k < samples; ++k) {
+        if (at[k] < std::max(at[k - 1], at[k + 1])) continue;
+        double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
+        for (int n = 0; n < 40; ++n) {
+            const double a = high - golden * (high - low), b = low + golden * (high - low);
+            const bool before = force(a) > force(b);
+            (before ? high : low) = before ? b : a;
+        }
+        most = std::max(most, force(0.5 * (low + high)));
+    }
+    return most;
+}
+
 struct Extremes {  // of the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0,
            deepest = 0, tolerance = 0;
@@ -56,7 +78,8 @@ std::vector<BarrierLaw> laws_of(const String& s) {
     std::vector<BarrierLaw> laws;
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
-        laws.push_back({{b.stiffness.k, b.exponent}, b.contact_loss});
+        laws.push_back(
+            {{b.stiffness.k, b.exponent}, b.contact_loss, b.loss_law == LossLaw::clipped});
     }
     return laws;
 }
@@ -401,7 +424,8 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             }
         };
         spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
-        if (!touched_.empty() && !touch_) energies_.dissipated += collocation_.dissipated();
+        for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
+            energies_.dissipated += collocation_.dissipated(i);
     }
     moments_until(end, count_);
     move_on(end, left);
@@ -532,33 +556,13 @@ void ExactContact::measure(int a, double end, bool leaves) noexcept {
         extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
 }
 
-// A lossy contact pushes hardest on the way in and may pull on the way out: the extremes of its
-// force are those of a polynomial in time, sought by samples and, where a sample is the largest of
-// three or the smallest, by golden sections around it.
 void ExactContact::measure_force(int which, double end) noexcept {
-    constexpr int samples = 16;
-    constexpr double golden = 0.6180339887498949;
-    double force[samples + 1];
-    for (int k = 0; k <= samples; ++k) force[k] = collocation_.force(which, end * k / samples);
-    for (const double sign : {1.0, -1.0}) {
-        double most = -HUGE_VAL;
-        for (int k = 0; k <= samples; ++k) {
-            most = std::max(most, sign * force[k]);
-            if (k == 0 || k == samples ||
-                sign * force[k] < std::max(sign * force[k - 1], sign * force[k + 1]))
-                continue;
-            double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
-            for (int n = 0; n < 40; ++n) {
-                const double a = high - golden * (high - low), b = low + golden * (high - low);
-                if (sign * collocation_.force(which, a) > sign * collocation_.force(which, b))
-                    high = b;
-                else low = a;
-            }
-            most = std::max(most, sign * collocation_.force(which, 0.5 * (low + high)));
-        }
-        if (sign > 0) extremes_.largest_force = std::max(extremes_.largest_force, most);
-        else extremes_.smallest_force = std::min(extremes_.smallest_force, -most);
-    }
+    const auto force = [&](double at) { return collocation_.force(which, at); };
+    extremes_.largest_force = std::max(extremes_.largest_force, most_in(end, force));
+    double least = -most_in(end, [&](double at) { return -force(at); });
+    // where it lets go a polynomial dips by what the step errs
+    if (law_[touched_[which]].clipped) least = std::max(0.0, least);
+    extremes_.smallest_force = std::min(extremes_.smallest_force, least);
 }
 
 double ExactContact::stored(double F_e) const noexcept {
@@ -643,7 +647,7 @@ const Descriptor exact_contact = {
                   Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
                   Features(Feature::thread) | Features(Feature::initial_shape) |
                   Features(Feature::pluck) | Features(Feature::rigid_barrier) |
-                  Feature::initial_velocity | Feature::equilibrium,
+                  Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -325,7 +325,7 @@ const Descriptor sundials = {
                   Features(Feature::thread) | Features(Feature::initial_shape) |
                   Features(Feature::pluck) | Features(Feature::moving_body) |
                   Features(Feature::tension_modulation) | Feature::initial_velocity |
-                  Feature::equilibrium,
+                  Feature::equilibrium | Feature::clipped_loss,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

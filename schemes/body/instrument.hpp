@@ -161,7 +161,7 @@ private:
             points_.positions.push_back(of_strings[k].positions[p]);
         };
         for (std::size_t k = 0; k < parts_.size(); ++k) {
-            points_.contacts.add(of_strings[k].contacts);
+            points_.contacts.add(of_strings[k].contacts, static_cast<int>(k));
             for (int a = 0; a < of_strings[k].contacts.count(); ++a) place(k, a);
         }
         for (std::size_t k = 0; k < parts_.size(); ++k)

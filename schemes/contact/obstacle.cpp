@@ -98,13 +98,17 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     bool converged = true;
     const bool damped = loss_.damp(before, b_.data());
     if (damped || rule_->acts(before)) {
-        if (damped) rule_->set(loss_.damped());
-        const GramSolution s = at_start ? rule_->start(before, r_.data(), force)
-                                        : rule_->solve(before, r_.data(), force);
-        converged = s.converged;
-        if (damped) {
-            loss_.settle(r_.data(), force);
+        GramSolution s;
+        for (int tries = 4 * n;; --tries) {
+            if (damped) rule_->set(loss_.damped());
+            const BeforeStep seen{damped ? loss_.older() : eta_.data(), now_.data(), b_.data()};
+            s = at_start ? rule_->start(seen, r_.data(), force)
+                         : rule_->solve(seen, r_.data(), force);
+            converged = s.converged && tries >= 0;
+            if (!damped) break;
+            loss_.settle(before, r_.data(), force);
             rule_->set(loss_.undamped());
+            if (!converged || !loss_.clip(before, r_.data(), force, b_.data())) break;
         }
         for (int a = 0; a < n; ++a) {
             for (int t = 0; t < m; ++t) pull_[t] -= threads_.answer(t, a) * force[a];
