@@ -118,7 +118,11 @@ public:
         looked_ = look.now;
         return block_at(row, std::min(row + rows, look.until), looked_);
     }
-    Status advance(const Block& block) { return advance(block, trace_.rows); }
+    Status advance(const Block& block) {
+        Block told = block;
+        told.impacts = options_.impacts;
+        return advance(told, trace_.rows);
+    }
 
     // The end of the rows up to `end` that are sound, once a block of them was made. Where one does
     // not seem so, or the scheme has failed, the supply is summed row by row, and the rows since

@@ -15,6 +15,8 @@ struct RunOptions {
     // energy
     bool timed = false;
     bool state = false;  // keep that of the last row
+    // one for each string: what its contacts did; nullptr: not asked for
+    Impacts* impacts = nullptr;
 
     // Told how far the run is, every few hundredths of a second where the scheme asks within its
     // rows (Block::stop), else between blocks, which are then as short as that. What it throws ends

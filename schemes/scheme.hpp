@@ -17,6 +17,8 @@
 
 namespace jvari {
 
+class Impacts;
+
 // A window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
@@ -24,6 +26,8 @@ struct Block {
     double* tap = nullptr;  // one column per tap of the scene
     // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
     double* energy = nullptr;
+    // one for each string, to be told what its contacts do (impacts.hpp); nullptr: nobody asks
+    Impacts* impacts = nullptr;
 
     // Whether the caller wants no more of this run: advance() then returns at once, and nobody
     // looks at what it returns or wrote. A scheme asks within a row, every few milliseconds of

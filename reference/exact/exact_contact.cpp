@@ -29,6 +29,7 @@
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/start.hpp"
+#include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -111,7 +112,7 @@ String with_springs(String s, const Descriptor& descriptor, const std::optional<
 class ExactContact final : public Scheme {
 public:
     ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance,
-                 const std::optional<InSeries>&);
+                 const std::optional<InSeries>&, std::vector<int> barrier_of_each);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
@@ -140,6 +141,7 @@ private:
     void move_on(double by, double left) noexcept;
     void measure(int touching, double end, bool leaves) noexcept;
     void measure_force(int which, double end) noexcept;
+    void tell_impacts(double now, double end) noexcept;  // of the phase in hand
     double stored(double F_e) const noexcept;
     void write(const Block& out, int row) const noexcept;
     double* at(std::vector<double>& rows, int a) const noexcept {
@@ -173,6 +175,9 @@ private:
     double rigid_stiffness_ = 0;  // of the stiffest spring that stands for a rigid barrier [N/m]
     double leaves_ = HUGE_VAL;    // when the first of the points in collocation lets go, perhaps
     Extremes extremes_;
+    std::vector<int> barrier_;    // of each contact
+    Impacts* impacts_ = nullptr;  // of the block in hand
+    double clock_ = 0;            // when the window begins [s]
 
     // one window; rows of window_.stride
     std::vector<double> r_, path_, moments_, moment_;
@@ -187,7 +192,8 @@ private:
 };
 
 ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate,
-                           double tolerance, const std::optional<InSeries>& series)
+                           double tolerance, const std::optional<InSeries>& series,
+                           std::vector<int> barrier_of_each)
     : modes_(std::move(modes)),
       window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
       law_(laws_of(s)),
@@ -198,7 +204,8 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
       tap_rate_(tap_rate),
       tolerance_(share_of(tolerance, window_share)),
       interval_(window_.per_row),
-      steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)) {
+      steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)),
+      barrier_(std::move(barrier_of_each)) {
     if (s.pluck) pluck_.push_back(*s.pluck);
     ModalStart start =
         start_of(modes_, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{});
@@ -253,6 +260,8 @@ void ExactContact::reset() noexcept {
 }
 
 Status ExactContact::advance(const Block& out) noexcept {
+    impacts_ = out.impacts;
+    if (impacts_) impacts_->told = true;
     for (int row = 0; row < out.rows; ++row) {
         write(out, row);
         if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
@@ -283,6 +292,7 @@ bool ExactContact::stretch(double from, double to, bool plucked, const Block& ou
     const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
     for (long i = 0; i < count; ++i) {
         const double at = from + (to - from) * i / count;
+        clock_ = row_ / tap_rate_ + at * window_.seconds();
         const double since_pluck =
             plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds())
                     : 0;
@@ -428,6 +438,7 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             energies_.dissipated += collocation_.dissipated(i);
     }
     moments_until(end, count_);
+    if (impacts_) tell_impacts(now, end);
     move_on(end, left);
     if (crossed >= 0) {
         touching_[crossed] = !touching_[crossed];
@@ -565,6 +576,31 @@ void ExactContact::measure_force(int which, double end) noexcept {
     extremes_.smallest_force = std::min(extremes_.smallest_force, least);
 }
 
+void ExactContact::tell_impacts(double now, double end) noexcept {
+    const double second = window_.seconds();
+    const int touched = static_cast<int>(touched_.size());
+    for (int first = 0, behind = 0; first < touched; first = behind) {
+        Impact part{barrier_[touched_[first]], clock_ + now * second,
+                    clock_ + (now + end) * second};
+        part.speed_in = part.speed_out = -HUGE_VAL;
+        for (; behind < touched && barrier_[touched_[behind]] == part.barrier; ++behind) {
+            const Gap g = gap(touched_[behind], window_.size);
+            part.speed_in = std::max(part.speed_in, g.at_start().slope / second);
+            part.speed_out = std::max(part.speed_out, -g.at(end).slope / second);
+            part.impulse += at(moment_, behind)[0] * second;
+            if (collocated_) part.energy_lost += collocation_.dissipated(behind);
+        }
+        part.largest_force = most_in(end, [&](double at) {
+            double sum = 0;
+            for (int i = first; i < behind; ++i)
+                sum += touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), at)
+                              : collocation_.force(i, at);
+            return sum;
+        });
+        impacts_->add(part);
+    }
+}
+
 double ExactContact::stored(double F_e) const noexcept {
     const Springs& s = window_.springs;
     double kinetic = 0, potential = 0;
@@ -625,11 +661,17 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
         chosen.options.emplace_back(compliance_option.name, "matched");
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, chosen);
-    const String s =
-        with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)),
-                     descriptor, series);
+    String s = scene.strings.at(0);
+    std::vector<int> barrier_of_each;
+    for (String one = s; const Barrier& barrier : s.barriers) {
+        one.barriers = {barrier};
+        const int of = static_cast<int>(&barrier - s.barriers.data());
+        const auto points = with_points(one, modes.count(), profile_points(settings)).barriers;
+        barrier_of_each.insert(barrier_of_each.end(), points.size(), of);
+    }
+    s = with_springs(with_points(s, modes.count(), profile_points(settings)), descriptor, series);
     return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance,
-                                          series);
+                                          series, std::move(barrier_of_each));
 }
 constexpr Approximation approximates[] = {points_for_a_profile[0],
                                           {Feature::rigid_barrier, facts::rigid_stiffness}};

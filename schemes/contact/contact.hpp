@@ -13,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scenes/scene.hpp"
+#include "schemes/impacts.hpp"
 
 namespace jvari {
 
@@ -34,12 +34,6 @@ struct ContactLaw {
         if (eta <= 0) return 0;
         return alpha == 1 ? k : alpha * k * std::pow(eta, alpha - 1);
     }
-};
-
-struct BarrierOf {  // which barrier of which string of the scheme
-    int string = 0, barrier = 0;
-    // barriers of that string, where a scheme may have one for each point of a profile
-    int barriers = 1;
 };
 
 struct Contacts {  // of a string

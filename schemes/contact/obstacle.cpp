@@ -117,14 +117,14 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
         one_.tally.note(s.iterations, s.residual);
         lost_by_rule_ = rule_->lost();
     } else {
-        for (int a = 0; a < n; ++a) force[a] = 0;
+        for (int a = 0; a < n; ++a) force[a] = 0, r_[a] = -b_[a];
     }
     for (int t = 0; t < m; ++t) force[n + t] = pull_[t], from_[t] = at.older[n + t];
     return converged;
 }
 
 // The points touch where what is in series has yielded to, and (6) is the same equation.
-bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force) noexcept {
+bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force, bool in_full) noexcept {
     const int n = points();
     for (int p = 0; p < n; ++p) {
         older_points_[p] = at.older[p] + series_->yields(0)[p];
@@ -132,7 +132,8 @@ bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force) noex
         free_points_[p] = at.free[p] - series_->pulled()[p];
     }
     const ReadingsBeforeStep there{older_points_.data(), now_points_.data(), free_points_.data()};
-    const bool converged = fused_ ? solve_one(there, force) : solve_points(there, force, false);
+    const bool converged =
+        fused_ && !in_full ? solve_one(there, force) : solve_points(there, force, false);
     series_->step(force);
     return converged;
 }

@@ -15,6 +15,7 @@
 
 #include "scenes/excitation.hpp"
 #include "schemes/driver/string_step.hpp"
+#include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -98,10 +99,12 @@ public:
     }
 
     Status advance(const Block& out) noexcept override {
+        impacts_ = out.impacts;
         for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {
             if constexpr (fuses)
-                if (const FusedRows fused =
-                        out.energy ? FusedRows{} : string_->fused_rows(out, row, means_.sum());
+                if (const FusedRows fused = out.energy || impacts_
+                                                ? FusedRows{}
+                                                : string_->fused_rows(out, row, means_.sum());
                     fused.steps > 0) {
                     if (fused.stopped) return {};
                     done_ += fused.steps;
@@ -152,8 +155,9 @@ private:
         const long n = done_ + levels - 1, before = n + 1 - levels;
         const ReadingsBeforeStep at = with_pluck(string_->readings(), before, n, n + 1);
         if constexpr (stretches) obstacle_.set(string_->theta());
-        if (!force_.empty() && !obstacle_.solve(at, force_.data()))
+        if (!force_.empty() && !obstacle_.solve(at, force_.data(), impacts_ != nullptr))
             status_ = {Outcome::not_converged, done_};
+        if (impacts_) tell_impacts();
         means_.count(force_.data());
         const Spent spent = string_->pass(force_.data(), 0, probed);
         if (probed) {
@@ -163,6 +167,15 @@ private:
         if (string_->failed() && status_.outcome == Outcome::ok)
             status_ = {Outcome::diverged, done_};
         ++done_;
+    }
+
+    void tell_impacts() noexcept {
+        const double to = (static_cast<double>(done_) + 0.5 * (levels + 1)) * dt_;
+        for (int a = 0; a < obstacle_.contacts(); ++a) {
+            const BarrierOf& of = points().contacts.of[a];
+            impacts_[of.string].told = true;
+            impacts_[of.string].step(of, a, to, dt_, levels * dt_, force_[a], obstacle_.moved()[a]);
+        }
     }
 
     // The pluck moves the points by way of what is in series too.
@@ -227,6 +240,7 @@ private:
     std::vector<double> older_, free_, now_, force_;
     std::vector<double> moving_, resting_;  // at t = 0: of dt by their speeds [m], forces [N]
     long done_ = 0;                         // steps
+    Impacts* impacts_ = nullptr;            // of the block in hand
     double supplied_ = 0, dissipated_ = 0;  // since the last row [J]
     Status status_;
 };
