@@ -33,8 +33,8 @@ struct InSeries {
     // z where steady forces of the points act, or none [N]
     std::vector<double> resting(const std::vector<double>& force) const {
         std::vector<double> z(states, 0.0);
-        for (std::size_t a = 0; a < force.size(); ++a)
-            for (std::size_t b = 0; b < force.size(); ++b) z[a] += C.C[a * points + b] * force[b];
+        for (std::size_t k = 0; k < force.size() * force.size(); ++k)
+            z[k / points] += C.C[k] * force[k % points];
         return z;
     }
     double stored(const double* z) const {  // [J]

@@ -22,21 +22,19 @@ std::size_t line_at(const Pluck& e, double t) {
 }
 
 double next_knot(const Pluck& e, double t) {
-    if (t < e.start) return e.start;
     const double end = e.start + e.duration;
-    if (t >= end) return std::numeric_limits<double>::infinity();
+    if (t < e.start || t >= end) return t < end ? e.start : HUGE_VAL;
     return e.time.empty() ? end : std::min(e.time[line_at(e, t) + 1], end);
 }
 
 double force(const Pluck& e, double t) {
     const double u = t - e.start;
+    if (u < 0 || u > e.duration) return 0;
     if (!e.time.empty()) {
-        if (u < 0 || u > e.duration) return 0;
         const std::size_t k = line_at(e, t);
         return e.amplitude * (e.share[k] + (e.share[k + 1] - e.share[k]) * (t - e.time[k]) /
                                                (e.time[k + 1] - e.time[k]));
     }
-    if (u < 0 || u > e.duration) return 0;
     const double ratio = u / e.duration;
     // sinh(s x)/sinh(s) = exp(s(x-1)) (1 - exp(-2 s x))/(1 - exp(-2 s)): no overflow; the limit x
     // for s -> 0.

@@ -15,60 +15,53 @@ namespace jvari {
 namespace {
 constexpr Range mode_number{"the number of a mode, a whole number >= 1", 1};
 
-// The bytes of a RIFF WAVE file, little-endian: chunks of a name, a size and a content.
-class Wav {
-public:
-    Wav(const std::string& path, std::string_view bytes) : path_(path) {
-        if (bytes.size() < 12 || bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE")
-            refuse("no RIFF WAVE file");
-        bytes.remove_prefix(12);
-        while (bytes.size() >= 8) {
-            const std::string_view name = bytes.substr(0, 4);
-            const std::size_t size = number(bytes.substr(4, 4));
-            bytes.remove_prefix(8);
-            if (name == "fmt ") format_ = bytes.substr(0, size);
-            if (name == "data") data_ = bytes.substr(0, size);
-            bytes.remove_prefix(std::min(bytes.size(), size + size % 2));
-        }
-        if (format_.size() < 16) refuse("no format");
-        tag_ = static_cast<int>(number(format_.substr(0, 2)));
-        if (tag_ == extensible && format_.size() >= 26)
-            tag_ = static_cast<int>(number(format_.substr(24, 2)));
-        bytes_ = number(format_.substr(14, 2)) / 8;
-        if (const auto channels = number(format_.substr(2, 2)); channels != 1)
-            refuse(std::to_string(channels) + " channels");
-        if (!(tag_ == pcm && bytes_ >= 2 && bytes_ <= 4) &&
-            !(tag_ == floating && (bytes_ == 4 || bytes_ == 8)))
-            refuse("samples of another kind");
-    }
-    double rate() const { return static_cast<double>(number(format_.substr(4, 4))); }
-    std::size_t count() const { return data_.size() / bytes_; }
-    double sample(std::size_t n) const {
-        const std::uint64_t bits = number(data_.substr(n * bytes_, bytes_));
-        if (tag_ == floating && bytes_ == 8) return std::bit_cast<double>(bits);
-        if (tag_ == floating) return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-        const int shift = 64 - 8 * static_cast<int>(bytes_);  // sign
-        return std::ldexp(static_cast<double>(static_cast<std::int64_t>(bits << shift)), -63);
-    }
-    [[noreturn]] void refuse(const std::string& found) const {
-        throw SceneFileError(path_ + ": found " + found +
-                             ", expected a sound of one channel, of 16, 24 or 32 bit or floating "
-                             "point");
-    }
+std::uint64_t little_endian(std::string_view bytes) {
+    std::uint64_t n = 0;
+    for (std::size_t k = bytes.size(); k-- > 0;) n = n << 8 | static_cast<unsigned char>(bytes[k]);
+    return n;
+}
 
-private:
-    static constexpr int pcm = 1, floating = 3, extensible = 0xfffe;
-    static std::uint64_t number(std::string_view bytes) {
-        std::uint64_t n = 0;
-        for (std::size_t k = bytes.size(); k-- > 0;)
-            n = n << 8 | static_cast<unsigned char>(bytes[k]);
-        return n;
+// Of a RIFF WAVE file: chunks of a name, a size and a content.
+void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
+    constexpr int pcm = 1, floating = 3, extensible = 0xfffe;
+    const auto check = [&path](bool holds, const std::string& found) {
+        if (!holds)
+            throw SceneFileError(path + ": found " + found +
+                                 ", expected a sound of one channel, of 16, 24 or 32 bit or "
+                                 "floating point");
+    };
+    check(bytes.size() >= 12 && bytes.substr(0, 4) == "RIFF" && bytes.substr(8, 4) == "WAVE",
+          "no RIFF WAVE file");
+    std::string_view format, data;
+    for (bytes.remove_prefix(12); bytes.size() >= 8;) {
+        const std::string_view name = bytes.substr(0, 4);
+        const std::size_t size = little_endian(bytes.substr(4, 4));
+        bytes.remove_prefix(8);
+        if (name == "fmt ") format = bytes.substr(0, size);
+        if (name == "data") data = bytes.substr(0, size);
+        bytes.remove_prefix(std::min(bytes.size(), size + size % 2));
     }
-    std::string path_;
-    std::string_view format_, data_;
-    int tag_ = 0;
-    std::size_t bytes_ = 0;
-};
+    check(format.size() >= 16, "no format");
+    const auto field = [&](std::size_t at, std::size_t n) {
+        return little_endian(format.substr(at, n));
+    };
+    auto tag = field(0, 2);
+    if (tag == extensible && format.size() >= 26) tag = field(24, 2);
+    const std::uint64_t channels = field(2, 2), rate = field(4, 4), size = field(14, 2) / 8;
+    check(channels == 1, std::to_string(channels) + " channels");
+    check((tag == pcm && size >= 2 && size <= 4) || (tag == floating && (size == 4 || size == 8)),
+          "samples of another kind");
+    check(rate > 0, "no sample rate");
+    for (std::size_t n = 0; n < data.size() / size; ++n) {
+        const std::uint64_t bits = little_endian(data.substr(n * size, size));
+        const auto whole = static_cast<std::int64_t>(bits << (64 - 8 * size));  // with its sign
+        p.share.push_back(tag == pcm  ? std::ldexp(static_cast<double>(whole), -63)
+                          : size == 8 ? std::bit_cast<double>(bits)
+                                      : std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        p.time.push_back(static_cast<double>(n) / static_cast<double>(rate));
+        check(std::isfinite(p.share.back()), "a sample that is no number");
+    }
+}
 }  // namespace
 
 TableStart start_from(const std::string& path, const std::string& text) {
@@ -93,19 +86,10 @@ TableStart start_from(const std::string& path, const std::string& text) {
 }
 
 void force_from(const std::string& path, const std::string& text, Pluck& p) {
-    if (path.ends_with(".wav")) {
-        const Wav wav(path, text);
-        if (!(wav.rate() > 0)) wav.refuse("no sample rate");
-        for (std::size_t n = 0; n < wav.count(); ++n) {
-            p.time.push_back(static_cast<double>(n) / wav.rate());
-            p.share.push_back(wav.sample(n));
-            if (!std::isfinite(p.share.back())) wav.refuse("a sample that is no number");
-        }
-    } else {
-        const ColumnTo columns[] = {{{"time_s", "time", not_negative}, p.time},
-                                    {{"force_N", "newtons", any}, p.share}};
-        read_columns(path, text, columns);
-    }
+    const ColumnTo columns[] = {{{"time_s", "time", not_negative}, p.time},
+                                {{"force_N", "newtons", any}, p.share}};
+    if (path.ends_with(".wav")) samples_of(path, text, p);
+    else read_columns(path, text, columns);
     for (const double F : p.share) p.peak = std::max(p.peak, std::abs(F));
     if (p.time.size() < 2 || !(p.peak > 0))
         throw SceneFileError(path + ": found " + std::to_string(p.time.size()) +

@@ -137,14 +137,13 @@ Features needed_by(const Barrier& barrier) {
     return f;
 }
 
-Features needed_by(const std::optional<Start>& start) {
-    if (!start) return {};
-    if (std::holds_alternative<RestStart>(*start)) return Feature::equilibrium;
-    const auto* table = std::get_if<TableStart>(&*start);
+Features needed_by(const Start& start) {
+    const auto* table = std::get_if<TableStart>(&start);
     const bool moves = table && std::any_of(table->velocity.begin(), table->velocity.end(),
                                             [](double v) { return v != 0; });
-    return moves ? Feature::initial_shape | Feature::initial_velocity
-                 : Features(Feature::initial_shape);
+    return std::holds_alternative<RestStart>(start) ? Features(Feature::equilibrium)
+           : moves ? Feature::initial_shape | Feature::initial_velocity
+                   : Features(Feature::initial_shape);
 }
 }  // namespace
 
@@ -157,7 +156,7 @@ Features needed_by(const Scene& scene) {
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
         if (s.barriers.size() > 1) f = f | Feature::several_barriers;
         if (s.thread) f = f | Feature::thread;
-        f = f | needed_by(s.start);
+        if (s.start) f = f | needed_by(*s.start);
         if (s.velocity) f = f | Feature::initial_velocity;
         if (s.pluck) f = f | Feature::pluck;
         if (s.polarisation) f = f | Feature::polarisation;

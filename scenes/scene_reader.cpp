@@ -306,24 +306,20 @@ private:
         return (std::filesystem::path(document_.file).parent_path() / file).string();
     }
     std::string found_from(const Value& v, const std::string& file) const {
-        return v.place < 0 && !file.empty() && file.find('\0') == std::string::npos
-                   ? std::filesystem::absolute(file).string()
-                   : file;
+        return v.place < 0 ? (std::filesystem::current_path() / file).string() : file;
     }
     std::string contents_of(const char* key, const std::string& file,
                             const std::string& expected) const {
         const std::string path = beside(file);
-        const auto refuse = [&](const std::string& why) {
-            fail(*table_.find(key), at(key), found_text(file) + ", which " + why, expected);
-        };
         std::error_code error;
-        if (file.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
-            refuse("is not a file");
-        std::string contents;
         try {
-            contents = text_of_file(path, largest_table);
-        } catch (const std::exception& e) { refuse(e.what()); }
-        return contents;
+            if (file.find('\0') == std::string::npos &&
+                std::filesystem::is_regular_file(path, error))
+                return text_of_file(path, largest_table);
+            throw std::runtime_error("is not a file");
+        } catch (const std::runtime_error& e) {
+            fail(*table_.find(key), at(key), found_text(file) + ", which " + e.what(), expected);
+        }
     }
     int integer(const Value& v, const char* key, int least) const {
         const auto i = v.whole();

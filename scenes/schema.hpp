@@ -122,11 +122,11 @@ void fields(auto& pass, Is<Thread> auto& t) {
 
 void fields(auto& pass, Is<ModeShape> auto& m) {
     pass.count("number", m.number);
-    pass.number("amplitude", m.amplitude, any, "m, of a velocity m/s");
+    pass.number("amplitude", m.amplitude, any, "m or m/s");
 }
 void fields(auto& pass, Is<TriangleShape> auto& t) {
     pass.number("position", t.position, any, "m");
-    pass.number("amplitude", t.amplitude, any, "m, of a velocity m/s");
+    pass.number("amplitude", t.amplitude, any, "m or m/s");
     pass.number("smoothing", t.smoothing, not_negative, "m", 0.0);
 }
 void fields(auto& pass, Is<TableStart> auto& t) { pass.start_table(t); }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "scenes/barrier.hpp"
@@ -26,66 +25,62 @@ AtRest at_rest(const RestingPoint& p, double own, double z) {
     return {z, 1, slope * z, p.exponent * slope};
 }
 
-// A x = b by elimination with pivots; x in b. False where A is singular.
-bool solve(std::vector<double> A, std::vector<double>& b) {
+// A x = b by elimination; x in b. A is E + C D, D >= 0 diagonal and C symmetric and positive, so
+// that pivots on the diagonal hold.
+void solve(std::vector<double> A, std::vector<double>& b) {
     const std::size_t n = b.size();
-    for (std::size_t c = 0; c < n; ++c) {
-        std::size_t top = c;
-        for (std::size_t r = c + 1; r < n; ++r)
-            if (std::abs(A[r * n + c]) > std::abs(A[top * n + c])) top = r;
-        if (A[top * n + c] == 0) return false;
-        std::swap(b[c], b[top]);
-        std::swap_ranges(&A[c * n], &A[c * n] + n, &A[top * n]);
+    for (std::size_t c = 0; c < n; ++c)
         for (std::size_t r = c + 1; r < n; ++r) {
             const double factor = A[r * n + c] / A[c * n + c];
-            for (std::size_t j = c; factor != 0 && j < n; ++j)
-                A[r * n + j] -= factor * A[c * n + j];
+            for (std::size_t j = c; j < n; ++j) A[r * n + j] -= factor * A[c * n + j];
             b[r] -= factor * b[c];
         }
-    }
     for (std::size_t r = n; r-- > 0; b[r] /= A[r * n + r])
         for (std::size_t j = r + 1; j < n; ++j) b[r] -= A[r * n + j] * b[j];
-    return true;
 }
 
-// The sine series of straight lines through (x, y) and both ends of the string: each corner, where
-// the slope changes by -d, adds 2 d sin(beta x)/(L beta^2).
-std::vector<double> series_of_lines(const Modes& modes, double length, const std::vector<double>& x,
-                                    const std::vector<double>& y) {
-    std::vector<double> q(modes.beta.size(), 0.0);
-    const auto slope = [&](std::size_t k) {  // before row k
-        const double x0 = k > 0 ? x[k - 1] : 0, y0 = k > 0 ? y[k - 1] : 0,
-                     x1 = k < x.size() ? x[k] : length, y1 = k < x.size() ? y[k] : 0;
-        return x1 > x0 ? (y1 - y0) / (x1 - x0) : 0;
-    };
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const double d = slope(k) - slope(k + 1);
-        for (std::size_t i = 0; d != 0 && i < q.size(); ++i)
-            q[i] +=
-                2 * d * std::sin(modes.beta[i] * x[k]) / (length * modes.beta[i] * modes.beta[i]);
+struct Lines {  // with both ends of the string
+    std::vector<double> x, y;
+    Lines(const TableStart& t, const std::vector<double>& column, double length) : x{0}, y{0} {
+        x.insert(x.end(), t.at.begin(), t.at.end());
+        y.insert(y.end(), column.begin(), column.end());
+        x.push_back(length), y.push_back(0);
     }
-    return q;
-}
+    double slope(std::size_t k) const {  // before row k
+        return x[k] > x[k - 1] ? (y[k] - y[k - 1]) / (x[k] - x[k - 1]) : 0;
+    }
+};
 
-std::vector<double> series_of(const Modes& modes, const String& s, const TableStart& t,
-                              const std::vector<double>& y) {
-    if (!t.of_modes) return series_of_lines(modes, s.length, t.at, y);
-    std::vector<double> q(modes.beta.size(), 0.0);
-    for (std::size_t k = 0; k < t.at.size(); ++k)
-        if (t.at[k] <= modes.count()) q[static_cast<std::size_t>(t.at[k]) - 1] = y[k];
-    return q;
-}
-
-std::vector<double> series_of(const Modes& modes, const String& s, const Shape& shape) {
-    std::vector<double> q(modes.beta.size(), 0.0);
-    if (const auto* m = std::get_if<ModeShape>(&shape)) {
-        if (m->number <= modes.count()) q[m->number - 1] = m->amplitude;
+struct SeriesOf {
+    const Modes& modes;
+    const String& s;
+    std::vector<double> operator()(const ModeShape& m) const {
+        std::vector<double> q(modes.beta.size(), 0.0);
+        if (m.number <= modes.count()) q[m.number - 1] = m.amplitude;
         return q;
     }
-    for (int i = 1; i <= modes.count(); ++i)
-        q[i - 1] = coefficient(std::get<TriangleShape>(shape), s.length, i);
-    return q;
-}
+    std::vector<double> operator()(const TriangleShape& t) const {
+        std::vector<double> q;
+        for (int i = 1; i <= modes.count(); ++i) q.push_back(coefficient(t, s.length, i));
+        return q;
+    }
+    std::vector<double> operator()(const TableStart& t) const { return of(t, t.displacement); }
+    std::vector<double> operator()(const RestStart&) const { return (*this)(ModeShape{}); }
+    std::vector<double> of(const TableStart& t, const std::vector<double>& y) const {
+        std::vector<double> q(modes.beta.size(), 0.0);
+        for (std::size_t k = 0; t.of_modes && k < t.at.size(); ++k)
+            if (t.at[k] <= modes.count()) q[static_cast<std::size_t>(t.at[k]) - 1] = y[k];
+        if (t.of_modes) return q;
+        // each corner, where the slope changes by -d, adds 2 d sin(beta x)/(L beta^2)
+        const Lines lines(t, y, s.length);
+        for (std::size_t k = 1; k + 1 < lines.x.size(); ++k)
+            for (std::size_t i = 0; i < q.size(); ++i)
+                q[i] += 2 * (lines.slope(k) - lines.slope(k + 1)) *
+                        std::sin(modes.beta[i] * lines.x[k]) /
+                        (s.length * modes.beta[i] * modes.beta[i]);
+        return q;
+    }
+};
 
 void rest(const Modes& modes, const String& s, const Yield& yield, ModalStart& start) {
     constexpr int parts = 32;
@@ -138,111 +133,95 @@ void rest(const Modes& modes, const String& s, const Yield& yield, ModalStart& s
 }
 }  // namespace
 
+// Newton's steps, shortened until the residual falls, as far as rounding lets it.
 std::vector<double> resting_forces(std::span<const RestingPoint> points,
                                    std::span<const double> C) {
-    constexpr int most_steps = 200, most_halvings = 40;
-    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    constexpr int most_steps = 200;
+    constexpr double shortest = 1e-9, rounding = 1e-12;
     const std::size_t n = points.size();
-    std::vector<double> z(n), F(n), G(n), tried(n);
-    // G(z), and whether all of it is rounding; its largest
-    const auto residual = [&](const std::vector<double>& at, bool& ends) {
+    std::vector<double> z, F(n), G(n);
+    const auto at = [&](std::size_t p, const std::vector<double>& x) {
+        return at_rest(points[p], C[p * n + p], x[p]);
+    };
+    const auto residual = [&](const std::vector<double>& x) {  // the largest of G(x)
         double most = 0;
-        for (std::size_t p = 0; p < n; ++p) F[p] = at_rest(points[p], C[p * n + p], at[p]).F;
-        ends = true;
+        for (std::size_t p = 0; p < n; ++p) F[p] = at(p, x).F;
         for (std::size_t p = 0; p < n; ++p) {
-            double size = std::abs(points[p].height);
-            G[p] = at_rest(points[p], C[p * n + p], at[p]).e - points[p].height;
-            for (std::size_t q = 0; q < n; ++q) {
-                G[p] += C[p * n + q] * F[q];
-                size += std::abs(C[p * n + q] * F[q]);
-            }
-            ends = ends && std::abs(G[p]) <= rounding * size;
+            G[p] = at(p, x).e - points[p].height;
+            for (std::size_t q = 0; q < n; ++q) G[p] += C[p * n + q] * F[q];
             most = std::max(most, std::abs(G[p]));
         }
         return most;
     };
     double largest = 0;
-    for (std::size_t p = 0; p < n; ++p)
-        z[p] = points[p].height, largest = std::max(largest, std::abs(z[p]));
-    bool ends = false;
-    double before = residual(z, ends);
-    for (int step = 0; step < most_steps && !ends; ++step) {
-        std::vector<double> A(n * n), dz = G;
-        for (std::size_t p = 0; p < n; ++p)
-            for (std::size_t q = 0; q < n; ++q)
-                A[p * n + q] = C[p * n + q] * at_rest(points[q], C[q * n + q], z[q]).F_slope +
-                               (p == q ? at_rest(points[p], C[p * n + p], z[p]).e_slope : 0);
-        if (!std::isfinite(before) || !solve(std::move(A), dz)) return {};
-        double share = 1, after = 0;
-        for (int k = 0;; ++k, share *= 0.5) {
+    for (const RestingPoint& p : points)
+        z.push_back(p.height), largest = std::max(largest, std::abs(p.height));
+    double left = residual(z);
+    for (int step = 0; step < most_steps && left > 0; ++step) {
+        std::vector<double> A(n * n), dz = G, tried = z;
+        for (std::size_t k = 0; k < n * n; ++k)
+            A[k] = C[k] * at(k % n, z).F_slope + (k % (n + 1) == 0 ? at(k % n, z).e_slope : 0);
+        solve(std::move(A), dz);
+        double share = 1, now = left;
+        for (; share > shortest && !(now < left); share *= 0.5) {
             for (std::size_t p = 0; p < n; ++p) tried[p] = z[p] - share * dz[p];
-            after = residual(tried, ends);
-            if (ends || after < before || k == most_halvings) break;
+            now = residual(tried);
         }
-        // no smaller: what is left is rounding
-        if (!ends && !(after < before) && !(ends = after <= 1e-14 * largest)) return {};
+        if (!(now < left)) break;
         z = tried;
-        before = after;
+        left = now;
     }
-    return ends ? F : std::vector<double>();
+    residual(z);
+    return left <= rounding * largest ? F : std::vector<double>();
 }
 
 ModalStart start_of(const Modes& modes, const String& s, const Yield& yield) {
-    const std::vector<double> zeros(modes.beta.size(), 0.0);
-    ModalStart start{zeros, zeros, {}};
-    if (s.velocity) start.velocity = series_of(modes, s, *s.velocity);
-    if (!s.start) return start;
-    if (const auto* t = std::get_if<TableStart>(&*s.start)) {
-        start.displacement = series_of(modes, s, *t, t->displacement);
-        const std::vector<double> v = series_of(modes, s, *t, t->velocity);
-        for (std::size_t i = 0; i < v.size(); ++i) start.velocity[i] += v[i];
-    } else if (const auto* m = std::get_if<ModeShape>(&*s.start)) {
-        start.displacement = series_of(modes, s, Shape(*m));
-    } else if (const auto* triangle = std::get_if<TriangleShape>(&*s.start)) {
-        start.displacement = series_of(modes, s, Shape(*triangle));
-    } else rest(modes, s, yield, start);
+    const SeriesOf series{modes, s};
+    ModalStart start{std::visit(series, s.start.value_or(ModeShape{})),
+                     std::visit(series, s.velocity.value_or(ModeShape{})),
+                     {}};
+    const auto* table = s.start ? std::get_if<TableStart>(&*s.start) : nullptr;
+    const std::vector<double> v =
+        table ? series.of(*table, table->velocity) : std::vector<double>();
+    for (std::size_t i = 0; i < v.size(); ++i) start.velocity[i] += v[i];
+    if (s.start && std::holds_alternative<RestStart>(*s.start)) rest(modes, s, yield, start);
     return start;
 }
 
 double displacement_at(const TableStart& t, double length, double x) {
-    if (t.of_modes) {
-        double sum = 0;
-        for (std::size_t k = 0; k < t.at.size(); ++k)
-            sum += t.displacement[k] * std::sin(t.at[k] * pi * x / length);
-        return sum;
-    }
-    const auto k =
-        static_cast<std::size_t>(std::upper_bound(t.at.begin(), t.at.end(), x) - t.at.begin());
-    const double x0 = k > 0 ? t.at[k - 1] : 0, y0 = k > 0 ? t.displacement[k - 1] : 0,
-                 x1 = k < t.at.size() ? t.at[k] : length,
-                 y1 = k < t.at.size() ? t.displacement[k] : 0;
-    return x1 > x0 ? y0 + (y1 - y0) * (x - x0) / (x1 - x0) : y0;
+    double sum = 0;
+    for (std::size_t k = 0; t.of_modes && k < t.at.size(); ++k)
+        sum += t.displacement[k] * std::sin(t.at[k] * pi * x / length);
+    if (t.of_modes) return sum;
+    const Lines lines(t, t.displacement, length);
+    const auto next = std::upper_bound(lines.x.begin() + 1, lines.x.end() - 1, x);
+    const auto k = static_cast<std::size_t>(next - lines.x.begin());
+    return lines.y[k - 1] + lines.slope(k) * (x - lines.x[k - 1]);
 }
 
 double largest_displacement(const String& s) {
-    if (!s.start) return 0;
-    if (const auto* m = std::get_if<ModeShape>(&*s.start)) return std::abs(m->amplitude);
-    if (const auto* t = std::get_if<TriangleShape>(&*s.start)) return std::abs(t->amplitude);
-    const auto* table = std::get_if<TableStart>(&*s.start);
     double largest = 0;
-    for (int k = 0; table && k <= 256; ++k)
+    const auto* table = s.start ? std::get_if<TableStart>(&*s.start) : nullptr;
+    for (int k = 0; table && k <= 1024; ++k)
         largest =
-            std::max(largest, std::abs(displacement_at(*table, s.length, s.length * k / 256)));
-    for (std::size_t k = 0; table && !table->of_modes && k < table->at.size(); ++k)
-        largest = std::max(largest, std::abs(table->displacement[k]));
+            std::max(largest, std::abs(displacement_at(*table, s.length, s.length * k / 1024)));
+    const auto shape = [&](const auto& x) {
+        if constexpr (requires { x.amplitude; }) largest = std::abs(x.amplitude);
+    };
+    if (s.start) std::visit(shape, *s.start);
     return largest;
 }
 
 String scaled(String s, double factor) {
-    const auto scale = [factor](auto& shape) { shape.amplitude *= factor; };
+    const auto scale = [factor](auto& x) {
+        if constexpr (requires { x.amplitude; }) x.amplitude *= factor;
+        if constexpr (requires { x.of_modes; })
+            for (auto* column : {&x.displacement, &x.velocity})
+                for (double& value : *column) value *= factor;
+    };
     if (s.velocity) std::visit(scale, *s.velocity);
-    if (s.pluck) s.pluck->amplitude *= factor;
-    if (!s.start) return s;
-    if (auto* m = std::get_if<ModeShape>(&*s.start)) scale(*m);
-    if (auto* t = std::get_if<TriangleShape>(&*s.start)) scale(*t);
-    if (auto* t = std::get_if<TableStart>(&*s.start))
-        for (auto* column : {&t->displacement, &t->velocity})
-            for (double& x : *column) x *= factor;
+    if (s.pluck) scale(*s.pluck);
+    if (s.start) std::visit(scale, *s.start);
     return s;
 }
 

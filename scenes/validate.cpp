@@ -157,10 +157,6 @@ struct On {
         if (const auto* table = std::get_if<TableStart>(&*string.start)) rows(*table);
         if (const auto* triangle = std::get_if<TriangleShape>(&*string.start))
             shape("start", *triangle);
-        if (std::holds_alternative<RestStart>(*string.start) && string.axial_stiffness != 0)
-            throw BadScene(path + "start", "\"rest\" of a string that stretches",
-                           "a string without axial_stiffness, whose equilibrium is linear in the "
-                           "forces");
     }
     void shape(const std::string& part, const Shape& s) const {
         const auto* triangle = std::get_if<TriangleShape>(&s);
@@ -240,11 +236,13 @@ void validate(const Scene& scene) {
             throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time",
                            "a unique name");
     }
-    const bool moves = scene.body && !scene.body->modes.empty();
-    for (std::size_t i = 0; moves && i < scene.strings.size(); ++i)
-        if (scene.strings[i].start && std::holds_alternative<RestStart>(*scene.strings[i].start))
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        const bool moves = s.axial_stiffness != 0 || (scene.body && !scene.body->modes.empty());
+        if (moves && s.start && std::holds_alternative<RestStart>(*s.start))
             throw BadScene("string." + std::to_string(i) + ".start", "\"rest\"",
-                           "another start: a body with modes moves the end of the string");
+                           "another start of a string that stretches or ends on a moving body");
+    }
     if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() &&
         scene.body->modes.empty())
         throw BadScene("body", "neither bridge nor nut nor mode", "at least one of them");

@@ -106,8 +106,6 @@ std::string start_text(const ModeShape& m) {
         .with("amplitude", m.amplitude)
         .text();
 }
-std::string start_text(const TableStart& t) { return Object().with("shape", t.file).text(); }
-std::string start_text(const RestStart&) { return Object().with("shape", "rest").text(); }
 std::string start_text(const TriangleShape& t) {
     return Object()
         .with("shape", "triangle")
@@ -115,6 +113,8 @@ std::string start_text(const TriangleShape& t) {
         .with("amplitude", t.amplitude)
         .text();
 }
+
+std::string start_text(const auto&) { return "{}"; }  // of a file, or at rest
 
 std::string string_text(const String& s) {
     Object o;

@@ -60,8 +60,6 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
             p->sigma1 = p->sigma3 = 0;
         if (!f.has(Feature::thread)) s.thread.reset();
         if (!f.has(Feature::initial_shape)) s.start.reset();
-        if (s.start && std::holds_alternative<RestStart>(*s.start) && !f.has(Feature::equilibrium))
-            s.start.reset();
         if (!f.has(Feature::initial_velocity)) s.velocity.reset();
         if (!f.has(Feature::pluck)) s.pluck.reset();
         if (!f.has(Feature::polarisation)) s.polarisation.reset();

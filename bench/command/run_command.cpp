@@ -128,24 +128,14 @@ std::optional<Player> checked_output(const RunRequest& r, const Scene& scene, do
 // Before a long run: that its end can be kept.
 void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, Settings settings) {
     if (r.state.empty()) return;
-    if (scene.strings.size() != 1)
-        throw store::UsageError(fmt::format("--state: scene {} has {} strings; a state is of one",
-                                            scene.name, scene.strings.size()));
+    store::must_be_writable(r.state);
     if (d.clock == Clock::continuous) settings.sample_rate = 0;
     if (make_scheme(d, scene, settings)->state().displacement.empty())
-        throw store::UsageError(fmt::format(
-            "--state: {} keeps more here than displacement and velocity of each mode, so no run "
-            "goes on from them as this one would; modal_two_point and the references keep no more, "
-            "without compliance=matched",
-            d.name));
-    store::must_be_writable(r.state);
-}
-
-std::string state_text(const ModalState& state) {
-    std::string text = "mode,displacement_m,velocity_m_per_s\n";
-    for (std::size_t i = 0; i < state.displacement.size(); ++i)
-        text += fmt::format("{},{},{}\n", i + 1, state.displacement[i], state.velocity[i]);
-    return text;
+        throw store::UsageError(
+            fmt::format("--state: {} keeps more here than displacement and velocity of each mode "
+                        "of one string; "
+                        "modal_two_point and the references do not, without compliance=matched",
+                        d.name));
 }
 
 // One row per contact, in the order of their starts; what lasts beyond the run has neither end nor
@@ -283,7 +273,11 @@ int run_command(RunRequest r) {
                             level.empty() ? "" : "  (" + level + ")");
     }
     if (!r.state.empty() && result.status.outcome == Outcome::ok) {
-        store::write_fresh(r.state, state_text(result.state));
+        std::string rows = "mode,displacement_m,velocity_m_per_s\n";
+        for (std::size_t i = 0; i < result.state.displacement.size(); ++i)
+            rows += fmt::format("{},{},{}\n", i + 1, result.state.displacement[i],
+                                result.state.velocity[i]);
+        store::write_fresh(r.state, rows);
         json["state"] = r.state;
         text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
     }

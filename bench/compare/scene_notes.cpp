@@ -35,11 +35,9 @@ bool pressed(const String& s) {  // at rest something above or below it pushes o
            });
 }
 bool set_in_motion(const String& s, double before) {
-    const auto moves = [](double v) { return v != 0; };
-    const auto* table = s.start ? std::get_if<TableStart>(&*s.start) : nullptr;
-    const bool started = largest_displacement(s) != 0 || s.velocity ||
-                         (table && std::ranges::any_of(table->velocity, moves));
-    return started || pressed(s) || (plucked(s) && s.pluck->start < before);
+    const bool table = s.start && std::holds_alternative<TableStart>(*s.start);
+    return largest_displacement(s) != 0 || table || s.velocity || pressed(s) ||
+           (plucked(s) && s.pluck->start < before);
 }
 }  // namespace
 

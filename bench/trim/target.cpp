@@ -112,12 +112,11 @@ std::string name_of_start(const Scene& scene) {
         if (!s.start) continue;
         if (const auto* m = std::get_if<ModeShape>(&*s.start))
             return fmt::format("mode {}, {:.3g} m", m->number, m->amplitude);
-        if (std::holds_alternative<RestStart>(*s.start)) return "at rest";
-        if (const auto* t = std::get_if<TableStart>(&*s.start)) return "as " + t->file + " says";
-        const auto& t = std::get<TriangleShape>(*s.start);
-        return fmt::format("a {}triangle at {:.3g} m, {:.3g} m",
-                           t.smoothing > plectrum * s.length ? "smoothed " : "", t.position,
-                           t.amplitude);
+        if (const auto* table = std::get_if<TableStart>(&*s.start)) return table->file;
+        if (const auto* t = std::get_if<TriangleShape>(&*s.start))
+            return fmt::format("a {}triangle at {:.3g} m, {:.3g} m",
+                               t->smoothing > plectrum * s.length ? "smoothed " : "", t->position,
+                               t->amplitude);
     }
     return "at rest";
 }

@@ -117,10 +117,8 @@ public:
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override {
-        if (window_.series()) return {};
-        ModalState s{{y_.begin(), y_.begin() + modes_.count()}, {}};
-        for (int i = 0; i < modes_.count(); ++i) s.velocity.push_back(u_[i] / window_.seconds());
-        return s;
+        return window_.series() ? ModalState{}
+                                : state_of(y_, u_, modes_.count(), 1 / window_.seconds());
     }
     std::vector<Fact> facts() const override;
 

@@ -41,11 +41,7 @@ public:
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override {
-        if (series()) return {};
-        ModalState s{{y_.begin(), y_.begin() + modes_.count()}, {}};
-        for (int i = 0; i < modes_.count(); ++i)
-            s.velocity.push_back(flight_.window.osc.rate * u_[i]);
-        return s;
+        return series() ? ModalState{} : state_of(y_, u_, modes_.count(), flight_.window.osc.rate);
     }
     std::vector<Fact> facts() const override;
 

@@ -214,12 +214,6 @@ double relative_compliance(const GridString& g, const String& s, const LumpedBar
     return own / static_compliance(modes, footprint_weights(modes, b.position, b.width));
 }
 
-void refuse_beyond(const ModeShape& mode, const Grid& g) {
-    if (mode.number >= g.intervals)
-        throw Refusal("the start is mode " + std::to_string(mode.number) +
-                      " and the grid carries " + std::to_string(g.intervals - 1));
-}
-
 // At the nodes, of as many modes as the grid can carry.
 std::vector<double> at_nodes(const std::vector<double>& a, const Grid& g) {
     std::vector<double> u(g.intervals + 1, 0.0), sine(2 * g.intervals);
@@ -271,10 +265,13 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.c2 = s.tension / s.linear_density;
     g.kappa2 = s.bending_stiffness / s.linear_density;
     g.loss = loss;
-    if (const auto* m = s.start ? std::get_if<ModeShape>(&*s.start) : nullptr)
-        refuse_beyond(*m, grid);
-    if (const auto* m = s.velocity ? std::get_if<ModeShape>(&*s.velocity) : nullptr)
-        refuse_beyond(*m, grid);
+    const auto mode_of = [](const auto& shape) {
+        return shape ? std::get_if<ModeShape>(&*shape) : nullptr;
+    };
+    for (const ModeShape* m : {mode_of(s.start), mode_of(s.velocity)})
+        if (m && m->number >= grid.intervals)
+            throw Refusal("the start is mode " + std::to_string(m->number) +
+                          " and the grid carries " + std::to_string(grid.intervals - 1));
     const ModalStart start = start_of(modes_of(s, grid.intervals - 1), s);
     g.start = at_nodes(start.displacement, grid);
     g.start_velocity = at_nodes(start.velocity, grid);

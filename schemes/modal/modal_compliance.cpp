@@ -2,7 +2,6 @@
 // them one by one.
 #include "schemes/modal/modal_compliance.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace jvari {
@@ -35,8 +34,7 @@ double relative_compliance(const Modes& modes, const String& s, std::span<const 
 }
 
 Yield yield_of(std::span<const double> own, const std::optional<MissingMatrix>& series) {
-    if (!series) return {own, {}, {}};
-    return {own, series->C, series->pluck};
+    return series ? Yield{own, series->C, series->pluck} : Yield{own, {}, {}};
 }
 
 void put_start(StringPoints& p, const String& s, const Modes& modes, const ModalStart& start) {

@@ -240,7 +240,7 @@ TEST_F(InAFolder, WhatCannotBeIsRefusedWithItsPlace) {
     EXPECT_TRUE(says(why([&] { read("[string.initial]\nshape = \"mode\"\n"); }),
                      "string.0.initial: unknown key; it is called \"start\""));
     EXPECT_TRUE(says(why([&] { read("axial_stiffness = 1e3\nstart = \"rest\"\n"); }),
-                     "string.0.start: found \"rest\" of a string that stretches"));
+                     "string.0.start: found \"rest\", expected another start of a string that"));
     EXPECT_TRUE(says(
         why([&] { read("start = \"rest\"\n[body]\n[[body.mode]]\nmass = 1\nstiffness = 1\n"); }),
         "string.0.start: found \"rest\", expected another start"));

@@ -107,7 +107,7 @@ TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is ne
                  free[] = {1.5e-5, 0};
     Contacts one, two;
     one.add({1e8, 1.5}, 0, 0);
-    two.add(one);
+    two.add(one, 0);
     two.add({1e8, 1}, 0, 0);
     const auto force = [&]<class Rule>(Rule*, const Contacts& contacts,
                                        std::span<const double> compliances) {
