@@ -312,7 +312,8 @@ TEST(Trim, AnUnknownOrATooLargeUncertaintyDecidesNothing) {
 
 TEST(Search, SaysWhereNothingServes) {
     trim::Judge judge(request("tanpura_c3_release", "0.0001%"), catalogue(), silent, counted);
-    EXPECT_FALSE(trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent).within_tolerance);
+    EXPECT_FALSE(
+        trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent).within_tolerance);
 }
 
 TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {
