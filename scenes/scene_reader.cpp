@@ -1,7 +1,5 @@
 // Two passes over the schema: Names refuses unknown keys (and chooses the alternatives of
 // variants), Reader takes the values.
-#include "scenes/scene_reader.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -10,7 +8,7 @@
 #include <span>
 
 #include "scenes/columns.hpp"
-#include "scenes/excitation_file.hpp"
+#include "scenes/document.hpp"
 #include "scenes/material.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/scene_file.hpp"

@@ -4,7 +4,6 @@
 
 #include "fuzz.hpp"
 #include "scenes/columns.hpp"
-#include "scenes/excitation_file.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "scenes/columns.hpp"
 #include "scenes/excitation.hpp"
-#include "scenes/excitation_file.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/c3.hpp"
 #include "tests/says.hpp"

@@ -4,8 +4,8 @@
 
 #include <numbers>
 
+#include "scenes/columns.hpp"
 #include "scenes/excitation.hpp"
-#include "scenes/excitation_file.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 #include "tests/c3.hpp"
