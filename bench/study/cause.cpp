@@ -36,11 +36,11 @@ double miss(Signal x, Signal r, long late, double factor, long margin = 0) {
     return std::sqrt(sum);
 }
 
-struct Pair {  // of a partial
+struct MatchedPartial {  // of a partial
     Partial run, reference;
 };
-std::vector<Pair> partials(const String& s, Signal run, Signal reference, double rate) {
-    std::vector<Pair> all;
+std::vector<MatchedPartial> partials(const String& s, Signal run, Signal reference, double rate) {
+    std::vector<MatchedPartial> all;
     const int count = std::min(most_partials, modes_below(s, 0.25 * rate));
     if (count == 0) return all;
     const Modes modes = modes_of(s, count);
@@ -51,15 +51,16 @@ std::vector<Pair> partials(const String& s, Signal run, Signal reference, double
         const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
         if (!(square > 0)) continue;
         const double near = std::sqrt(square) / (2 * pi), apart = modes.omega0[0] / (2 * pi);
-        const Pair p{strongest_near(run, rate, near, 0.4 * apart),
-                     strongest_near(reference, rate, near, 0.4 * apart)};
+        const MatchedPartial p{strongest_near(run, rate, near, 0.4 * apart),
+                               strongest_near(reference, rate, near, 0.4 * apart)};
         if (p.run.amplitude > 0 && p.reference.amplitude > 0) all.push_back(p);
     }
     return all;
 }
 
 // What the reference errs by where its partials have the run's frequencies, or its decays.
-double err_by(const std::vector<Pair>& all, double rate, std::size_t rows, bool tune, bool decay) {
+double err_by(const std::vector<MatchedPartial>& all, double rate, std::size_t rows, bool tune,
+              bool decay) {
     double sum = 0;
     for (std::size_t n = 0; n < rows; ++n) {
         const double t = static_cast<double>(n) / rate;
@@ -75,7 +76,7 @@ double err_by(const std::vector<Pair>& all, double rate, std::size_t rows, bool 
     return std::sqrt(sum);
 }
 
-std::string out_of_tune(const std::vector<Pair>& all, bool by_tune) {
+std::string out_of_tune(const std::vector<MatchedPartial>& all, bool by_tune) {
     std::vector<double> off;
     std::string tunes, decays;
     for (const auto& [run, r] : all) {
@@ -133,7 +134,7 @@ std::string cause_of(const Scene& scene, const Trace& run, const Trace& referenc
     const double error = miss(x, r, 0, 1);
     if (!(error > negligible * norm(r)) || !std::isfinite(error)) return "";
     if (why_no_partials(scene).empty() && hears_the_string(scene.taps[tap].quantity))
-        if (const std::vector<Pair> all = partials(scene.strings.front(), x, r, rate);
+        if (const std::vector<MatchedPartial> all = partials(scene.strings.front(), x, r, rate);
             !all.empty() && err_by(all, rate, r.size(), true, true) > most_of_it * error)
             return out_of_tune(all, err_by(all, rate, r.size(), true, false) >
                                         err_by(all, rate, r.size(), false, true));
