@@ -8,7 +8,7 @@ namespace {
 // a period of 288 rows
 constexpr const char* one_string =
     "name = \"loop\"\nduration = 0.3\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\n"
-    "frequency = 153.125\n[string.initial]\nshape = \"triangle\"\nposition = 0.3\n"
+    "frequency = 153.125\n[string.start]\nshape = \"triangle\"\nposition = 0.3\n"
     "amplitude = 1e-3\nsmoothing = 0.2\n[[tap]]\nname = \"y\"\nquantity = \"displacement\"\n"
     "string = 0\nposition = 0.2\n";
 
@@ -89,7 +89,7 @@ TEST(Cause, OfAContactThatScalesWithTheStepIsThatItsErrorRises) {
     const Scratch scratch;
     std::ofstream(scratch / "loop.toml")
         << std::string(one_string)
-               .insert(std::string(one_string).find("[string.initial]"),
+               .insert(std::string(one_string).find("[string.start]"),
                        "[[string.barrier]]\nshape = \"lumped\"\nposition = "
                        "0.1\nheight = -1e-4\nstiffness = 2e3\n");
     std::string traces;
