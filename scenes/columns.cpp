@@ -1,9 +1,9 @@
 #include "scenes/columns.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -109,6 +109,14 @@ void read_columns(const std::string& path, const std::string& text,
 namespace {
 constexpr Range mode_number{"the number of a mode, a whole number >= 1", 1};
 
+template <class Number, class Bits>
+Number of_bits(Bits bits) {  // std::bit_cast, which Emscripten of Debian 12 does not have
+    static_assert(sizeof(Number) == sizeof(Bits));
+    Number x;
+    std::memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 std::uint64_t little_endian(std::string_view bytes) {
     std::uint64_t n = 0;
     for (std::size_t k = bytes.size(); k-- > 0;) n = n << 8 | static_cast<unsigned char>(bytes[k]);
@@ -150,8 +158,8 @@ void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
         const std::uint64_t bits = little_endian(data.substr(n * size, size));
         const auto whole = static_cast<std::int64_t>(bits << (64 - 8 * size));  // with its sign
         p.share.push_back(tag == pcm  ? std::ldexp(static_cast<double>(whole), -63)
-                          : size == 8 ? std::bit_cast<double>(bits)
-                                      : std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+                          : size == 8 ? of_bits<double>(bits)
+                                      : of_bits<float>(static_cast<std::uint32_t>(bits)));
         p.time.push_back(static_cast<double>(n) / static_cast<double>(rate));
         check(std::isfinite(p.share.back()), "a sample that is no number");
     }
