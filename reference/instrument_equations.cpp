@@ -34,8 +34,7 @@ InstrumentEquations::InstrumentEquations(const std::vector<String>& all,
                               {b.stiffness.k, b.exponent},
                               b.contact_loss,
                               0,
-                              b.height,
-                              b.loss_law == LossLaw::clipped});
+                              b.height});
         }
         if (const auto& c = s.thread)
             threads.push_back({k,
@@ -101,8 +100,7 @@ InstrumentEquations::Pull InstrumentEquations::pull(int a, Motion m) const noexc
     const double f =
         // odd: a trial may overshoot
         p.law.alpha == 1 ? p.law.k * eta : p.law.k * std::pow(std::abs(eta), p.law.alpha - 1) * eta;
-    const double give = 1 - p.beta * m.v, F = f * (p.clipped ? std::max(0.0, give) : give);
-    return {F, (f - F) * m.v};
+    return {f * (1 - p.beta * m.v), p.beta * f * m.v * m.v};
 }
 
 double InstrumentEquations::penetration(int a, const double* z) const noexcept {

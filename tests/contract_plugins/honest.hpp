@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scenes/modes.hpp"
-#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 #include "schemes/plugin.hpp"
 
@@ -24,7 +23,7 @@ public:
         steps_per_row(settings);
         const String& s = scene.strings.front();
         modes_ = modes_of(s, settings);
-        shape_ = start_of(modes_, s).displacement;
+        shape_ = initial_displacement(modes_, s);
         for (int i = 0; i < modes_.count(); ++i) {
             const double sigma = modes_.sigma[i], omega0 = modes_.omega0[i],
                          T = 1 / settings.tap_rate;

@@ -9,7 +9,6 @@
 
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
-#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal_coefficients.hpp"
 #include "schemes/scheme.hpp"
@@ -71,7 +70,7 @@ public:
                 w = to_real(nut_force_weights(modes_, string_));
             taps_.push_back(w);
         }
-        y0_ = to_real(start_of(modes_, string_).displacement);
+        y0_ = to_real(initial_displacement(modes_, string_));
         PlainTwoPoint::reset();
     }
     void reset() noexcept override {
