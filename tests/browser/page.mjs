@@ -92,6 +92,7 @@ function files_of(text) {
         ...new Set([
           "cell",
           ...head.filter(n => !is_error(n) && !is_cost(n)),
+          "flags",
           "headline_nut",
           "headline_bridge",
         ]),
