@@ -377,7 +377,9 @@ test(
       all.slice(0, 2).map(p => p.y.toFixed(9)),
       ["0.010000000", "0.001600000"],
     );
-    assert.ok(!all[0].told.error.includes("\u2264") && all[1].told.error.startsWith("\u2264"));
+    assert.ok(
+      !all[0].tooltip.error.includes("\u2264") && all[1].tooltip.error.startsWith("\u2264"),
+    );
     assert.deepEqual(
       of("front_of(cells(), 'error_l2_50ms', 'cost_s_per_s')").map(p => [p.series, p.y.toFixed(9)]),
       [
@@ -410,7 +412,7 @@ test("errors are offered only where there is a finite value, and the headline co
     // of the headline's tap, then of each
     ["error_l2_50ms", "third_octave_db", "error_l2_50ms_nut", "third_octave_db_nut"],
   );
-  assert.deepEqual(sample()("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')")[0].told, {
+  assert.deepEqual(sample()("points_of(cells(), 'error_l2_50ms', 'cost_s_per_s')")[0].tooltip, {
     scheme: "a",
     rate: "44.1 kHz",
     modes: "133",
