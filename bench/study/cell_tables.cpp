@@ -220,10 +220,11 @@ Cells cells_in(const store::Table& facts) {
         for (int k = from + 1; from >= 0 && k < to; ++k)
             if (!facts.rows[i][k].empty() && is_swept(facts.columns[k]))
                 c.swept.emplace_back(facts.columns[k], facts.rows[i][k]);
-        for (std::size_t k = 0; k < facts.columns.size(); ++k)
-            if (const double x = store::number_of(facts.rows[i][k]);
-                facts.columns[k].starts_with("fact_") && !std::isnan(x))
+        for (std::size_t k = 0; k < facts.columns.size(); ++k) {
+            if (!facts.columns[k].starts_with("fact_")) continue;
+            if (const double x = store::number_of(facts.rows[i][k]); !std::isnan(x))
                 c.facts.emplace_back(facts.columns[k].substr(5), x);
+        }
     }
     return cells;
 }
@@ -231,9 +232,9 @@ Cells cells_in(const store::Table& facts) {
 
 Cells read_cells(const std::filesystem::path& path, bool whole) {
     const store::Folder folder{path};
-    const auto with = [&](const char* name, std::initializer_list<const char*> columns) {
-        const store::Table t = folder.table(name);
-        for (const char* column : columns)
+    const auto with = [&](const char* name, std::initializer_list<const char*> required) {
+        store::Table t = folder.table(name);
+        for (const char* column : required)
             if (!t.columns.empty() && t.column(column) < 0)
                 throw store::UsageError(
                     fmt::format("{}/{}.csv: found no column {}; make the results again",

@@ -20,7 +20,7 @@ struct Said {
 // It leads a process group, which is killed when it has ended, when `unwanted`, which is asked
 // every few hundredths of a second, is true, and at an interruption; it is killed itself however
 // else this program ends. What it started and left behind is not waited for. The time that it takes
-// counts as computed by this thread (time_limit.hpp).
+// counts as computed by this thread (interruption.hpp).
 Said run_program(std::vector<std::string> words, const std::function<bool()>& unwanted = {});
 
 }  // namespace jvari::bench::store
