@@ -1058,7 +1058,7 @@ async function check(browser, name, file, charts) {
     );
     expect(
       sound.shown >= 3 &&
-        sound.length.every(s => Math.abs(s - (name === "demo" ? 0.3 : 0.06)) < 0.001) &&
+        sound.length.every(s => Math.abs(s - (name === "demo" ? 0.2 : 0.06)) < 0.001) &&
         sound.hidden,
       `${sound.shown} sounds are whole, and without names where names are hidden: ` +
         `${JSON.stringify(sound)}`,
