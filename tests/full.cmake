@@ -77,7 +77,7 @@ set(demo_report ${CMAKE_CURRENT_BINARY_DIR}/demo_report)
 jvari_gate(Demo.AnswersInThirtyThreeLinesAndThirtySeconds demo.sh $<TARGET_FILE:jvari>
     ${demo_report})
 set_tests_properties(Demo.AnswersInThirtyThreeLinesAndThirtySeconds PROPERTIES COST 100
-    FIXTURES_SETUP demo_report)
+    RUN_SERIAL TRUE FIXTURES_SETUP demo_report)  # its limit is one of processor time
 jvari_gate(Browser.ThePageDrawsWhatItsTablesHold browser/page.sh $<TARGET_FILE:jvari>
     ${CMAKE_CURRENT_SOURCE_DIR}/report ${CMAKE_SOURCE_DIR}/bench/report/page
     ${CMAKE_SOURCE_DIR}/node_modules)
