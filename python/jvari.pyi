@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 _Value = Union[bool, int, float, str, Sequence["_Value"]]
-# Its keys are columns; numbers as numbers, None where nothing is known. Of a cell, row["errors"] has
-# {tap: {measure: {"value", "floor", "certificate", "in_model", "certificate_in_model"}}}.
+# Its keys are columns; numbers as numbers, None where nothing is known. Of a cell, row["errors"]
+# has {tap: {measure: {"value", "floor", "certificate", "in_model", "certificate_in_model"}}}.
 _Row = dict[str, Any]
 
 __version__: str

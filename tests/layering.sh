@@ -69,7 +69,8 @@ unseen "analysis never sees which scheme made a trace" \
 # Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the
 # tests compare with any of them.
 product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
-only() {  # only LIBRARY PATTERN PLACES: of the product, files that begin with PLACES alone include it
+# only LIBRARY PATTERN PLACES: of the product, files that begin with PLACES alone include it
+only() {
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")
 }
 only "toml++" 'toml' 'scenes/document'

@@ -17,8 +17,8 @@ program = os.path.abspath(sys.argv[1])
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
 PRODUCT = ["scenes", "schemes", "reference", "analysis", "bench", "python", "web"]
-CODE = (".cpp", ".hpp", ".h", ".js", ".mjs", ".py", ".pyi", ".css", ".html", ".sh", ".def", ".cmake",
-        ".m", ".jl")
+CODE = (".cpp", ".hpp", ".h", ".js", ".mjs", ".py", ".pyi", ".css", ".html", ".sh", ".def",
+        ".cmake", ".m", ".jl")
 SLASHES = (".cpp", ".hpp", ".h", ".js", ".mjs", ".css", ".def")
 
 

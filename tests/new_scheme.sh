@@ -31,7 +31,8 @@ echo "JVARI_BUILTIN($name)" >>"$tree/schemes/schemes.def"  # the line
 cp "$here/tests/regularised_rule.hpp" "$tree/schemes/contact/"  # a rule, and its row
 include='#include "schemes/contact/'
 sed -i -e "s|^${include}quadratised_rule.hpp\"|&\n${include}regularised_rule.hpp\"|" \
-    -e 's|^    ROW(penalty,|    ROW(regularised, RegularisedRule, "a test") \\\n&|' "$tree/schemes/contact/rules.hpp"
+    -e 's|^    ROW(penalty,|    ROW(regularised, RegularisedRule, "a test") \\\n&|' \
+    "$tree/schemes/contact/rules.hpp"
 table="driver/pairings modal/modal_two_point modal/modal_three_point spatial/modal_spatial_newton
     grid/finite_difference_explicit grid/finite_difference_theta grid/finite_difference_hamiltonian"
 

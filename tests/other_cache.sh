@@ -4,8 +4,8 @@
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 run() {
-    "$1" run tanpura_drone --scheme modal_two_point --rate 88200 --modes 150 --duration 0.02 --quiet \
-        --out "$scratch/$2.csv"
+    "$1" run tanpura_drone --scheme modal_two_point --rate 88200 --modes 150 --duration 0.02 \
+        --quiet --out "$scratch/$2.csv"
 }
 run "$1" own && LD_PRELOAD=$2 run "$1" other || exit 2
 cmp "$scratch/own.csv" "$scratch/other.csv"

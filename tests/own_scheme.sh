@@ -60,8 +60,8 @@ fi
 # modal_two_point's own solution.
 "$jvari" judge free_string --duration 0.01 --trace 44100=nothing.csv 2>/dev/null &&
     fail "a file that is not there is judged"
-"$jvari" run free_string --duration 0.02 --scheme exact_linear --modes 2000 --out free.csv --quiet ||
-    exit 2
+"$jvari" run free_string --duration 0.02 --scheme exact_linear --modes 2000 --out free.csv \
+    --quiet || exit 2
 awk -F, -v OFS=, 'NR > 1 { for (k = 2; k <= NF; ++k) $k = sprintf("%.17g", 1.001 * $k) } 1' \
     free.csv > loud.csv
 "$jvari" judge free_string --duration 0.02 --trace 44100=loud.csv | grep -q "errs by 0.1 %" ||

@@ -41,7 +41,8 @@ for what in scenes suites; do
     run list $what | grep -q '^  packed ' || fail "its $what are not those of the package"
 done
 compare() {
-    run compare tanpura_c3_release --schemes modal_two_point --rates 44100 --duration 0.05 --repeats 1
+    run compare tanpura_c3_release --schemes modal_two_point --rates 44100 --duration 0.05 \
+        --repeats 1
 }
 compare > said || { cat said; exit 1; }
 grep -q 'uncertainty is .*tanpura_c3_release.json' said ||

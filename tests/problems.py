@@ -60,8 +60,8 @@ def compare(name):
     known_to = [r["uncertainty_l2_50ms"] for r in (old, new)]
     for tap, a, b, known, anew in zip(was["tap_names"], old["trace"], new["trace"], *known_to):
         apart = math.dist(a, b) / math.hypot(*a)
-        assert apart <= known + anew, (f"{name}: the reference of {tap} moved by {apart:.2g}, and is "
-                                       f"known to {known:.2g} and {anew:.2g}")
+        assert apart <= known + anew, (f"{name}: the reference of {tap} moved by {apart:.2g}, and "
+                                       f"is known to {known:.2g} and {anew:.2g}")
 
 
 if names == ["--write"]:

@@ -37,10 +37,12 @@ for file in bench/trim/target.cpp bench/diff/rules.cpp \
     schemes/modal/kernels/modal_two_point_pass-inl.hpp scenes/damping.cpp; do
     plant $file JVARI_CELL_SOURCES other
 done
-for file in schemes/modal/modal_two_point.cpp reference/exact/exact_contact.cpp scenes/damping.cpp; do
+for file in schemes/modal/modal_two_point.cpp reference/exact/exact_contact.cpp \
+    scenes/damping.cpp; do
     plant $file JVARI_RUN_SOURCES other
 done
-for file in bench/report/page.cpp bench/command/console.cpp bench/kernels/table.cpp bench/README.md; do
+for file in bench/report/page.cpp bench/command/console.cpp bench/kernels/table.cpp \
+    bench/README.md; do
     plant $file JVARI_CELL_SOURCES same
 done
 exit $status

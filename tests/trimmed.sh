@@ -2,8 +2,8 @@
 # What README.md and results/README.md say of trimmed models is what results/trim holds: modes,
 # rates, errors and how much cheaper they are. usage: trimmed.sh [TREE]
 cd "${1:-$(dirname "$0")/..}" || exit 2
-# figures RECORD: scheme and rate of the whole model; modes, rate, error of the trimmed one; ratio of
-# costs; is it within
+# figures RECORD: scheme and rate of the whole model; modes, rate, error of the trimmed one; ratio
+# of costs; is it within
 figures() {
     sed 's/"[^"]*"/x/g' "results/trim/$1/path.csv" | awk -F, '
         NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i }

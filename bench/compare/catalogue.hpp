@@ -1,5 +1,5 @@
-// What a comparison is asked for, and what its names stand for: schemes, references and what plugins
-// bring; scenes of the library or from files.
+// What a comparison is asked for, and what its names stand for: schemes, references and what
+// plugins bring; scenes of the library or from files.
 #pragma once
 
 #include <optional>

@@ -96,9 +96,9 @@ struct RuleChoice {  // by which the contacts of a string act
     MakeRule rigid = {};  // where the barriers do not give way
 };
 
-// What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not give
-// way; `own_only`, where nothing can stand in series with its contacts; options, which it reads by
-// choose(settings); features that it approximates, or leaves out.
+// What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not
+// give way; `own_only`, where nothing can stand in series with its contacts; options, which it reads
+// by choose(settings); features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;

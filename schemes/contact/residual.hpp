@@ -1,6 +1,6 @@
 // What a string lacks at its points stands in series with them: springs, and beside them a ladder
-// (compliance.hpp). One form for any number of points; 1 and 2 are unrolled. The equations are those
-// of docs/compliance-matching.md, "The step".
+// (compliance.hpp). One form for any number of points; 1 and 2 are unrolled. The equations are
+// those of docs/compliance-matching.md, "The step".
 //
 //     symbol        meaning                                              unit        equation
 //     C             compliance of the springs                            m/N         1

@@ -58,7 +58,7 @@ const every_file = [
 ];
 const whole = () => on(report(folder_of(every_file)));
 // facts.csv, errors.csv and cost.csv of a table of both, in which an error of the headline's tap
-// stands below its measure's name, its certificate and its floor below certificate_... and floor_...
+// stands below its measure's name, its certificate and floor below certificate_... and floor_...
 function files_of(text) {
   const [head, ...rows] = text
     .trim()

@@ -1,7 +1,8 @@
 """The example draws its picture, and its cells are those of the committed study.
 
-example_test.py SOURCE: one of its schemes has three cells in results/work-precision. They come out to the last digit where sources, compiler and vector instructions are those of the
-study, else to what rounding leaves: a reference may add in another order since."""
+example_test.py SOURCE: one of its schemes has three cells in results/work-precision. They come out
+to the last digit where sources, compiler and vector instructions are those of the study, else to
+what rounding leaves: a reference may add in another order since."""
 
 import csv
 import importlib.util

@@ -18,8 +18,8 @@ namespace jvari::bench::compare {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// operator[] of an ordered object compares a new key with all before it: with ten thousand taps that
-// is a third of the processor time of a short comparison.
+// operator[] of an ordered object compares a new key with all before it: with ten thousand taps
+// that is a third of the processor time of a short comparison.
 void append(Json& object, std::string new_key, double value) {
     object.get_ref<Json::object_t&>().emplace_back(std::move(new_key), value);
 }
