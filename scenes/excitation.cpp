@@ -54,6 +54,27 @@ double coefficient(const TriangleInitial& t, double length, int mode) {
            std::sin(beta * x0) * hann_smoothing(beta, t.smoothing);
 }
 
+std::optional<double> force_of_a_corner(const Scene& scene, const Tap& tap) {
+    if (tap.quantity != Quantity::nut_force) return {};
+    double force = 0;
+    bool corner = false;
+    for (std::size_t k = 0; k < scene.strings.size(); ++k) {
+        const String& s = scene.strings[k];
+        if (!s.initial || (tap.string && static_cast<int>(k) != *tap.string)) continue;
+        if (s.axial_stiffness > 0) return {};
+        if (const auto* m = std::get_if<ModeInitial>(&*s.initial)) {
+            const double beta = m->number * pi / s.length;
+            force += (m->number % 2 == 1 ? 1 : -1) * m->amplitude * beta *
+                     (s.tension + s.bending_stiffness * beta * beta);
+        } else {
+            const auto& t = std::get<TriangleInitial>(*s.initial);
+            force += s.tension * t.amplitude / (s.length - t.position);
+            corner = corner || (t.smoothing == 0 && t.amplitude != 0 && s.bending_stiffness > 0);
+        }
+    }
+    return corner ? std::optional(force) : std::nullopt;
+}
+
 namespace {
 constexpr double unknown = std::numeric_limits<double>::infinity();
 

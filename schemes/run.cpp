@@ -296,6 +296,9 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
                          with_context("tells its facts", [&] { return scheme.facts(); }));
         }
     }
+    for (std::size_t k = 0; k < scene.taps.size() && trace.rows > 0; ++k)
+        if (const auto force = force_of_a_corner(scene, scene.taps[k]))
+            trace.tap[k * static_cast<std::size_t>(trace.stride)] = *force;
     if (!continuous) result.steps = std::lround(steps_per_row * static_cast<double>(trace.rows));
     result.wall_seconds = std::chrono::duration<double>(stepping).count();
     result.facts = with_context("tells its facts", [&] { return scheme.facts(); });
