@@ -71,7 +71,11 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
         add_point(footprint_weights(modes, b.position, b.width));
-        point_.push_back({{b.stiffness.k, b.exponent}, b.contact_loss, 0, b.height});
+        point_.push_back({{b.stiffness.k, b.exponent},
+                          b.contact_loss,
+                          0,
+                          b.height,
+                          b.loss_law == LossLaw::clipped});
     }
     contacts = static_cast<int>(point_.size());
     if (s.thread) {
@@ -121,6 +125,7 @@ StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     }
     const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta,
                  give = 1 - q.beta * m.v;
+    if (q.clipped && give < 0) return {0, 0, 0, f / m.v, alpha * slope / m.v};
     return {f * give, alpha * slope * give, q.beta * f, q.beta * f, q.beta * alpha * slope};
 }
 

@@ -7,7 +7,8 @@
 // (Kirchhoff, Carrier), which solve() leaves out of J.
 //
 //     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c)
-//         - r_c v_c of the thread, F_e(t) of the pluck.
+//         - r_c v_c of the thread, F_e(t) of the pluck. Of a clipped loss no factor 1 - beta v is
+//         negative, and what the spring gives there is lost.
 //
 // Which barriers are touched is given, not decided here: between two events the equations are
 // smooth, and odd beyond the barrier's surface so that a trial step may overshoot. Four sums ride
@@ -69,6 +70,7 @@ private:
     struct Point {
         ContactLaw law;
         double beta, r, height;
+        bool clipped = false;
     };
     // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
     struct Pull {

@@ -127,7 +127,7 @@ Scene ringing(bool stiff, bool damped) {
     Scene scene = string_at_rest();
     scene.duration = 0.4;
     String& s = scene.strings.front();
-    s.initial = TriangleInitial{0.2, 1e-3, 0.02};
+    s.start = TriangleShape{0.2, 1e-3, 0.02};
     if (!stiff) s.bending_stiffness = 0;
     if (!damped) s.damping = NoDamping{};
     return scene;
@@ -161,7 +161,7 @@ std::vector<suite::Trial> map_of(const Descriptor& d) {
         Scene scene = ringing(true, true);
         scene.duration = 20e-3;
         String& s = scene.strings.front();
-        s.initial = ModeInitial{1, 1.9e-3};
+        s.start = ModeShape{1, 1.9e-3};
         if (d.represents.has(Feature::lumped_barrier)) {
             const double k[] = {1e4, 1e6, 1e8, 1e10};
             s.barriers = {LumpedBarrier{10e-3, 0, 0, {k[level]}, 1, 0}};

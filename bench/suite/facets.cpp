@@ -14,6 +14,7 @@
 #include "bench/store/base64.hpp"
 #include "bench/store/checksum.hpp"
 #include "bench/store/sound.hpp"
+#include "bench/study/cause.hpp"
 #include "bench/study/errors.hpp"
 #include "bench/suite/suite.hpp"
 #include "scenes/modes.hpp"
@@ -32,20 +33,14 @@ struct Heard {
     std::string note;  // why there is none
 };
 
-bool hears_the_string(Quantity q) {
-    return q == Quantity::displacement || q == Quantity::velocity || q == Quantity::nut_force;
-}
-
 Heard heard(const MeasuredCell& c) {
     const String& s = c.scene.strings.front();
-    if (!s.barriers.empty()) return {{}, 0, "contact: the trace has no modes of its own"};
-    if (s.thread) return {{}, 0, "the thread is part of the trace's modes"};
-    if (s.polarisation) return {{}, 0, "two planes: the trace has pairs of modes"};
-    if (c.scene.strings.size() > 1) return {{}, 0, "several strings sound together"};
+    if (const std::string why = study::why_no_partials(c.scene); !why.empty()) return {{}, 0, why};
     int tap = c.tap;
-    for (int k = 0; k < c.trace.taps() && !hears_the_string(c.scene.taps[tap].quantity); ++k)
+    for (int k = 0; k < c.trace.taps() && !study::hears_the_string(c.scene.taps[tap].quantity); ++k)
         tap = k;
-    if (!hears_the_string(c.scene.taps[tap].quantity)) return {{}, 0, "no tap hears the string"};
+    if (!study::hears_the_string(c.scene.taps[tap].quantity))
+        return {{}, 0, "no tap hears the string"};
     Trace own;
     const Trace* trace = &c.trace;
     // else modes above half the tap rate fold back

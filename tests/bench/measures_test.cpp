@@ -42,7 +42,7 @@ TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
           "modal_three_point", "finite_difference_explicit", "finite_difference_theta",
           "finite_difference_hamiltonian"}) {
         const bench::store::Table t =
-            rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
+            rows_for(name, "free_string", 88200, {"string.0.start.position=0.2137"});
         ASSERT_EQ(t.rows.size(), 30u) << name;
         for (std::size_t i = 0; i < t.rows.size(); ++i) {
             EXPECT_NEAR(t.number(i, "own_cents"), t.number(i, "trace_cents"), 1e-5)

@@ -494,7 +494,7 @@ TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
     const Scratch scratch;
     std::ofstream(scratch / "s.toml") << "name = \"s\"\nsource = \"none\"\nduration = "
                                          "0.01\n[[string]]\nlength = 1.0\nlinear_density = "
-                                         "1e-3\ntension = 50.0\n[string.initial]\nshape = "
+                                         "1e-3\ntension = 50.0\n[string.start]\nshape = "
                                          "\"mode\"\nnumber = 1\namplitude = 1e-3\n";
     std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"" << scratch / "s.toml"
                                       << "\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n";

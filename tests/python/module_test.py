@@ -272,7 +272,7 @@ class Module(unittest.TestCase):
     def test_a_note_that_the_caller_wants_as_an_error_is_one(self):
         warnings.simplefilter("error", UserWarning)
         with self.assertRaisesRegex(UserWarning, "string"):
-            jvari.run(jvari.scene("free_string").set("string.0.initial.amplitude", 0),
+            jvari.run(jvari.scene("free_string").set("string.0.start.amplitude", 0),
                       "modal_two_point", **SHORT)
 
     def test_a_plugin_brings_its_schemes(self):

@@ -87,7 +87,7 @@ struct Impact {
         string.length = 1;
         string.linear_density = 2 * mass;
         string.tension = 2 * mass * std::pow(omega0 / pi, 2);
-        string.initial = ModeInitial{1, amplitude};
+        string.start = ModeShape{1, amplitude};
         string.barriers = {LumpedBarrier{0.5, 0, 0, {k}, exponent, loss}};
         s.strings = {string};
         s.taps = {{"y", Quantity::displacement, 0, 0.5},
@@ -255,7 +255,7 @@ TEST(Integrated, BalancesTheEnergyOfContactLoss) {
 TEST(Integrated, StartsInContactWhereTheSceneDoes) {
     Scene scene = c3_release();
     scene.duration = 2e-3;
-    scene.strings.front().initial = ModeInitial{1, -1e-6};
+    scene.strings.front().start = ModeShape{1, -1e-6};
     const auto truth = run(exact_contact, scene, {0, 44100, 20, {}});
     for (const char* flight : {"exact", "integrate"}) {
         const auto r = integrated(scene, 20, {{"flight", flight}});
