@@ -222,15 +222,15 @@ std::unique_ptr<Scheme> make(const Descriptor&, const Scene& scene, const Settin
 }
 }  // namespace
 
-const Descriptor exact_linear = {
-    .name = "exact_linear",
-    .source = "closed form of van Walstijn et al. 2016, eqs 16-21",
-    .represents = Feature::bending_stiffness | Feature::damping |
-                  Features(Feature::frequency_dependent_damping) |
-                  Features(Feature::measured_modes) | Features(Feature::initial_shape) |
-                  Features(Feature::pluck) | Feature::initial_velocity | Feature::equilibrium,
-    .balance = Balance::to_tolerance,
-    .clock = Clock::continuous,
-    .make = make};
+const Descriptor exact_linear = {.name = "exact_linear",
+                                 .source = "closed form of van Walstijn et al. 2016, eqs 16-21",
+                                 .represents = Feature::bending_stiffness | Feature::damping |
+                                               Features(Feature::frequency_dependent_damping) |
+                                               Features(Feature::measured_modes) |
+                                               Features(Feature::initial_shape) |
+                                               Features(Feature::pluck) | Feature::initial_velocity,
+                                 .balance = Balance::to_tolerance,
+                                 .clock = Clock::continuous,
+                                 .make = make};
 
 }  // namespace jvari

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reference/partial_sums.hpp"
@@ -183,6 +184,19 @@ double StringEquations::scale_squared(const double* z) const noexcept {
     for (int a = 0; a < points; ++a)
         if (acts(a)) pressed += potential(a, motion(a, z).y);
     return std::max({sum, 2 * pressed / mass_, 2 * padded * least_scale_ * least_scale_});
+}
+
+double StringEquations::rounding(const double* z) const noexcept {
+    double most = 0;
+    for (int a = 0; a < contacts; ++a) {
+        if (!touched[a]) continue;
+        const double K = std::max(0.0, pull(a, motion(a, z)).K),
+                     of_gain =
+                         std::abs(point_[a].height) * std::sqrt(K / couples_[a * contacts + a]);
+        for (int i = 0; i < padded; ++i)
+            most = std::max(most, of_gain * std::abs(row(gains_, a)[i]));
+    }
+    return std::numeric_limits<double>::epsilon() * most;
 }
 
 // An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m =

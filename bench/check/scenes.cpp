@@ -42,6 +42,13 @@ LumpedBarrier bridge_at(const String& s, int node) {
     return {node * s.length / (contract_modes + 1), 0, 0, {4.39e8}, 1, 0};
 }
 
+LumpedBarrier soft_bridge(const String& s, int node, double height = 0) {
+    LumpedBarrier b = bridge_at(s, node);
+    b.stiffness.k = 1e4;
+    b.height = height;
+    return b;
+}
+
 // The scene with a feature that it has not; where it cannot have it, or has it, as it is.
 Scene with(Feature feature, Scene scene) {
     String& s = scene.strings.front();
@@ -69,15 +76,13 @@ Scene with(Feature feature, Scene scene) {
             s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0});
             break;
         // soft: a force known before the step explodes on a stiff one before the other acts
-        case Feature::several_barriers:
-            s.barriers.assign({bridge_at(s, 1), bridge_at(s, 3)});
-            for (Barrier& b : s.barriers) std::get<LumpedBarrier>(b).stiffness.k = 1e4;
-            break;
+        case Feature::several_barriers: s.barriers = {soft_bridge(s, 1), soft_bridge(s, 3)}; break;
         case Feature::power_law_contact: on_its_barriers([](auto& b) { b.exponent = 1.5; }); break;
         case Feature::contact_loss: on_its_barriers([](auto& b) { b.contact_loss = 0.5; }); break;
-        case Feature::clipped_loss:
+        case Feature::clipped_loss:  // that pulls where the string leaves at more than 0.02 m/s
+            if (s.barriers.empty()) s.barriers = {soft_bridge(s, 3)};
             on_its_barriers([](auto& b) {
-                b.contact_loss = 5;
+                b.contact_loss = 50;
                 b.loss_law = LossLaw::clipped;
             });
             break;
@@ -101,8 +106,7 @@ Scene with(Feature feature, Scene scene) {
         case Feature::equilibrium:  // on a bridge that lifts it
             if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
             s.start = RestStart{};
-            s.barriers = {bridge_at(s, 3)};
-            std::get<LumpedBarrier>(s.barriers[0]).height = 1e-3 * s.length;
+            s.barriers = {soft_bridge(s, 3, 1e-3 * s.length)};
             break;
         case Feature::moving_body:
             scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}};

@@ -293,6 +293,22 @@ TEST(Integrated, StartsFromRestWhereABarrierPresses) {
     EXPECT_LE(ledger(r.trace).row, 1e-9);
 }
 
+// Its force is known to the rounding of the barrier's height. A tolerance below that makes steps of
+// 1e-12 s.
+TEST(Integrated, RestsOnAStiffBridgeInNoMoreStepsThanItsContactIsFast) {
+    Scene scene = read_scene("tanpura_c3", {"string.0.barrier.0.height=1e-3",
+                                            "string.0.thread.height=5e-4", "string.0.start=rest"});
+    scene.duration = 0.2e-3;
+    scene.strings.front().pluck.reset();
+    const Run r = integrated(scene, 40);
+    ASSERT_EQ(r.status.outcome, Outcome::ok);
+    EXPECT_LT(fact_of(r.facts, facts::integrator_steps), 1e4);  // 1e7 rad/s
+    EXPECT_LT(fact_of(r.facts, facts::events), 1);
+    for (int k = 0; k < 2; ++k)
+        for (const double y : r.trace.column(k))
+            EXPECT_NEAR(y, r.trace.column(k)[0], 1e-12 * std::abs(r.trace.column(k)[0]));
+}
+
 TEST(Integrated, OfAStringAtRestUnderAThreadOrAPluckRunsToo) {
     Scene raised = c3_pluck();
     raised.duration = 2e-3;
