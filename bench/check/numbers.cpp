@@ -114,6 +114,12 @@ std::vector<Scene> make_scenes_of_numbers() {
     all.push_back(scene("free", {played}));
     {
         String s = played;
+        s.start.reset();
+        s.velocity = TriangleShape{0.12, 2, 0.15};
+        all.push_back(scene("struck", {s}));
+    }
+    {
+        String s = played;
         s.thread = Thread{0.2, 0.08, 900, 0.2, 2e-4};
         s.pluck = Pluck{0.5, 2e-3, 3, 5e-4, 0.13, 0.1};
         all.push_back(scene("plucked", {s}));
