@@ -110,20 +110,13 @@ double lateness(Signal x, Signal r) {
     }
     return static_cast<double>(late) + std::clamp(square > 0 ? along / square : 0, -0.5, 0.5);
 }
-}  // namespace
 
-bool hears_the_string(Quantity q) {
-    return q == Quantity::displacement || q == Quantity::velocity || q == Quantity::nut_force;
-}
-
-std::string why_no_partials(const Scene& scene) {
+bool hears_partials(const Scene& scene, Quantity q) {  // of the string's own modes
     const String& s = scene.strings.front();
-    if (!s.barriers.empty()) return "contact: the trace has no modes of its own";
-    if (s.thread) return "the thread is part of the trace's modes";
-    if (s.polarisation) return "two planes: the trace has pairs of modes";
-    if (scene.strings.size() > 1) return "several strings sound together";
-    return "";
+    return (q == Quantity::displacement || q == Quantity::velocity || q == Quantity::nut_force) &&
+           scene.strings.size() == 1 && s.barriers.empty() && !s.thread && !s.polarisation;
 }
+}  // namespace
 
 std::string cause_of(const Scene& scene, const Trace& run, const Trace& reference, int tap,
                      double from) {
@@ -133,7 +126,7 @@ std::string cause_of(const Scene& scene, const Trace& run, const Trace& referenc
     const Signal x = run.column(tap).subspan(first), r = reference.column(tap).subspan(first);
     const double error = miss(x, r, 0, 1);
     if (!(error > negligible * norm(r)) || !std::isfinite(error)) return "";
-    if (why_no_partials(scene).empty() && hears_the_string(scene.taps[tap].quantity))
+    if (hears_partials(scene, scene.taps[tap].quantity))
         if (const std::vector<MatchedPartial> all = partials(scene.strings.front(), x, r, rate);
             !all.empty() && err_by(all, rate, r.size(), true, true) > most_of_it * error)
             return out_of_tune(all, err_by(all, rate, r.size(), true, false) >

@@ -8,10 +8,6 @@
 
 namespace jvari::bench::study {
 
-// Why a trace of the scene has no partials of the string's own modes; "" where it has.
-std::string why_no_partials(const Scene&);
-bool hears_the_string(Quantity);
-
 // Of a tap, from the instant `from` [s] on, in this order: "is out of tune, 3.0 cents flat: ...",
 // "comes 3.00 rows late, 68 us", "is 1.1 times too large". "" where none of these explains half of
 // the error (of the last two, nine tenths), or where it is below 1 %.

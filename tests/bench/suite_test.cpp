@@ -316,8 +316,7 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
         bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "spectrogram");
     ASSERT_TRUE(drawn);
     EXPECT_EQ(drawn->level, first.records[0].levels.level);
-    EXPECT_FALSE(
-        bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "dispersion"));
+    EXPECT_FALSE(bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "another"));
     EXPECT_EQ(scratch.files(), 8 + 8);  // numbers and clocks
 
     const bench::store::Table t = all_of(plan, first.records);
