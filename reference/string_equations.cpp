@@ -46,7 +46,11 @@ void add(const double* d, double F, double* dv, int n) {
 
 StringEquations::StringEquations(const Modes& modes, const String& s,
                                  const std::optional<InSeries>& series)
-    : mass_(modes.mass), EA_(s.axial_stiffness), length_(s.length), modes_(modes.count()) {
+    : mass_(modes.mass),
+      EA_(s.axial_stiffness),
+      length_(s.length),
+      modes_(modes.count()),
+      rests_(s.start && std::holds_alternative<RestStart>(*s.start)) {
     if (series) series_ = SeriesStates(*series, mass_);
     padded = (modes_ + series_.count + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
@@ -188,7 +192,7 @@ double StringEquations::scale_squared(const double* z) const noexcept {
 
 double StringEquations::rounding(const double* z) const noexcept {
     double most = 0;
-    for (int a = 0; a < contacts; ++a) {
+    for (int a = 0; rests_ && a < contacts; ++a) {
         if (!touched[a]) continue;
         const double K = std::max(0.0, pull(a, motion(a, z)).K),
                      of_gain =

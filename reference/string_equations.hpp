@@ -58,8 +58,9 @@ struct StringEquations final : Equations {
     // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a hundredth
     // of the speed that the pluck makes.
     double scale_squared(const double* z) const noexcept override;
-    // A contact's force is known to K times the rounding of its height h. On the spring its point
-    // swings at omega = sqrt(K sum g d), and mode i with it by eps h K d_i/omega.
+    // Of a string that starts in equilibrium, where nothing else moves: a contact's force is known
+    // to K times the rounding of its height h. On the spring its point swings at omega = sqrt(K sum
+    // g d), and mode i with it by eps h K d_i/omega.
     double rounding(const double* z) const noexcept override;
     // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point
     // without mass as well.
@@ -96,6 +97,7 @@ private:
     double mass_, EA_, length_;
     double least_scale_ = 0;  // of what the pluck makes [m/s]
     int modes_;
+    bool rests_;  // when it starts
     SeriesStates series_;
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                    // none or one
