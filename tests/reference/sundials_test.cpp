@@ -300,7 +300,7 @@ TEST(Integrated, RestsOnAStiffBridgeInNoMoreStepsThanItsContactIsFast) {
                                             "string.0.thread.height=5e-4", "string.0.start=rest"});
     scene.duration = 0.2e-3;
     scene.strings.front().pluck.reset();
-    const Run r = integrated(scene, 40);
+    const auto r = integrated(scene, 40);
     ASSERT_EQ(r.status.outcome, Outcome::ok);
     EXPECT_LT(fact_of(r.facts, facts::integrator_steps), 1e4);  // 1e7 rad/s
     EXPECT_LT(fact_of(r.facts, facts::events), 1);
