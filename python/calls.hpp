@@ -23,7 +23,6 @@
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/cells.hpp"
 #include "bench/study/run.hpp"
-#include "bench/suite/facet.hpp"
 #include "bench/suite/maps.hpp"
 #include "bench/suite/suite.hpp"
 #include "bench/trim/trim.hpp"
@@ -194,10 +193,6 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
                 compare::json_of(compare::with_front(study::cells_of(plan, run.records))));
             tables.emplace_back("maps", suite::maps_table(maps));
             tables.emplace_back("boundaries", suite::boundaries_table(maps, {}));
-            for (const suite::Facet& f : suite::facets())
-                if (store::Table rows = study::rows_of(f.name, plan, run.records);
-                    !rows.rows.empty() && f.rows != suite::sound_rows)
-                    tables.emplace_back(f.name, std::move(rows));
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"

@@ -173,8 +173,7 @@ void add_studies(py::module_& m) {
           "outcome and figures: displacement over what the energy allows, energy gained, pull over "
           "the largest contact force, error [1]. \"boundaries\": a row per change of outcome, "
           "between x_low and x_high [the unit of x_key], relative_difference from theory [1]. "
-          "Further ones, such as \"dispersion\", where the suite measures them. out: the folder "
-          "that keeps cells and points, as `jvari suite --out` does.");
+          "out: the folder that keeps cells and points, as `jvari suite --out` does.");
     py::class_<TrimmedRows> trimmed(
         m, "Trimmed", "The cheapest model of a scene within a tolerance, and how it was found.");
     has_no_constructor(trimmed);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <variant>
 
+#include "scenes/start.hpp"
+
 namespace jvari {
 
 namespace {
@@ -62,10 +64,7 @@ std::vector<double> extrapolated(std::span<const double> own, std::span<const do
 }
 
 Scene moved(Scene scene, double factor) {
-    for (String& s : scene.strings) {
-        if (s.initial) std::visit([&](auto& shape) { shape.amplitude *= factor; }, *s.initial);
-        if (s.pluck) s.pluck->amplitude *= factor;
-    }
+    for (String& s : scene.strings) s = scaled(std::move(s), factor);
     return scene;
 }
 

@@ -57,6 +57,6 @@ constexpr double matched_and_further_ones = 8;
 
 // No two programs can agree better than one with itself, started so much apart: the noise floor.
 constexpr double floor_displacement = 1e-12;
-Scene moved(Scene, double factor);  // with every initial shape and every pluck scaled
+Scene moved(Scene, double factor);  // with every start and every pluck scaled
 
 }  // namespace jvari

@@ -15,9 +15,11 @@
 #include <numbers>
 
 #include "reference/gauss_legendre.hpp"
+#include "reference/pluck_parts.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -58,6 +60,7 @@ public:
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
+    ModalState state() const override { return {state_.y, state_.v}; }
 
 private:
     struct State {
@@ -78,10 +81,12 @@ private:
 
     Modes modes_;
     Readout readout_;
-    std::vector<Pluck> pluck_;             // none or one
-    std::vector<double> start_, excited_;  // y at t = 0; g_e/m
-    double tap_rate_, rate_ = 0;           // rate: the fastest of modes and pluck [1/s]
-    State anchor_, state_, node_state_;    // at the last forced row; at this row; the probe's
+    std::vector<Pluck> pluck_;  // none or one
+    PluckParts parts_;
+    ModalStart start_;
+    std::vector<double> excited_;        // g_e/m
+    double tap_rate_, rate_ = 0;         // rate: the fastest of modes and pluck [1/s]
+    State anchor_, state_, node_state_;  // at the last forced row; at this row; the probe's
     long anchor_row_ = 0, row_ = 0;
     double supplied_ = 0, dissipated_ = 0;
     std::array<double, nodes> node_{}, weight_{};
@@ -90,7 +95,8 @@ private:
 ExactLinear::ExactLinear(const String& s, const Scene& scene, Modes modes, double tap_rate)
     : modes_(std::move(modes)),
       readout_(scene, modes_),
-      start_(initial_displacement(modes_, s)),
+      parts_(s.pluck),
+      start_(start_of(modes_, s)),
       tap_rate_(tap_rate) {
     for (int i = 0; i < modes_.count(); ++i)
         rate_ = std::max({rate_, modes_.omega0[i], 2 * modes_.sigma[i]});
@@ -100,17 +106,19 @@ ExactLinear::ExactLinear(const String& s, const Scene& scene, Modes modes, doubl
         for (double& g : excited_) g /= modes_.mass;
         // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
         const double k = std::abs(s.pluck->skew);
-        rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
+        if (s.pluck->time.empty())
+            rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
     }
-    for (State* state : {&anchor_, &state_, &node_state_}) state->y = state->v = start_;
+    for (State* state : {&anchor_, &state_, &node_state_})
+        state->y = state->v = start_.displacement;
     gauss_legendre(node_, weight_);
     reset();
 }
 
 void ExactLinear::reset() noexcept {
     for (State* state : {&anchor_, &state_}) {
-        std::copy(start_.begin(), start_.end(), state->y.begin());
-        std::fill(state->v.begin(), state->v.end(), 0.0);
+        std::copy(start_.displacement.begin(), start_.displacement.end(), state->y.begin());
+        std::copy(start_.velocity.begin(), start_.velocity.end(), state->v.begin());
     }
     anchor_row_ = row_ = 0;
     supplied_ = dissipated_ = 0;
@@ -129,26 +137,24 @@ void ExactLinear::next_row(const Block& out) noexcept {
     const bool probe = out.energy != nullptr;
     supplied_ = dissipated_ = 0;
     const double interval = 1 / tap_rate_, now = row_ / tap_rate_;
-    double cut[4] = {0, interval, interval, interval};  // free, plucked, free
-    if (!pluck_.empty()) {
-        cut[1] = std::clamp(pluck_[0].start - now, 0.0, interval);
-        cut[2] = std::clamp(pluck_[0].start + pluck_[0].duration - now, 0.0, interval);
-    }
-    const bool plucked = cut[2] > cut[1];
-    for (int part = 0; part < 3; ++part) {
-        if (!probe && !plucked) break;
-        const double length = cut[part + 1] - cut[part];
-        const long count = length > 0 ? panels(length) : 0;
+    bool plucked = false;
+    parts_.each(now, interval, 1, [&](double, double, bool acts) { return plucked |= acts, true; });
+    const bool whole = parts_.each(now, interval, 1, [&](double from, double to, bool) {
+        if (!probe && !plucked) return true;
+        const double length = to - from;
+        const long count = panels(length);
         for (long k = 0; k < count; ++k) {
-            const double a = now + cut[part] +
+            const double a = now + from +
                              length * static_cast<double>(k) / static_cast<double>(count),
-                         b = now + cut[part] +
+                         b = now + from +
                              length * static_cast<double>(k + 1) / static_cast<double>(count);
             if (probe) ledger(a, b);
             push(state_, a, b);
-            if (out.stopped(k, panels_between_questions)) return;
+            if (out.stopped(k, panels_between_questions)) return false;
         }
-    }
+        return true;
+    });
+    if (!whole) return;
     ++row_;
     if (plucked) {
         anchor_row_ = row_;
@@ -222,7 +228,7 @@ const Descriptor exact_linear = {.name = "exact_linear",
                                                Features(Feature::frequency_dependent_damping) |
                                                Features(Feature::measured_modes) |
                                                Features(Feature::initial_shape) |
-                                               Features(Feature::pluck),
+                                               Features(Feature::pluck) | Feature::initial_velocity,
                                  .balance = Balance::to_tolerance,
                                  .clock = Clock::continuous,
                                  .make = make};

@@ -30,7 +30,14 @@ struct InSeries {
     std::vector<double> energy, loss;  // S and Q [state][state]
 
     double plucked(int point) const { return C.pluck.empty() ? 0 : C.pluck[point]; }  // C_ae [m/N]
-    double stored(const double* z) const {                                            // [J]
+    // z where steady forces of the points act, or none [N]
+    std::vector<double> resting(const std::vector<double>& force) const {
+        std::vector<double> z(states, 0.0);
+        for (std::size_t k = 0; k < force.size() * force.size(); ++k)
+            z[k / points] += C.C[k] * force[k % points];
+        return z;
+    }
+    double stored(const double* z) const {  // [J]
         double sum = 0;
         for (int i = 0; i < states; ++i)
             for (int j = 0; j < states; ++j) sum += 0.5 * z[i] * energy[i * states + j] * z[j];

@@ -34,7 +34,8 @@ InstrumentEquations::InstrumentEquations(const std::vector<String>& all,
                               {b.stiffness.k, b.exponent},
                               b.contact_loss,
                               0,
-                              b.height});
+                              b.height,
+                              b.loss_law == LossLaw::clipped});
         }
         if (const auto& c = s.thread)
             threads.push_back({k,
@@ -100,7 +101,8 @@ InstrumentEquations::Pull InstrumentEquations::pull(int a, Motion m) const noexc
     const double f =
         // odd: a trial may overshoot
         p.law.alpha == 1 ? p.law.k * eta : p.law.k * std::pow(std::abs(eta), p.law.alpha - 1) * eta;
-    return {f * (1 - p.beta * m.v), p.beta * f * m.v * m.v};
+    const double give = 1 - p.beta * m.v, F = f * (p.clipped ? std::max(0.0, give) : give);
+    return {F, (f - F) * m.v};
 }
 
 double InstrumentEquations::penetration(int a, const double* z) const noexcept {

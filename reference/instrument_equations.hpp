@@ -44,6 +44,7 @@ struct InstrumentEquations final : Equations {
         double e;  // -x/L
         ContactLaw law;
         double beta, damping, height;
+        bool clipped = false;
     };
     std::vector<OfString> strings;
     std::vector<Point> points;  // the contacts of all strings in turn, then the threads

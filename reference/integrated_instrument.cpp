@@ -6,6 +6,8 @@
 #include "reference/instrument_equations.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
+#include "scenes/excitation.hpp"
+#include "scenes/start.hpp"
 #include "schemes/body/instrument.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
@@ -43,11 +45,16 @@ public:
             heard_.push_back({Readout(alone(scene, k), modes_[k]), body_taps(scene, k, heard)});
             most_taps = std::max(most_taps, heard_.back().taps.size());
             most_modes = std::max(most_modes, static_cast<std::size_t>(modes_[k].count()));
-            const auto y = initial_displacement(modes_[k], strings[k]);
-            for (int i = 0; i < modes_[k].count(); ++i)
-                start_.push_back(modes_[k].omega0[i] * y[i]);
         }
         start_.resize(equations_.size());
+        for (std::size_t k = 0; k < strings.size(); ++k) {
+            const ModalStart start = start_of(modes_[k], strings[k]);
+            const auto& s = equations_.strings[k];
+            for (int i = 0; i < s.count; ++i) {
+                start_[s.first + i] = modes_[k].omega0[i] * start.displacement[i];
+                start_[equations_.padded + s.first + i] = start.velocity[i];
+            }
+        }
         seen_.assign(equations_.sums, 0.0);
         sums_ = seen_;
         tap_.assign(most_taps, 0.0);
@@ -105,12 +112,10 @@ private:
         const double from = row_ / tap_rate_, to = (row_ + 1) / tap_rate_;
         int idle = 0;
         for (double at = from; at < to;) {
-            double until = to;  // where a pluck begins or ends
-            for (const auto& s : equations_.strings) {
-                if (!s.pluck) continue;
-                for (const double edge : {s.pluck->start, s.pluck->start + s.pluck->duration})
-                    if (edge > at && edge < until) until = edge;
-            }
+            double edge = HUGE_VAL;  // where a pluck begins, ends or turns
+            for (const auto& s : equations_.strings)
+                if (s.pluck) edge = std::min(edge, next_knot(*s.pluck, at));
+            const double until = std::min(edge, to);
             const auto stop = integrator_.advance(until - begun_, out);
             if (stop == Integrator::Stop::failed || out.stopped()) return false;
             take_sums();
@@ -125,15 +130,9 @@ private:
                 ++events_;
             }
             at = reached;
-            if (stop == Integrator::Stop::crossed || until < to || at_an_edge(at)) restart(at);
+            if (stop == Integrator::Stop::crossed || edge <= to) restart(at);
         }
         return true;
-    }
-    bool at_an_edge(double t) const noexcept {
-        return std::any_of(
-            equations_.strings.begin(), equations_.strings.end(), [t](const auto& s) {
-                return s.pluck && (t == s.pluck->start || t == s.pluck->start + s.pluck->duration);
-            });
     }
     void take_sums() noexcept {
         const double* sum = integrator_.state() + 2 * equations_.padded;

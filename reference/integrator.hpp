@@ -35,6 +35,8 @@ struct Equations {
     virtual double contact_force(int contact, const double* z) const noexcept = 0;
     // of p and v [m^2/s^2]
     virtual double scale_squared(const double* z) const noexcept = 0;
+    // what the rounding of the forces that act moves a component by [m/s]
+    virtual double rounding(const double*) const noexcept { return 0; }
     // (I - gamma J(z)) x = b
     virtual void solve(double t, double gamma, const double* z, const double* b,
                        double* x) noexcept = 0;
@@ -47,7 +49,7 @@ public:
     struct Settings {
         Method method;
         // relative, per step; absolute: of a thousandth of the root of
-        // equations.scale_squared()/size at the restart
+        // equations.scale_squared()/size at the restart, and not below equations.rounding()
         double tolerance;
     };
     Integrator(Equations&, const Settings&);  // throws std::bad_alloc

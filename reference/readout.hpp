@@ -26,4 +26,12 @@ private:
     int modes_;
 };
 
+// Of the first modes of padded arrays, whose velocities are `scale` u.
+inline ModalState state_of(const std::vector<double>& y, const std::vector<double>& u, int count,
+                           double scale) {
+    ModalState s{{y.begin(), y.begin() + count}, {u.begin(), u.begin() + count}};
+    for (double& v : s.velocity) v *= scale;
+    return s;
+}
+
 }  // namespace jvari

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reference/partial_sums.hpp"
@@ -45,7 +46,11 @@ void add(const double* d, double F, double* dv, int n) {
 
 StringEquations::StringEquations(const Modes& modes, const String& s,
                                  const std::optional<InSeries>& series)
-    : mass_(modes.mass), EA_(s.axial_stiffness), length_(s.length), modes_(modes.count()) {
+    : mass_(modes.mass),
+      EA_(s.axial_stiffness),
+      length_(s.length),
+      modes_(modes.count()),
+      rests_(s.start && std::holds_alternative<RestStart>(*s.start)) {
     if (series) series_ = SeriesStates(*series, mass_);
     padded = (modes_ + series_.count + lanes - 1) / lanes * lanes;
     const auto pad = [&](std::vector<double>& rows, double value) { rows.push_back(value); };
@@ -71,7 +76,11 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
         add_point(footprint_weights(modes, b.position, b.width));
-        point_.push_back({{b.stiffness.k, b.exponent}, b.contact_loss, 0, b.height});
+        point_.push_back({{b.stiffness.k, b.exponent},
+                          b.contact_loss,
+                          0,
+                          b.height,
+                          b.loss_law == LossLaw::clipped});
     }
     contacts = static_cast<int>(point_.size());
     if (s.thread) {
@@ -121,6 +130,7 @@ StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     }
     const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta,
                  give = 1 - q.beta * m.v;
+    if (q.clipped && give < 0) return {0, 0, 0, f / m.v, alpha * slope / m.v};
     return {f * give, alpha * slope * give, q.beta * f, q.beta * f, q.beta * alpha * slope};
 }
 
@@ -178,6 +188,19 @@ double StringEquations::scale_squared(const double* z) const noexcept {
     for (int a = 0; a < points; ++a)
         if (acts(a)) pressed += potential(a, motion(a, z).y);
     return std::max({sum, 2 * pressed / mass_, 2 * padded * least_scale_ * least_scale_});
+}
+
+double StringEquations::rounding(const double* z) const noexcept {
+    double most = 0;
+    for (int a = 0; rests_ && a < contacts; ++a) {
+        if (!touched[a]) continue;
+        const double K = std::max(0.0, pull(a, motion(a, z)).K),
+                     of_gain =
+                         std::abs(point_[a].height) * std::sqrt(K / couples_[a * contacts + a]);
+        for (int i = 0; i < padded; ++i)
+            most = std::max(most, of_gain * std::abs(row(gains_, a)[i]));
+    }
+    return std::numeric_limits<double>::epsilon() * most;
 }
 
 // An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m =

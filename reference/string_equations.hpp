@@ -7,7 +7,8 @@
 // (Kirchhoff, Carrier), which solve() leaves out of J.
 //
 //     F_a = k eta|eta|^(alpha-1) (1 - beta v_a) of a barrier that is touched, k_c (h_c - y_c)
-//         - r_c v_c of the thread, F_e(t) of the pluck.
+//         - r_c v_c of the thread, F_e(t) of the pluck. Of a clipped loss no factor 1 - beta v is
+//         negative, and what the spring gives there is lost.
 //
 // Which barriers are touched is given, not decided here: between two events the equations are
 // smooth, and odd beyond the barrier's surface so that a trial step may overshoot. Four sums ride
@@ -57,6 +58,10 @@ struct StringEquations final : Equations {
     // The most of: sum of p^2 + v^2, what barriers and thread press, 2 potential/m, and a hundredth
     // of the speed that the pluck makes.
     double scale_squared(const double* z) const noexcept override;
+    // Of a string that starts in equilibrium, where nothing else moves: a contact's force is known
+    // to K times the rounding of its height h. On the spring its point swings at omega = sqrt(K sum
+    // g d), and mode i with it by eps h K d_i/omega.
+    double rounding(const double* z) const noexcept override;
     // Of the motion in contacts that are this deep and this fast, a bound [1/s]; decays: of a point
     // without mass as well.
     double pace(const double* z, bool decays = true) const noexcept;
@@ -69,6 +74,7 @@ private:
     struct Point {
         ContactLaw law;
         double beta, r, height;
+        bool clipped = false;
     };
     // force of a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
     struct Pull {
@@ -91,6 +97,7 @@ private:
     double mass_, EA_, length_;
     double least_scale_ = 0;  // of what the pluck makes [m/s]
     int modes_;
+    bool rests_;  // when it starts
     SeriesStates series_;
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                    // none or one

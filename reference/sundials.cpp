@@ -223,8 +223,9 @@ void Integrator::restart(double longest_step) noexcept {
     // By what presses as well as by what moves: a string at rest that a barrier or a thread is
     // about to push has no size of its own yet.
     // [m/s]
-    l.floor = std::max(
-        1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)), 1e-30);
+    l.floor =
+        std::max({1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)),
+                  l.equations.rounding(l.state()) / l.settings.tolerance, 1e-30});
     for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
     l.look(l.depth);
     l.contact = l.reinit(0) ? -1 : -2;

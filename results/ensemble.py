@@ -41,7 +41,7 @@ def levels(signals):
 def ensemble(scheme, rate=RATE, modes=132, options={}, first=0):
     """Traits of runs from starts first, first + 1, ...: {(kind, place): a value for each run}."""
     turns = np.arange(first, first + given.runs) * (5 ** 0.5 - 1) / 2  # the golden ratio's
-    starts = [scene.set("string.0.initial.amplitude", AMPLITUDE * (1 + SPREAD * u))
+    starts = [scene.set("string.0.start.amplitude", AMPLITUDE * (1 + SPREAD * u))
               for u in 2 * (turns % 1) - 1]
     signals = jvari.run_many(starts, scheme, rate, modes, duration=DURATION, tap_rate=RATE,
                              options=options, jobs=1)[:, :, scene.taps.index("saddle")]

@@ -14,7 +14,7 @@ from study import (Claims, Table, arguments, between, draw_spectrograms, envelop
 RATE = 44100
 out = arguments(__doc__, "paper-deshmukh").out
 claim = Claims()
-quarter = scene("sitar_c5_two_planes", {"string.0.initial.position": 0.0625})  # m, L/4
+quarter = scene("sitar_c5_two_planes", {"string.0.start.position": 0.0625})  # m, L/4
 kinds = {"ideal": "sitar_c5_ideal", "with losses": "sitar_c5_decay", "flat bridge": "sitar_c5_flat",
          "curved bridge": "sitar_c5", "raised bridge": "sitar_c5_raised",
          "from L/4": "sitar_c5_quarter", "two planes": "sitar_c5_two_planes",

@@ -86,7 +86,7 @@ def plucked(name, changes={}):
 
 def over_point(position, height=0.0):
     return plucked("two_point_bridge", {
-        "string.0.initial.amplitude": 1e-3, "string.0.initial.position": position,
+        "string.0.start.amplitude": 1e-3, "string.0.start.position": position,
         "string.0.barrier.0.height": height})
 
 

@@ -95,7 +95,8 @@ std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, const std::vector<dou
     std::vector<LumpedBarrier> points;
     const auto g = heights(b.curve, x);
     for (std::size_t q = 0; q < x.size(); ++q)
-        points.push_back({x[q], 0, g[q], {b.stiffness.K * spacing}, b.exponent, b.contact_loss});
+        points.push_back(
+            {x[q], 0, g[q], {b.stiffness.K * spacing}, b.exponent, b.contact_loss, b.loss_law});
     return points;
 }
 

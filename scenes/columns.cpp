@@ -1,12 +1,15 @@
 #include "scenes/columns.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "scenes/scene_file.hpp"
-#include "scenes/schema.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari {
@@ -46,7 +49,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 struct ColumnLine {
     std::string place;  // "modes.csv:12"
 
-    std::size_t find(const std::vector<std::string_view>& header, const Column& c) const {
+    std::optional<std::size_t> find(const std::vector<std::string_view>& header, const Column& c,
+                                    bool may_lack) const {
         for (const char* name : {c.name, c.alias}) {
             const auto at = std::find(header.begin(), header.end(), name);
             if (at == header.end()) continue;
@@ -55,6 +59,7 @@ struct ColumnLine {
                                      ", expected one");
             return static_cast<std::size_t>(at - header.begin());
         }
+        if (may_lack) return {};
         const bool semicolons =
             header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos;
         throw SceneFileError(
@@ -74,10 +79,10 @@ struct ColumnLine {
 };
 }  // namespace
 
-void read_columns(const std::string& path, const std::string& text, const Column& first,
-                  std::vector<double>& a, const Column& second, std::vector<double>& b) {
-    std::size_t column_a = 0, column_b = 0;
-    bool header = true;
+void read_columns(const std::string& path, const std::string& text,
+                  std::span<const ColumnTo> columns) {
+    constexpr std::size_t lacking = -1;
+    std::vector<std::size_t> places;
     int line = 0;
     for (std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
          begin < text.size();) {
@@ -87,17 +92,115 @@ void read_columns(const std::string& path, const std::string& text, const Column
         begin = end + 1;
         if (one.empty() || one.front() == '#') continue;
         const auto cells = cells_of(one);
-        if (header) {
-            column_a = at.find(cells, first), column_b = at.find(cells, second);
-            header = false;
-            continue;
+        const bool header = places.empty();
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const ColumnTo& c = columns[k];
+            if (header) places.push_back(at.find(cells, c.column, c.may_lack).value_or(lacking));
+            else if (places[k] != lacking) c.to.push_back(at.number(cells, places[k], c.column));
         }
-        a.push_back(at.number(cells, column_a, first));
-        b.push_back(at.number(cells, column_b, second));
     }
-    if (header)
-        throw SceneFileError(path + ":1: found no header, expected the columns " +
-                             list_of({first.name, second.name}));
+    if (!places.empty()) return;
+    std::vector<std::string> names;
+    for (const ColumnTo& c : columns)
+        if (!c.may_lack) names.emplace_back(c.column.name);
+    throw SceneFileError(path + ":1: found no header, expected the columns " + list_of(names));
+}
+
+namespace {
+constexpr Range mode_number{"the number of a mode, a whole number >= 1", 1};
+
+template <class Number, class Bits>
+Number of_bits(Bits bits) {  // std::bit_cast, which Emscripten of Debian 12 does not have
+    static_assert(sizeof(Number) == sizeof(Bits));
+    Number x;
+    std::memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+std::uint64_t little_endian(std::string_view bytes) {
+    std::uint64_t n = 0;
+    for (std::size_t k = bytes.size(); k-- > 0;) n = n << 8 | static_cast<unsigned char>(bytes[k]);
+    return n;
+}
+
+// Of a RIFF WAVE file: chunks of a name, a size and a content.
+void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
+    constexpr int pcm = 1, floating = 3, extensible = 0xfffe;
+    const auto check = [&path](bool holds, const std::string& found) {
+        if (!holds)
+            throw SceneFileError(path + ": found " + found +
+                                 ", expected a sound of one channel, of 16, 24 or 32 bit or "
+                                 "floating point");
+    };
+    check(bytes.size() >= 12 && bytes.substr(0, 4) == "RIFF" && bytes.substr(8, 4) == "WAVE",
+          "no RIFF WAVE file");
+    std::string_view format, data;
+    for (bytes.remove_prefix(12); bytes.size() >= 8;) {
+        const std::string_view name = bytes.substr(0, 4);
+        const std::size_t size = little_endian(bytes.substr(4, 4));
+        bytes.remove_prefix(8);
+        if (name == "fmt ") format = bytes.substr(0, size);
+        if (name == "data") data = bytes.substr(0, size);
+        bytes.remove_prefix(std::min(bytes.size(), size + size % 2));
+    }
+    check(format.size() >= 16, "no format");
+    const auto field = [&](std::size_t at, std::size_t n) {
+        return little_endian(format.substr(at, n));
+    };
+    auto tag = field(0, 2);
+    if (tag == extensible && format.size() >= 26) tag = field(24, 2);
+    const std::uint64_t channels = field(2, 2), rate = field(4, 4), size = field(14, 2) / 8;
+    check(channels == 1, std::to_string(channels) + " channels");
+    check((tag == pcm && size >= 2 && size <= 4) || (tag == floating && (size == 4 || size == 8)),
+          "samples of another kind");
+    check(rate > 0, "no sample rate");
+    for (std::size_t n = 0; n < data.size() / size; ++n) {
+        const std::uint64_t bits = little_endian(data.substr(n * size, size));
+        const auto whole = static_cast<std::int64_t>(bits << (64 - 8 * size));  // with its sign
+        p.share.push_back(tag == pcm  ? std::ldexp(static_cast<double>(whole), -63)
+                          : size == 8 ? of_bits<double>(bits)
+                                      : of_bits<float>(static_cast<std::uint32_t>(bits)));
+        p.time.push_back(static_cast<double>(n) / static_cast<double>(rate));
+        check(std::isfinite(p.share.back()), "a sample that is no number");
+    }
+}
+}  // namespace
+
+TableStart start_from(const std::string& path, const std::string& text) {
+    TableStart t;
+    std::vector<double> x, mode;
+    const ColumnTo columns[] = {
+        {{"x_m", "x_m", any}, x, true},
+        {{"mode", "mode", mode_number}, mode, true},
+        {{"displacement_m", "displacement", any}, t.displacement},
+        {{"velocity_m_per_s", "velocity", any}, t.velocity, true},
+    };
+    read_columns(path, text, columns);
+    if (x.empty() == mode.empty())
+        throw SceneFileError(
+            path + ": found " +
+            (x.empty() ? "no rows of \"x_m\" or \"mode\"" : "\"x_m\" and \"mode\"") +
+            ", expected rows of one of the columns \"x_m\" and \"mode\"");
+    t.of_modes = x.empty();
+    t.at = t.of_modes ? mode : x;
+    if (t.velocity.empty()) t.velocity.assign(t.at.size(), 0.0);
+    return t;
+}
+
+void force_from(const std::string& path, const std::string& text, Pluck& p) {
+    const ColumnTo columns[] = {{{"time_s", "time", not_negative}, p.time},
+                                {{"force_N", "newtons", any}, p.share}};
+    if (path.ends_with(".wav")) samples_of(path, text, p);
+    else read_columns(path, text, columns);
+    for (const double F : p.share) p.peak = std::max(p.peak, std::abs(F));
+    if (p.time.size() < 2 || !(p.peak > 0))
+        throw SceneFileError(path + ": found " + std::to_string(p.time.size()) +
+                             " rows and a largest force of " + std::to_string(p.peak) +
+                             " N, expected two rows at least and a force");
+    for (double& F : p.share) F /= p.peak;
+    p.amplitude = p.peak;
+    p.start = p.time.front();
+    p.duration = p.time.back() - p.start;
 }
 
 }  // namespace jvari

@@ -47,4 +47,9 @@ struct Document {
 Document parse_document(std::string_view text, const std::string& file,
                         const std::vector<std::string>& overrides);
 
+// The document as a scene; validate() checks what depends on several values. Throws
+// SceneFileError. (scene_reader.cpp)
+struct Scene;
+Scene scene_of(const Document&);
+
 }  // namespace jvari

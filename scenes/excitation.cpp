@@ -10,14 +10,31 @@
 
 #include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 
 namespace jvari {
 
 using std::numbers::pi;
 
+std::size_t line_at(const Pluck& e, double t) {
+    const auto k = std::upper_bound(e.time.begin(), e.time.end(), t) - e.time.begin();
+    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k - 1, 0, std::ssize(e.time) - 2));
+}
+
+double next_knot(const Pluck& e, double t) {
+    const double end = e.start + e.duration;
+    if (t < e.start || t >= end) return t < end ? e.start : HUGE_VAL;
+    return e.time.empty() ? end : std::min(e.time[line_at(e, t) + 1], end);
+}
+
 double force(const Pluck& e, double t) {
     const double u = t - e.start;
     if (u < 0 || u > e.duration) return 0;
+    if (!e.time.empty()) {
+        const std::size_t k = line_at(e, t);
+        return e.amplitude * (e.share[k] + (e.share[k + 1] - e.share[k]) * (t - e.time[k]) /
+                                               (e.time[k + 1] - e.time[k]));
+    }
     const double ratio = u / e.duration;
     // sinh(s x)/sinh(s) = exp(s(x-1)) (1 - exp(-2 s x))/(1 - exp(-2 s)): no overflow; the limit x
     // for s -> 0.
@@ -47,7 +64,7 @@ double hann_smoothing(double beta, double s) {
     return std::sin(z) / z / (gap * (1 + z / pi));
 }
 
-double coefficient(const TriangleInitial& t, double length, int mode) {
+double coefficient(const TriangleShape& t, double length, int mode) {
     // its square passes what an int holds
     const double beta = mode * pi / length, x0 = t.position, number = mode;
     return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) *
@@ -104,11 +121,21 @@ double stored(const Modes& modes, const std::vector<double>& y, const ProfileBar
     return energy;
 }
 
+// |F| at most and the integral of |F'|, over the largest force
+double rise_and_fall(const Pluck& e) {
+    if (e.time.empty()) return 2;
+    double sum = 1 + std::abs(e.share.front()) + std::abs(e.share.back());
+    for (std::size_t k = 1; k < e.share.size(); ++k) sum += std::abs(e.share[k] - e.share[k - 1]);
+    return sum;
+}
+
 double available_energy(const String& s, const Modes& modes) {
-    const std::vector<double> y = initial_displacement(modes, s);
+    const ModalStart start = start_of(modes, s);
+    const std::vector<double>& y = start.displacement;
     double energy = 0, stretch = 0;  // stretch: integral of y'^2 [m]
     for (int i = 0; i < modes.count(); ++i) {
-        energy += 0.5 * modes.mass * modes.omega0[i] * modes.omega0[i] * y[i] * y[i];
+        const double v = start.velocity[i], w = modes.omega0[i] * y[i];
+        energy += 0.5 * modes.mass * (v * v + w * w);
         stretch += 0.5 * s.length * modes.beta[i] * modes.beta[i] * y[i] * y[i];
     }
     energy += s.axial_stiffness * stretch * stretch / (8 * s.length);
@@ -118,9 +145,11 @@ double available_energy(const String& s, const Modes& modes) {
         const double lag = t->height - at_start(footprint_weights(modes, t->position, t->width), y);
         energy += 0.5 * t->stiffness * lag * lag;
     }
-    if (const auto& p = s.pluck)
-        energy += 2 * p->amplitude * p->amplitude *
+    if (const auto& p = s.pluck) {
+        const double most = rise_and_fall(*p) * p->amplitude;
+        energy += 0.5 * most * most *
                   static_compliance(modes, footprint_weights(modes, p->position, p->width));
+    }
     return energy;
 }
 

@@ -1,12 +1,20 @@
-// The force of a pluck, and the modal amplitudes of initial shapes.
+// The force of a pluck, and what the energy of a scene can make of its strings.
 #pragma once
 
 #include "scenes/scene.hpp"
 
 namespace jvari {
 
-// F_e(t) [N]   (van Walstijn et al. 2016, eqs 14-15); 0 outside [start, start + duration]
+// F_e(t) [N]   (van Walstijn et al. 2016, eqs 14-15), of a file the straight lines between its
+// rows; 0 outside [start, start + duration]
 double force(const Pluck&, double t);
+
+// The row of a file's force that the line about the instant t begins at.
+std::size_t line_at(const Pluck&, double t);
+
+// The first instant [s] after t at which the force is no longer the same function: the pluck's
+// start and end, and each row of a file; infinite where there is none.
+double next_knot(const Pluck&, double t);
 
 // The instant [s] from which on nothing pushes any more: the end of the last pluck that begins
 // before the scene ends, 0 without one. The windows of all errors begin there: while a finger holds
@@ -15,7 +23,7 @@ double free_from(const Scene&);
 
 // Coefficient of sin(beta x) [m] of the smoothed triangle: 2AL^2/(i^2 pi^2 x0 (L-x0)) sin(beta x0)
 // H(beta)
-double coefficient(const TriangleInitial&, double length, int mode);
+double coefficient(const TriangleShape&, double length, int mode);
 
 // The nut force [N] at t = 0 of a stiff string that is let go from a sharp corner: that of the
 // shape, T A/(L - x0). What its modes sum up to then has no limit, for its bending energy has none.

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "scenes/damping.hpp"
-#include "scenes/excitation.hpp"
 
 namespace jvari {
 
@@ -124,33 +123,11 @@ std::vector<double> end_inertia(const Modes& modes, const String& s) {
     return mu;
 }
 
-namespace {
-struct ShapeOf {
-    const Modes& modes;
-    const String& s;
-    std::vector<double> operator()(const ModeInitial& m) const {
-        std::vector<double> y(modes.beta.size(), 0.0);
-        if (m.number <= modes.count()) y[m.number - 1] = m.amplitude;
-        return y;
-    }
-    std::vector<double> operator()(const TriangleInitial& t) const {
-        std::vector<double> y;
-        for (int i = 1; i <= modes.count(); ++i) y.push_back(coefficient(t, s.length, i));
-        return y;
-    }
-};
-}  // namespace
-
 double static_compliance(const Modes& modes, const std::vector<double>& w) {
     double sum = 0;
     for (int i = 0; i < modes.count(); ++i)
         sum += w[i] * w[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
     return sum;
-}
-
-std::vector<double> initial_displacement(const Modes& modes, const String& s) {
-    if (!s.initial) return std::vector<double>(modes.beta.size(), 0.0);
-    return std::visit(ShapeOf{modes, s}, *s.initial);
 }
 
 }  // namespace jvari

@@ -48,7 +48,4 @@ std::vector<double> end_inertia(const Modes&, const String&);
 // w_i^2/(m omega0_i^2).
 double static_compliance(const Modes&, const std::vector<double>& weights);
 
-// Modal displacements at t = 0 [m]; zeros if the string has no initial shape.
-std::vector<double> initial_displacement(const Modes&, const String&);
-
 }  // namespace jvari

@@ -116,9 +116,11 @@ std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
         list.part(Part::damping, key(s) + ".damping",
                   !std::holds_alternative<NoDamping>(now.damping), &String::damping, s);
         list.part(Part::thread, key(s) + ".thread", now.thread.has_value(), &String::thread, s);
-        list.part(Part::initial_shape, key(s) + ".initial", now.initial && now.pluck,
-                  &String::initial, s);
-        list.part(Part::pluck, key(s) + ".pluck", now.initial && now.pluck, &String::pluck, s);
+        list.part(Part::initial_shape, key(s) + ".start", now.start && now.pluck, &String::start,
+                  s);
+        list.part(Part::initial_shape, key(s) + ".velocity",
+                  now.velocity && (now.start || now.pluck), &String::velocity, s);
+        list.part(Part::pluck, key(s) + ".pluck", now.start && now.pluck, &String::pluck, s);
         list.part(Part::polarisation, key(s) + ".polarisation", now.polarisation.has_value(),
                   &String::polarisation, s);
     }

@@ -1,6 +1,8 @@
 // Names, and what a scene asks of a scheme. What a scene may not say is in validate.cpp.
 #include "scenes/scene.hpp"
 
+#include <algorithm>
+
 namespace jvari {
 
 const char* name_of(Quantity q) {
@@ -77,6 +79,9 @@ const char* name_of(Feature f) {
         case Feature::rigid_barrier: return "rigid barrier";
         case Feature::rigid_profile: return "rigid profile";
         case Feature::tension_modulation: return "tension modulation";
+        case Feature::initial_velocity: return "initial velocity";
+        case Feature::equilibrium: return "static equilibrium";
+        case Feature::clipped_loss: return "contact loss that does not pull";
     }
     return "?";
 }
@@ -124,10 +129,21 @@ Features needed_by(const Barrier& barrier) {
     std::visit(
         [&f](const auto& b) {
             if (b.exponent != 1) f = f | Feature::power_law_contact;
-            if (b.contact_loss != 0) f = f | Feature::contact_loss;
+            if (b.contact_loss == 0) return;
+            f = f | Feature::contact_loss;
+            if (b.loss_law == LossLaw::clipped) f = f | Feature::clipped_loss;
         },
         barrier);
     return f;
+}
+
+Features needed_by(const Start& start) {
+    const auto* table = std::get_if<TableStart>(&start);
+    const bool moves = table && std::any_of(table->velocity.begin(), table->velocity.end(),
+                                            [](double v) { return v != 0; });
+    return std::holds_alternative<RestStart>(start) ? Features(Feature::equilibrium)
+           : moves ? Feature::initial_shape | Feature::initial_velocity
+                   : Features(Feature::initial_shape);
 }
 }  // namespace
 
@@ -140,7 +156,8 @@ Features needed_by(const Scene& scene) {
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
         if (s.barriers.size() > 1) f = f | Feature::several_barriers;
         if (s.thread) f = f | Feature::thread;
-        if (s.initial) f = f | Feature::initial_shape;
+        if (s.start) f = f | needed_by(*s.start);
+        if (s.velocity) f = f | Feature::initial_velocity;
         if (s.pluck) f = f | Feature::pluck;
         if (s.polarisation) f = f | Feature::polarisation;
     }

@@ -61,6 +61,9 @@ struct StiffnessDensity {
     double K = 0;  // [N/m^(exponent+1)], or rigid
     bool operator==(const StiffnessDensity&) const = default;
 };
+// What a contact loss makes of the force F_s of the spring while the string leaves at the speed v:
+// F_s (1 - beta v), which pulls where v > 1/beta, or 0 in place of that.
+enum class LossLaw { hunt_crossley, clipped };
 // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
 struct LumpedBarrier {
     double position = 0;  // centre [m]
@@ -69,6 +72,7 @@ struct LumpedBarrier {
     LumpedStiffness stiffness;
     double exponent = 1;
     double contact_loss = 0;  // Hunt-Crossley beta [s/m]
+    LossLaw loss_law = LossLaw::hunt_crossley;
     bool operator==(const LumpedBarrier&) const = default;
 };
 struct FlatCurve {  // g = 0
@@ -94,6 +98,7 @@ struct ProfileBarrier {  // a force density along from <= x <= to (Issanchou et 
     StiffnessDensity stiffness;
     double exponent = 1;
     double contact_loss = 0;  // [s/m]
+    LossLaw loss_law = LossLaw::hunt_crossley;
     bool operator==(const ProfileBarrier&) const = default;
 };
 inline bool is_rigid(const LumpedBarrier& b) { return b.stiffness.k == rigid; }
@@ -112,26 +117,45 @@ struct Thread {            // spring and damper, never detaches (van Walstijn et
 
 // ---- What sets it in motion.
 
-struct ModeInitial {
+struct ModeShape {
     int number = 1;
-    double amplitude = 0;  // [m]
-    bool operator==(const ModeInitial&) const = default;
+    double amplitude = 0;
+    bool operator==(const ModeShape&) const = default;
 };
-struct TriangleInitial {
-    double position = 0;   // [m]
-    double amplitude = 0;  // [m]
+struct TriangleShape {
+    double position = 0;  // [m]
+    double amplitude = 0;
     double smoothing = 0;  // full width of a Hann smoothing [m]
-    bool operator==(const TriangleInitial&) const = default;
+    bool operator==(const TriangleShape&) const = default;
 };
-using Initial = std::variant<ModeInitial, TriangleInitial>;  // displacement at t = 0, at rest
+using Shape = std::variant<ModeShape, TriangleShape>;  // amplitude [m], of a velocity [m/s]
+// rows along the string, with straight lines between them and to its ends, or rows of modes
+struct TableStart {
+    std::string file;                  // as written in the scene
+    bool of_modes = false;             // what `at` is
+    std::vector<double> at;            // x [m] or the number of a mode, ascending
+    std::vector<double> displacement;  // [m]
+    std::vector<double> velocity;      // [m/s]
+    bool operator==(const TableStart&) const = default;
+};
+// the static equilibrium under barriers, thread and the pluck's force of t = 0
+struct RestStart {
+    bool operator==(const RestStart&) const = default;
+};
+using Start = std::variant<ModeShape, TriangleShape, TableStart, RestStart>;
 
-struct Pluck {             // force, van Walstijn et al. 2016, eqs 14-15
-    double amplitude = 0;  // a_e [N]
-    double duration = 0;   // tau_e [s]
-    double skew = 0;       // beta_e
-    double start = 0;      // t_e [s]
-    double position = 0;   // [m]
-    double width = 0;      // [m]
+// Force: of a file, straight lines between its rows; else van Walstijn et al. 2016, eqs 14-15.
+struct Pluck {
+    double amplitude = 0;   // a_e, of a file the largest force [N]
+    double duration = 0;    // tau_e [s]
+    double skew = 0;        // beta_e
+    double start = 0;       // t_e [s]
+    double position = 0;    // [m]
+    double width = 0;       // [m]
+    std::string file = {};  // as written in the scene; "": none
+    // of the file: instants [s], ascending, and the force over the largest of them
+    std::vector<double> time = {}, share = {};
+    double peak = 0;  // the largest force that the file has [N]
     bool operator==(const Pluck&) const = default;
 };
 struct Polarisation {
@@ -150,7 +174,8 @@ struct String {
     Damping damping;
     std::vector<Barrier> barriers;
     std::optional<Thread> thread;
-    std::optional<Initial> initial;
+    std::optional<Start> start;     // displacement at t = 0
+    std::optional<Shape> velocity;  // at t = 0, beside that of a table
     std::optional<Pluck> pluck;
     std::optional<Polarisation> polarisation;
     bool operator==(const String&) const = default;
@@ -229,8 +254,11 @@ enum class Feature : unsigned {
     rigid_barrier = 1u << 14,
     rigid_profile = 1u << 15,  // in place of profile_barrier
     tension_modulation = 1u << 16,
+    initial_velocity = 1u << 17,
+    equilibrium = 1u << 18,   // a start at rest under what presses
+    clipped_loss = 1u << 19,  // a contact loss that does not pull
 };
-constexpr int feature_count = 17;
+constexpr int feature_count = 20;
 const char* name_of(Feature);
 
 struct Features {

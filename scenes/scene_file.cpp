@@ -8,7 +8,6 @@
 #include "scenes/columns.hpp"
 #include "scenes/document.hpp"
 #include "scenes/installed.hpp"
-#include "scenes/scene_reader.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari {

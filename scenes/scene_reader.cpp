@@ -1,7 +1,5 @@
 // Two passes over the schema: Names refuses unknown keys (and chooses the alternatives of
 // variants), Reader takes the values.
-#include "scenes/scene_reader.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -10,6 +8,7 @@
 #include <span>
 
 #include "scenes/columns.hpp"
+#include "scenes/document.hpp"
 #include "scenes/material.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/scene_file.hpp"
@@ -65,6 +64,9 @@ struct Names {
     void string_index(const char* key, auto&) { add(key); }
     void refused(const char* key, const char*) { add(key); }
     void columns(const char* key, auto&&...) { add(key); }
+    void start(const char* key, auto&) { add(key); }
+    void start_table(auto&) {}
+    void force(const char* key, auto&) { add(key); }
     void part(const char* key, auto&) { add(key); }
     void parts(const char* key, auto&) { add(key); }
     template <class... T>
@@ -210,25 +212,56 @@ public:
     void choice(const char* key, Enum& e, std::span<const char* const> names) {
         e = static_cast<Enum>(index_of(key, names));
     }
+    template <class Enum>
+    void choice(const char* key, Enum& e, std::span<const char* const> names, Enum absent) {
+        e = absent;
+        if (table_.find(key)) choice(key, e, names);
+    }
     void refused(const char* key, const char* expected) {
-        if (const Value* v = table_.find(key)) fail(*v, at(key), v->found(), expected);
+        const Value* v = table_.find(key);
+        if (v && !(overridden_ && v->place > 0)) fail(*v, at(key), v->found(), expected);
     }
     void columns(const char* key, std::string& file, const Column& first, std::vector<double>& a,
                  const Column& second, std::vector<double>& b) {
         text(key, file);
-        const std::string path = beside(file);
-        const std::string expected =
-            "a CSV file with the columns " + list_of({first.name, second.name});
-        std::error_code error;
-        if (file.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
-            fail(*table_.find(key), at(key), found_text(file) + ", which is not a file", expected);
-        std::string contents;
-        try {
-            contents = text_of_file(path, largest_table);
-        } catch (const std::exception& e) {
-            fail(*table_.find(key), at(key), found_text(file) + ", which " + e.what(), expected);
-        }
-        read_columns(path, contents, first, a, second, b);
+        const std::string contents = contents_of(
+            key, file, "a CSV file with the columns " + list_of({first.name, second.name}));
+        const ColumnTo both[] = {{first, a}, {second, b}};
+        read_columns(beside(file), contents, both);
+    }
+    // The file of an override is found from where the program runs, and its place kept.
+    void start(const char* key, std::optional<Start>& s) {
+        const Value* v = table_.find(key);
+        const auto* word = v ? std::get_if<std::string>(&v->content) : nullptr;
+        if (!word) return;
+        if (*word == "rest") return void(s = RestStart{});
+        const std::string file = found_from(*v, *word),
+                          contents = contents_of(
+                              key, file,
+                              "\"rest\", a table with a shape, or a CSV file with the columns "
+                              "\"x_m\" or \"mode\", \"displacement_m\" and "
+                              "\"velocity_m_per_s\"");
+        TableStart t = start_from(beside(file), contents);
+        t.file = file;
+        s = std::move(t);
+    }
+    void start_table(TableStart&) {}
+    void part(const char* key, std::optional<Start>& s) {
+        if (!s && table_.find(key)) part(key, s.emplace());
+    }
+    void force(const char* key, Pluck& p) {
+        const Value* v = table_.find(key);
+        if (!v) return;
+        text(key, p.file);
+        overridden_ = v->place < 0;
+        p.file = found_from(*v, p.file);
+        force_from(beside(p.file),
+                   contents_of(key, p.file,
+                               "a CSV file with the columns \"time_s\" and \"force_N\", or a "
+                               "sound file .wav"),
+                   p);
+        const Value* amplitude = table_.find("amplitude");
+        if (overridden_ && amplitude && amplitude->place > 0) wire_["amplitude"] = p.peak;
     }
     template <class... T>
     void one_of(const char* key, std::variant<T...>& v, std::span<const char* const> tags) {
@@ -270,6 +303,22 @@ private:
     std::string beside(const std::string& file) const {
         return (std::filesystem::path(document_.file).parent_path() / file).string();
     }
+    std::string found_from(const Value& v, const std::string& file) const {
+        return v.place < 0 ? (std::filesystem::current_path() / file).string() : file;
+    }
+    std::string contents_of(const char* key, const std::string& file,
+                            const std::string& expected) const {
+        const std::string path = beside(file);
+        std::error_code error;
+        try {
+            if (file.find('\0') == std::string::npos &&
+                std::filesystem::is_regular_file(path, error))
+                return text_of_file(path, largest_table);
+            throw std::runtime_error("is not a file");
+        } catch (const std::runtime_error& e) {
+            fail(*table_.find(key), at(key), found_text(file) + ", which " + e.what(), expected);
+        }
+    }
     int integer(const Value& v, const char* key, int least) const {
         const auto i = v.whole();
         if (!i || *i < least || *i > std::numeric_limits<int>::max())
@@ -298,17 +347,21 @@ private:
                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
                               std::string::npos &&
                           m.key.size() <= 60;
-        const std::string near = nearest(m.key.substr(0, 100), known);
-        throw SceneFileError(
-            document_.place(m.value.place) + ": " + at(bare ? m.key : found_text(m.key)) +
-            ": unknown key; " +
-            (near.empty() ? "known here: " + list_of(known) : "did you mean " + quote(near) + "?"));
+        const bool start =
+            m.key == "initial" && std::find(known.begin(), known.end(), "start") != known.end();
+        const std::string near = start ? "start" : nearest(m.key.substr(0, 100), known);
+        throw SceneFileError(document_.place(m.value.place) + ": " +
+                             at(bare ? m.key : found_text(m.key)) + ": unknown key; " +
+                             (start          ? "it is called \"start\""
+                              : near.empty() ? "known here: " + list_of(known)
+                                             : "did you mean " + quote(near) + "?"));
     }
 
     const Document& document_;
     const Value& table_;
     std::string path_;
-    // numbers that follow from material and diameter
+    bool overridden_ = false;  // an override brings the force: the file's keys stay unread
+    // numbers that follow from material and diameter, or a force
     std::map<std::string, double, std::less<>> wire_;
 };
 }  // namespace

@@ -6,7 +6,8 @@
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
 // scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), one_of
 // (a variant and the key that chooses it), material (with a diameter, in place of two numbers),
-// tension (or a pitch), part (a table) and parts (an array of tables).
+// tension (or a pitch), start ("rest" or a CSV file, in place of a table), start_table (its
+// columns), force (a file), part (a table) and parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -48,8 +49,9 @@ inline constexpr const char* quantity_names[] = {"displacement", "velocity",    
 inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_factor", "table",
                                                 "per_period"};
 inline constexpr const char* barrier_names[] = {"lumped", "profile"};
+inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
-inline constexpr const char* initial_names[] = {"mode", "triangle"};
+inline constexpr const char* shape_names[] = {"mode", "triangle"};
 
 // ---- Losses
 
@@ -95,6 +97,7 @@ void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.stiffness("stiffness", b.stiffness.k, "N/m^exponent");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
+    pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
 }
 void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.one_of("curve", b.curve, curve_names);
@@ -103,6 +106,7 @@ void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.stiffness("stiffness_density", b.stiffness.K, "N/m^(exponent+1)");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
+    pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
 }
 void fields(auto& pass, Is<Barrier> auto& b) { pass.one_of("shape", b, barrier_names); }
 
@@ -116,22 +120,32 @@ void fields(auto& pass, Is<Thread> auto& t) {
 
 // ---- What sets it in motion
 
-void fields(auto& pass, Is<ModeInitial> auto& m) {
+void fields(auto& pass, Is<ModeShape> auto& m) {
     pass.count("number", m.number);
-    pass.number("amplitude", m.amplitude, any, "m");
+    pass.number("amplitude", m.amplitude, any, "m or m/s");
 }
-void fields(auto& pass, Is<TriangleInitial> auto& t) {
+void fields(auto& pass, Is<TriangleShape> auto& t) {
     pass.number("position", t.position, any, "m");
-    pass.number("amplitude", t.amplitude, any, "m");
+    pass.number("amplitude", t.amplitude, any, "m or m/s");
     pass.number("smoothing", t.smoothing, not_negative, "m", 0.0);
 }
-void fields(auto& pass, Is<Initial> auto& i) { pass.one_of("shape", i, initial_names); }
+void fields(auto& pass, Is<TableStart> auto& t) { pass.start_table(t); }
+void fields(auto&, Is<RestStart> auto&) {}
+void fields(auto& pass, Is<Shape> auto& s) { pass.one_of("shape", s, shape_names); }
+void fields(auto& pass, Is<Start> auto& s) { pass.one_of("shape", s, shape_names); }
 
 void fields(auto& pass, Is<Pluck> auto& p) {
-    pass.number("amplitude", p.amplitude, any, "N");
-    pass.number("duration", p.duration, positive, "s");
-    pass.number("skew", p.skew, not_negative, "", 0.0);
-    pass.number("start", p.start, not_negative, "s", 0.0);
+    pass.force("file", p);
+    if (p.file.empty()) {
+        pass.number("amplitude", p.amplitude, any, "N");
+        pass.number("duration", p.duration, positive, "s");
+        pass.number("skew", p.skew, not_negative, "", 0.0);
+        pass.number("start", p.start, not_negative, "s", 0.0);
+    } else {
+        pass.number("amplitude", p.amplitude, any, "N", p.peak);
+        for (const char* key : {"duration", "skew", "start"})
+            pass.refused(key, "nothing beside file, which says as much");
+    }
     pass.number("position", p.position, any, "m");
     pass.number("width", p.width, not_negative, "m", 0.0);
 }
@@ -147,10 +161,12 @@ void fields(auto& pass, Is<String> auto& s) {
     pass.tension(s);
     pass.number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
     pass.number("axial_stiffness", s.axial_stiffness, not_negative, "N", 0.0);
+    pass.start("start", s.start);
     pass.part("damping", s.damping);
     pass.parts("barrier", s.barriers);
     pass.part("thread", s.thread);
-    pass.part("initial", s.initial);
+    pass.part("start", s.start);
+    pass.part("velocity", s.velocity);
     pass.part("pluck", s.pluck);
     pass.part("polarisation", s.polarisation);
 }

@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 
+#include "scenes/modes.hpp"
 #include "scenes/schema.hpp"
 #include "scenes/wording.hpp"
 
@@ -40,7 +41,7 @@ struct Ranges {
     void refused(auto&&...) {}
     void columns(const char* key, const std::string&, const Column& first,
                  const std::vector<double>& a, const Column& second, const std::vector<double>& b) {
-        const std::string at = joined(path, key);
+        const std::string at = *key ? joined(path, key) : path;
         if (a.size() != b.size())
             throw BadScene(at,
                            std::to_string(a.size()) + " and " + std::to_string(b.size()) + " rows",
@@ -58,6 +59,17 @@ struct Ranges {
                                    std::to_string(i + 1),
                                second.range.says);
         }
+    }
+    void start(auto&&...) {}
+    void start_table(const TableStart& t) {
+        const Column at{t.of_modes ? "mode" : "x_m", "", not_negative};
+        columns("", t.file, at, t.at, {"displacement_m", "", any}, t.displacement);
+        columns("", t.file, at, t.at, {"velocity_m_per_s", "", any}, t.velocity);
+    }
+    void force(const char* key, const Pluck& p) {
+        if (!p.file.empty())
+            columns(key, p.file, {"time_s", "", not_negative}, p.time, {"force_N", "", any},
+                    p.share);
     }
     void one_of(const char*, const auto& variant, auto&&...) {
         std::visit([this](const auto& alternative) { fields(*this, alternative); }, variant);
@@ -140,14 +152,33 @@ struct On {
         }
         if (string.thread) footprint("thread", string.thread->position, string.thread->width);
         if (string.pluck) footprint("pluck", string.pluck->position, string.pluck->width);
-        if (!string.initial) return;
-        const auto* triangle = std::get_if<TriangleInitial>(&*string.initial);
+        if (string.velocity) shape("velocity", *string.velocity);
+        if (!string.start) return;
+        if (const auto* table = std::get_if<TableStart>(&*string.start)) rows(*table);
+        if (const auto* triangle = std::get_if<TriangleShape>(&*string.start))
+            shape("start", *triangle);
+    }
+    void shape(const std::string& part, const Shape& s) const {
+        const auto* triangle = std::get_if<TriangleShape>(&s);
         if (!triangle) return;
-        inside("initial", triangle->position);
+        inside(part, triangle->position);
         if (triangle->smoothing > string.length)
             throw BadScene(
-                path + "initial.smoothing", number_text(triangle->smoothing),
+                path + part + ".smoothing", number_text(triangle->smoothing),
                 "at most the length of the string, " + number_text(string.length) + " [m]");
+    }
+    void rows(const TableStart& t) const {
+        for (std::size_t k = 0; k < t.at.size(); ++k) {
+            const double x = t.at[k];
+            if (t.of_modes ? x < 1 || x > most_modes || x != std::floor(x) : x > string.length)
+                throw BadScene(path + "start", (t.of_modes ? "mode " : "x_m ") + number_text(x),
+                               t.of_modes ? "whole numbers from 1 to " + std::to_string(most_modes)
+                                          : between("<="));
+            if (!t.of_modes && (x == 0 || x == string.length) &&
+                (t.displacement[k] != 0 || t.velocity[k] != 0))
+                throw BadScene(path + "start", "an end of the string that is not at rest at 0",
+                               "0 m and 0 m/s at both ends");
+        }
     }
 };
 
@@ -204,6 +235,13 @@ void validate(const Scene& scene) {
         if (!names.insert(scene.taps[i].name).second)
             throw BadScene(path + "name", quote(scene.taps[i].name) + " a second time",
                            "a unique name");
+    }
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        const bool moves = s.axial_stiffness != 0 || (scene.body && !scene.body->modes.empty());
+        if (moves && s.start && std::holds_alternative<RestStart>(*s.start))
+            throw BadScene("string." + std::to_string(i) + ".start", "\"rest\"",
+                           "another start of a string that stretches or ends on a moving body");
     }
     if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() &&
         scene.body->modes.empty())

@@ -118,7 +118,11 @@ public:
         looked_ = look.now;
         return block_at(row, std::min(row + rows, look.until), looked_);
     }
-    Status advance(const Block& block) { return advance(block, trace_.rows); }
+    Status advance(const Block& block) {
+        Block told = block;
+        told.impacts = options_.impacts;
+        return advance(told, trace_.rows);
+    }
 
     // The end of the rows up to `end` that are sound, once a block of them was made. Where one does
     // not seem so, or the scheme has failed, the supply is summed row by row, and the rows since
@@ -264,7 +268,10 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     const bool listened = options.progress || options.slow;
     int rows = listened ? 1 : options.block_rows;  // of the next block
     while (trace.rows < trace.stride && result.status.outcome == Outcome::ok) {
-        const Block block = stepper.next(rows);
+        const long before_last = trace.stride - 1 - trace.rows;
+        if (options.state && before_last == 0) result.state = scheme.state();
+        const bool ends_there = options.state && before_last > 0 && before_last < rows;
+        const Block block = stepper.next(ends_there ? static_cast<int>(before_last) : rows);
         const auto start = Steady::now();
         result.status = stepper.advance(block);
         const auto took = Steady::now() - start;

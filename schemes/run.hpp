@@ -14,6 +14,9 @@ struct RunOptions {
     // no energy is asked for but what is kept: another run tells whether this one stays within its
     // energy
     bool timed = false;
+    bool state = false;  // keep that of the last row
+    // one for each string: what its contacts did; nullptr: not asked for
+    Impacts* impacts = nullptr;
 
     // Told how far the run is, every few hundredths of a second where the scheme asks within its
     // rows (Block::stop), else between blocks, which are then as short as that. What it throws ends
@@ -34,6 +37,7 @@ struct Run {
     // the longest whole block after the first [s of computing]; 0 where there is none
     double worst_block = 0;
     std::vector<Fact> facts;
+    ModalState state;  // of the last row, where it is asked for and the scheme has one
 };
 
 // A run whose stored energy exceeds this many times what was there at the start and has been

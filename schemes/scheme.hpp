@@ -17,6 +17,8 @@
 
 namespace jvari {
 
+class Impacts;
+
 // A window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
@@ -24,6 +26,8 @@ struct Block {
     double* tap = nullptr;  // one column per tap of the scene
     // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
     double* energy = nullptr;
+    // one for each string, to be told what its contacts do (impacts.hpp); nullptr: nobody asks
+    Impacts* impacts = nullptr;
 
     // Whether the caller wants no more of this run: advance() then returns at once, and nobody
     // looks at what it returns or wrote. A scheme asks within a row, every few milliseconds of
@@ -77,6 +81,11 @@ struct FreeMode {
     double sigma = 0;  // decay rate [1/s]
 };
 
+// Of the modes of one string at one instant.
+struct ModalState {
+    std::vector<double> displacement, velocity;  // [m], [m/s]
+};
+
 class Scheme {
 public:
     virtual ~Scheme() = default;
@@ -96,6 +105,10 @@ public:
     // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread;
     // none where the scheme has no relation in closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
+
+    // At the instant of the next row, where another run that starts from it goes on as this one
+    // does: a scheme that keeps more than this, as of its contacts, has none. Between blocks only.
+    virtual ModalState state() const { return {}; }
 };
 
 struct Settings {

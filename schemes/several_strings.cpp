@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "schemes/impacts.hpp"
+
 namespace jvari {
 
 namespace {
@@ -71,6 +73,7 @@ private:
             own.stride = rows_at_a_time;
             own.tap = tap;
             own.energy = out.energy ? energy : nullptr;
+            own.impacts = out.impacts ? out.impacts + k : nullptr;
             status = strings_[k].scheme->advance(own);
             tap += own.taps * own.stride;
             energy += 3 * own.stride;
@@ -106,7 +109,8 @@ private:
 
     // To the end of the rows that count: what a string went on to do beyond the failure of another
     // is in none of its facts.
-    void step_anew(const Block& out) noexcept {
+    void step_anew(Block out) noexcept {
+        out.impacts = nullptr;
         for (auto& s : strings_) s.scheme->reset();
         for (long row = 0; row < done_; row += rows_at_a_time) {
             advance_each(out, static_cast<int>(std::min<long>(rows_at_a_time, done_ - row)));

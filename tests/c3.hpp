@@ -26,7 +26,7 @@ inline Scene c3_release() {  // over bridge and thread, released from +1.9 mm of
     String& s = scene.strings.front();
     s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}};
     s.thread = Thread{5e-3, 1.2e-3, 1.2e5, 1.2, 0};
-    s.initial = ModeInitial{1, 1.9e-3};
+    s.start = ModeShape{1, 1.9e-3};
     scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
     scene.taps.push_back({"thread", Quantity::thread_force, 0, 0});
     return scene;
@@ -34,7 +34,7 @@ inline Scene c3_release() {  // over bridge and thread, released from +1.9 mm of
 
 inline Scene c3_pluck() {  // plucked as in section 4.1
     Scene scene = c3_release();
-    scene.strings.front().initial.reset();
+    scene.strings.front().start.reset();
     scene.strings.front().pluck = Pluck{-0.4, 50e-3, 30.0, 0.0, 0.5, 1.0};
     return scene;
 }

@@ -11,7 +11,7 @@ inline String sitar_string_at(double f0) {
     s.length = 0.25;
     s.linear_density = 4.8828125e-4;
     s.tension = s.linear_density * (2 * s.length * f0) * (2 * s.length * f0);
-    s.initial = TriangleInitial{0.5 * s.length, 2e-3, 0};
+    s.start = TriangleShape{0.5 * s.length, 2e-3, 0};
     return s;
 }
 

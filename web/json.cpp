@@ -99,20 +99,22 @@ std::string barrier_text(const Barrier& b, double length) {
         .text();
 }
 
-std::string initial_text(const ModeInitial& m) {
+std::string start_text(const ModeShape& m) {
     return Object()
         .with("shape", "mode")
         .with("number", static_cast<double>(m.number))
         .with("amplitude", m.amplitude)
         .text();
 }
-std::string initial_text(const TriangleInitial& t) {
+std::string start_text(const TriangleShape& t) {
     return Object()
         .with("shape", "triangle")
         .with("position", t.position)
         .with("amplitude", t.amplitude)
         .text();
 }
+
+std::string start_text(const auto&) { return "{}"; }  // of a file, or at rest
 
 std::string string_text(const String& s) {
     Object o;
@@ -127,9 +129,8 @@ std::string string_text(const String& s) {
         o.raw(
             "thread",
             Object().with("position", s.thread->position).with("height", s.thread->height).text());
-    if (s.initial)
-        o.raw("initial",
-              std::visit([](const auto& shape) { return initial_text(shape); }, *s.initial));
+    if (s.start)
+        o.raw("start", std::visit([](const auto& shape) { return start_text(shape); }, *s.start));
     if (s.pluck)
         o.raw("pluck", Object()
                            .with("position", s.pluck->position)

@@ -149,11 +149,11 @@ function grips(v) {
   if (s.thread)
     all.push({x: s.thread.position, y: s.thread.height, across: "thread_position", name: "thread"});
   if (s.pluck) all.push({x: s.pluck.position, y: 0, across: "pluck_position", name: "pluck"});
-  if (s.initial)
+  if (s.start?.amplitude !== undefined)
     all.push({
-      x: s.initial.position ?? s.length / 2,
-      y: s.initial.amplitude,
-      across: s.initial.position ? "corner_position" : null,
+      x: s.start.position ?? s.length / 2,
+      y: s.start.amplitude,
+      across: s.start.position ? "corner_position" : null,
       up: "start_amplitude",
       name: "release",
     });

@@ -69,7 +69,7 @@ function read_address(hash) {
 // undefined: it has none.
 
 const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined);
-const corner_of = s => (s.initial?.shape === "triangle" ? s.initial : undefined);
+const corner_of = s => (s.start?.shape === "triangle" ? s.start : undefined);
 const handles = [
   {
     id: "bridge_height",
@@ -127,7 +127,7 @@ const handles = [
   },
   {
     id: "corner_position",
-    key: "string.0.initial.position",
+    key: "string.0.start.position",
     label: "release position",
     unit: "mm",
     times: 1e3,
@@ -136,11 +136,11 @@ const handles = [
   },
   {
     id: "start_amplitude",
-    key: "string.0.initial.amplitude",
+    key: "string.0.start.amplitude",
     label: "release height",
     unit: "mm",
     times: 1e3,
-    of: s => s.initial?.amplitude,
+    of: s => s.start?.amplitude,
     range: v => [0.1 * v, 3 * v],
   },
   {

@@ -280,10 +280,10 @@ const tours = {
 };
 async function twice_exact(duration) {
   // the second starts 1e-12 higher
-  const amplitude = shown.scene.string[0].initial.amplitude,
+  const amplitude = shown.scene.string[0].start.amplitude,
     higher = overrides_of({
       ...state.set,
-      "string.0.initial.amplitude": (amplitude * (1 + 1e-12)).toPrecision(17),
+      "string.0.start.amplitude": (amplitude * (1 + 1e-12)).toPrecision(17),
     });
   return ask("pair", {
     run: run_of({...exact(), duration, overrides: higher}),

@@ -96,7 +96,7 @@ Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {}
               const std::optional<Thread>& thread = {}) {
     Scene scene = string_with(name, barrier, thread);
     scene.duration = 10e-3;
-    scene.strings.front().initial = TriangleInitial{0.3, 1e-3, 0.2};
+    scene.strings.front().start = TriangleShape{0.3, 1e-3, 0.2};
     scene.strings.front().damping = PolynomialDamping{2, 0, 0};
     return {scene};
 }
@@ -122,7 +122,7 @@ std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     all.back().scene.taps.push_back({"bridge", Quantity::bridge_force, 0, 0});
     all.back().enough = what_nodes_leave_out;
     all.push_back(smooth("plucked"));
-    all.back().scene.strings.front().initial.reset();
+    all.back().scene.strings.front().start.reset();
     all.back().scene.strings.front().pluck = Pluck{-0.4, 6e-3, 3.0, 0.0, 0.5, 0.5};
     // modes: a grid nears a point at first order
     if (has(d, Feature::frequency_dependent_damping)) {
@@ -230,7 +230,7 @@ std::vector<Scene> swinging(const Descriptor& d) {  // in mode 1, free and held
     if (bridge || thread) all.push_back(string_with("held", bridge, thread));
     for (Scene& scene : all) {
         scene.duration = contract_rows / contract_tap_rate;
-        scene.strings.front().initial = ModeInitial{1, 1e-3};
+        scene.strings.front().start = ModeShape{1, 1e-3};
         if (!has(d, Feature::bending_stiffness)) scene.strings.front().bending_stiffness = 0;
     }
     return all;

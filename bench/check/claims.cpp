@@ -7,13 +7,15 @@
 // (bench/study/judgement.hpp), on the side of its stability limit where it is sound. That its
 // contacts do not pull is a promise of its own.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bench/check/promise.hpp"
-#include "bench/suite/facet.hpp"
 #include "bench/suite/maps.hpp"
+#include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::check {
@@ -106,13 +108,22 @@ Verdict runs_a_scene(const Case& c) {
 Verdict heeds_every_feature(const Case& c) {
     const Descriptor& d = c.scheme;
     // what is always refused is another promise
-    Features left = d.represents - approximated(d) - always_refused(d);
-    left = without(left, d, [](const Case& one, Feature f) {
-        return tells_apart(one, f, contract_rows) || tells_apart(one, f, 5 * contract_rows);
-    });
-    return left.empty() ? kept()
-                        : broken(fmt::format("its trace is the same whatever the values of {}",
-                                             names_of(left)));
+    const Features claimed = d.represents - approximated(d) - always_refused(d);
+    std::string deaf;
+    for (int k = 0; k < feature_count; ++k) {
+        const auto feature = static_cast<Feature>(1u << k);
+        if (!claimed.has(feature)) continue;
+        std::vector<std::string> tried;
+        const auto tells = [&tried](const Case& one, Feature f) {
+            if (std::ranges::find(tried, one.scene.name) == tried.end())
+                tried.push_back(one.scene.name);
+            return tells_apart(one, f, contract_rows) || tells_apart(one, f, 5 * contract_rows);
+        };
+        if (without(feature, d, tells).has(feature))
+            deaf += fmt::format("{}{} (tried on {})", deaf.empty() ? "" : ", ", names_of(feature),
+                                fmt::join(tried, ", "));
+    }
+    return deaf.empty() ? kept() : broken("its trace is the same whatever the values of " + deaf);
 }
 
 // ---- What it claims in numbers
@@ -120,6 +131,7 @@ Verdict heeds_every_feature(const Case& c) {
 namespace {
 constexpr double cents_allowed = 1e-3, decay_allowed = 1e-3;  // [1/s]
 constexpr int points = 20;
+constexpr double two_pi = 2 * std::numbers::pi;
 
 // ---- Partials.
 
@@ -127,7 +139,7 @@ Scene ringing(bool stiff, bool damped) {
     Scene scene = string_at_rest();
     scene.duration = 0.4;
     String& s = scene.strings.front();
-    s.initial = TriangleInitial{0.2, 1e-3, 0.02};
+    s.start = TriangleShape{0.2, 1e-3, 0.02};
     if (!stiff) s.bending_stiffness = 0;
     if (!damped) s.damping = NoDamping{};
     return scene;
@@ -137,19 +149,15 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
     const Settings settings{contract_tap_rate, contract_tap_rate, contract_modes, {}};
     if (d.clock == Clock::continuous || !represents(d, scene) || !takes(d, scene, settings))
         return "";
-    const Trace trace = run(d, scene, settings).trace;
-    const store::Table rows = suite::dispersion_rows({scene, d, settings, trace, nullptr, 1});
-    for (std::size_t i = 0; i < rows.rows.size(); ++i) {
-        const double cents = std::abs(rows.number(i, "own_cents") - rows.number(i, "trace_cents"));
-        const double decay =
-            std::abs(rows.number(i, "own_decay_per_s") - rows.number(i, "trace_decay_per_s"));
-        if (std::isnan(cents)) continue;
+    for (const HeardPartial& p : heard_partials(d, scene, settings, 1)) {
         any = true;
-        if (cents > cents_allowed || decay > decay_allowed)
+        const double off = std::abs(cents(p.heard.frequency, p.own.omega / two_pi)),
+                     decay = std::abs(p.heard.decay - p.own.sigma);
+        if (off > cents_allowed || decay > decay_allowed)
             return fmt::format(
                 "partial {} sounds {:.3g} cents and {:.3g} per second from where its relation has "
                 "it",
-                rows.at(i, "mode"), cents, decay);
+                p.mode, off, decay);
     }
     return "";
 }
@@ -161,7 +169,7 @@ std::vector<suite::Trial> map_of(const Descriptor& d) {
         Scene scene = ringing(true, true);
         scene.duration = 20e-3;
         String& s = scene.strings.front();
-        s.initial = ModeInitial{1, 1.9e-3};
+        s.start = ModeShape{1, 1.9e-3};
         if (d.represents.has(Feature::lumped_barrier)) {
             const double k[] = {1e4, 1e6, 1e8, 1e10};
             s.barriers = {LumpedBarrier{10e-3, 0, 0, {k[level]}, 1, 0}};
@@ -186,6 +194,26 @@ std::vector<suite::Trial> map_of(const Descriptor& d) {
     return all;
 }
 }  // namespace
+
+std::vector<HeardPartial> heard_partials(const Descriptor& d, const Scene& scene,
+                                         const Settings& settings, int tap) {
+    constexpr int most = 30;
+    constexpr double heard_below = 0.95;  // of half the rate
+    const String& s = scene.strings.front();
+    const int count = std::min(
+        {most, modes_for(s, settings), modes_below(s, 0.5 * heard_below * settings.sample_rate)});
+    const std::vector<FreeMode> own = make_scheme(d, scene, settings)->free_modes();
+    const Trace trace = run(d, scene, settings).trace;
+    const double closest = modes_of(s, 1).omega0[0];  // two partials of a string [rad/s]
+    std::vector<HeardPartial> all;
+    for (int i = 0; i < std::min(count, static_cast<int>(own.size())); ++i) {
+        if (!(own[i].omega > 0)) continue;
+        const Partial heard = strongest_near(trace.column(tap), trace.tap_rate,
+                                             own[i].omega / two_pi, 0.4 * closest / two_pi);
+        if (!std::isnan(heard.frequency)) all.push_back({i + 1, own[i], heard});
+    }
+    return all;
+}
 
 Verdict partials_are_its_own_relations(const Case& c) {
     bool any = false;

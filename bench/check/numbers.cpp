@@ -18,10 +18,10 @@ struct Change {
         return true;
     }
     double other(double x, const std::string& unit) const {
-        const double of = x != 0                       ? x
-                          : unit == "m" || unit == "s" ? 1e-3
-                          : unit == "N m^2"            ? 1e-3
-                                                       : 1;
+        const double of = x != 0                                             ? x
+                          : unit == "m" || unit == "s" || unit == "m or m/s" ? 1e-3
+                          : unit == "N m^2"                                  ? 1e-3
+                                                                             : 1;
         return x + tenth * of;
     }
     void number(const char* name, double& x, const Range&, const char* unit, auto&&...) {
@@ -60,6 +60,9 @@ struct Change {
             part((std::string(name) + "." + std::to_string(i)).c_str(), all[i]);
     }
     void material() {}
+    void start(auto&&...) {}
+    void start_table(auto&&...) {}
+    void force(auto&&...) {}
     void file(auto&&...) {}
     void text(auto&&...) {}
     void optional_text(auto&&...) {}
@@ -87,7 +90,7 @@ std::vector<Scene> make_scenes_of_numbers() {
     played.tension = 33.1;
     played.bending_stiffness = 2e-3;
     played.damping = PolynomialDamping{40, 1, 2e-4};
-    played.initial = TriangleInitial{0.1, 1e-3, 0.15};
+    played.start = TriangleShape{0.1, 1e-3, 0.15};
     const auto scene = [&](const char* name, std::vector<String> strings) {
         Scene s;
         s.name = name;
@@ -109,6 +112,12 @@ std::vector<Scene> make_scenes_of_numbers() {
     };
     std::vector<Scene> all;
     all.push_back(scene("free", {played}));
+    {
+        String s = played;
+        s.start.reset();
+        s.velocity = TriangleShape{0.12, 2, 0.15};
+        all.push_back(scene("struck", {s}));
+    }
     {
         String s = played;
         s.thread = Thread{0.2, 0.08, 900, 0.2, 2e-4};

@@ -29,6 +29,7 @@
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::check {
@@ -58,7 +59,8 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
             p && !f.has(Feature::frequency_dependent_damping))
             p->sigma1 = p->sigma3 = 0;
         if (!f.has(Feature::thread)) s.thread.reset();
-        if (!f.has(Feature::initial_shape)) s.initial.reset();
+        if (!f.has(Feature::initial_shape)) s.start.reset();
+        if (!f.has(Feature::initial_velocity)) s.velocity.reset();
         if (!f.has(Feature::pluck)) s.pluck.reset();
         if (!f.has(Feature::polarisation)) s.polarisation.reset();
         std::erase_if(s.barriers, [f](const Barrier& b) {
@@ -74,6 +76,7 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
                 [f](auto& one) {
                     if (!f.has(Feature::power_law_contact)) one.exponent = 1;
                     if (!f.has(Feature::contact_loss)) one.contact_loss = 0;
+                    if (!f.has(Feature::clipped_loss)) one.loss_law = LossLaw::hunt_crossley;
                 },
                 b);
     }
@@ -93,7 +96,7 @@ Trace turning(const Scene& scene, long rows) {
     const String& s = scene.strings.front();
     const double speed = std::sqrt(s.tension / s.linear_density);
     const Modes modes = modes_of(s, 400);
-    const auto shape = initial_displacement(modes, s);
+    const auto shape = start_of(modes, s).displacement;
     // of the vertical plane, where the shape is in a plane of angle 0
     const auto wave = [&](double x) {
         std::complex<double> turned = std::polar(0.5, s.polarisation->pluck_angle);

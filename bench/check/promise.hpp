@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/dispersion.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/system/listener.hpp"
 #include "scenes/scene.hpp"
@@ -106,6 +107,15 @@ bool is_as_the_scene_says(const Descriptor&, const Scene&);
 bool is_called(const Descriptor&);
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
+
+// Of a run whose rows are its steps: the scheme's own partials (Scheme::free_modes), and where the
+// matrix pencil of analysis/dispersion.hpp hears them in a tap. Silent ones are left out.
+struct HeardPartial {
+    int mode;
+    FreeMode own;
+    Partial heard;
+};
+std::vector<HeardPartial> heard_partials(const Descriptor&, const Scene&, const Settings&, int tap);
 
 // ---- The scenes on which promises are examined
 

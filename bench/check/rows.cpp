@@ -9,6 +9,7 @@
 #include "bench/study/judgement.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 
 namespace jvari::bench::check {
 
@@ -21,7 +22,7 @@ Verdict starts_from_the_scenes_shape(const Case& c) {
         String s = scene.strings[k];
         s.damping = NoDamping{};
         const Modes all = modes_of(s, 2000);
-        const auto shape = initial_displacement(all, s);
+        const auto shape = start_of(all, s).displacement;
         for (const double x : {0.1, 0.25, 0.4, 0.5, 0.7, 0.9}) {
             scene.taps.push_back({"y" + std::to_string(scene.taps.size()), Quantity::displacement,
                                   static_cast<int>(k), x * s.length});
@@ -29,10 +30,9 @@ Verdict starts_from_the_scenes_shape(const Case& c) {
             double y = 0;
             for (std::size_t i = 0; i < w.size(); ++i) y += w[i] * shape[i];
             expected.push_back(y);
-            scale.push_back(
-                s.initial
-                    ? std::visit([](const auto& i) { return std::abs(i.amplitude); }, *s.initial)
-                    : 0);
+            scale.push_back(s.start && std::holds_alternative<RestStart>(*s.start)
+                                ? std::abs(*std::max_element(shape.begin(), shape.end()))
+                                : largest_displacement(s));
         }
     }
     const jvari::Run r = run(*make_scheme(c.scheme, scene, c.settings), scene, c.settings);
@@ -66,7 +66,8 @@ Verdict never_pulls(const Case& c) {
     const auto touches = [](const String& s) { return !s.barriers.empty(); };
     if (std::none_of(c.scene.strings.begin(), c.scene.strings.end(), touches))
         return not_asked("the string touches nothing");
-    if (needed_by(c.scene).has(Feature::contact_loss))
+    const Features needed = needed_by(c.scene);
+    if (needed.has(Feature::contact_loss) && !needed.has(Feature::clipped_loss))
         return not_asked("a contact with a loss may pull");
     Case one = c;
     one.scene.taps = {{"contact", Quantity::bridge_force, std::nullopt, 0}};

@@ -1,6 +1,7 @@
 #include "bench/check/promise.hpp"
 
 #include "scenes/scene_file.hpp"
+#include "scenes/start.hpp"
 
 namespace jvari::bench::check {
 
@@ -28,7 +29,7 @@ Scene least(bool plucked) {  // a string without stiffness and losses
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
     if (plucked) s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5, 0.1};
-    else s.initial = ModeInitial{1, 1.9e-3};
+    else s.start = ModeShape{1, 1.9e-3};
     return scene;
 }
 
@@ -39,6 +40,13 @@ Scene released() {  // over bridge and thread, let go from its first mode
 // a point, on a node where the modes have as many nodes between the ends
 LumpedBarrier bridge_at(const String& s, int node) {
     return {node * s.length / (contract_modes + 1), 0, 0, {4.39e8}, 1, 0};
+}
+
+LumpedBarrier soft_bridge(const String& s, int node, double height = 0) {
+    LumpedBarrier b = bridge_at(s, node);
+    b.stiffness.k = 1e4;
+    b.height = height;
+    return b;
 }
 
 // The scene with a feature that it has not; where it cannot have it, or has it, as it is.
@@ -68,17 +76,21 @@ Scene with(Feature feature, Scene scene) {
             s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0});
             break;
         // soft: a force known before the step explodes on a stiff one before the other acts
-        case Feature::several_barriers:
-            s.barriers.assign({bridge_at(s, 1), bridge_at(s, 3)});
-            for (Barrier& b : s.barriers) std::get<LumpedBarrier>(b).stiffness.k = 1e4;
-            break;
+        case Feature::several_barriers: s.barriers = {soft_bridge(s, 1), soft_bridge(s, 3)}; break;
         case Feature::power_law_contact: on_its_barriers([](auto& b) { b.exponent = 1.5; }); break;
         case Feature::contact_loss: on_its_barriers([](auto& b) { b.contact_loss = 0.5; }); break;
+        case Feature::clipped_loss:  // that pulls where the string leaves at more than 0.02 m/s
+            if (s.barriers.empty()) s.barriers = {soft_bridge(s, 3)};
+            on_its_barriers([](auto& b) {
+                b.contact_loss = 50;
+                b.loss_law = LossLaw::clipped;
+            });
+            break;
         case Feature::thread:
             s.thread = Thread{5e-3 * s.length, 1.2e-3 * s.length, 1.2e5, 0, 0};
             break;
         case Feature::polarisation: s.polarisation = Polarisation{0.1, 0.3}; break;
-        case Feature::initial_shape: s.initial = ModeInitial{1, 1.9e-3 * s.length}; break;
+        case Feature::initial_shape: s.start = ModeShape{1, 1.9e-3 * s.length}; break;
         case Feature::pluck:
             s.pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5 * s.length, 0.1 * s.length};
             break;
@@ -90,6 +102,12 @@ Scene with(Feature feature, Scene scene) {
             s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {rigid}, 1, 0});
             break;
         case Feature::tension_modulation: s.axial_stiffness = 5e3; break;
+        case Feature::initial_velocity: s.velocity = ModeShape{1, s.length}; break;
+        case Feature::equilibrium:  // on a bridge that lifts it
+            if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
+            s.start = RestStart{};
+            s.barriers = {soft_bridge(s, 3, 1e-3 * s.length)};
+            break;
         case Feature::moving_body:
             scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}};
             break;
@@ -126,7 +144,7 @@ Scene string_at_rest() {
     String& s = scene.strings.front();
     s.barriers.clear();
     s.thread.reset();
-    s.initial.reset();
+    s.start.reset();
     scene.taps.resize(2);
     return scene;
 }
@@ -138,13 +156,13 @@ std::vector<Scene> read_contract_scenes() {
     scenes.push_back(named(string_at_rest(), "rest"));
     scenes.push_back(named(lossless(released()), "lossless_release"));
     scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
-    scenes.back().strings.front().initial = ModeInitial{2, 1e-3};
+    scenes.back().strings.front().start = ModeShape{2, 1e-3};
     scenes.push_back(named(with(Feature::rigid_barrier, released()), "rigid_release"));
     scenes.push_back(
         named(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}),
               "rigid_wall"));
     scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
-    scenes.back().strings.front().initial.reset();
+    scenes.back().strings.front().start.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
     return shortened(scenes);
 }
@@ -209,15 +227,21 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
             break;
         case Feature::power_law_contact: each_barrier([](auto& b) { b.exponent += 0.25; }); break;
         case Feature::contact_loss: each_barrier([](auto& b) { b.contact_loss *= 2; }); break;
+        case Feature::clipped_loss:
+            each_barrier([](auto& b) { b.loss_law = LossLaw::hunt_crossley; });
+            break;
         case Feature::thread:
             add([](String& s) { return s.thread && (s.thread->stiffness *= 0.5, true); });
             break;
         case Feature::initial_shape:
             add([](String& s) {
-                return s.initial &&
-                       (std::visit([](auto& i) { i.amplitude *= 1.1; }, *s.initial), true);
+                return largest_displacement(s) != 0 && (s = scaled(s, 1.1), true);
             });
             break;
+        case Feature::initial_velocity:
+            add([](String& s) { return s.velocity.reset(), true; });
+            break;
+        case Feature::equilibrium: add([](String& s) { return s.start.reset(), true; }); break;
         case Feature::pluck:
             add([](String& s) { return s.pluck && (s.pluck->amplitude *= 1.1, true); });
             break;

@@ -42,8 +42,8 @@ constexpr const char* what_else = R"(
 #
 # SI units throughout. x runs along the string from 0 to `length`. Its displacement y is positive
 # away from the barrier, so what pushes or plucks it towards the barrier is negative. A barrier
-# below the string at rest has a negative `height`. A string with neither `initial` nor `pluck` is
-# silent.
+# below the string at rest has a negative `height`. A string with neither `start` nor `pluck` is
+# silent, unless a barrier presses on it.
 #
 # The barrier pushes with stiffness * penetration^exponent. A lumped one acts at one place (over
 # `width`), a profile along `from` to `to`:
@@ -70,10 +70,12 @@ constexpr const char* what_else = R"(
 #   quantity = "thread_force"   of the thread on the string, the same
 #   quantity = "driving_force"  -(bridge_force + thread_force)
 #
-# Start: [string.initial] is a shape at rest that is let go, [string.pluck] the force of a finger or
-# hammer.
+# Start: [string.start] is a shape that is let go, [string.velocity] the same of its velocity,
+# [string.pluck] the force of a finger or hammer.
 #   shape = "mode" (number, amplitude)
 #   shape = "triangle" (position, amplitude, smoothing: 0 is a sharp corner)
+#   start = "rest"      under [[string]]: the string lies still on what presses it
+#   start = "file.csv"  columns x_m or mode, displacement_m, velocity_m_per_s
 #
 # Try it:   jvari run @FILE@ --scheme modal_two_point --out @NAME@.wav
 # Compare:  jvari compare @FILE@ --duration 0.1 --out @NAME@-report

@@ -17,10 +17,12 @@
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
+#include "bench/store/records.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/study/judgement.hpp"
+#include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::command {
@@ -37,7 +39,7 @@ struct RunRequest : Running {
     bool energy = false, facts = false;
     std::vector<std::string> set;
     std::vector<std::string> options;
-    std::string out, plot, width;
+    std::string out, impacts, plot, width, state;
 };
 
 // What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
@@ -123,6 +125,41 @@ std::optional<Player> checked_output(const RunRequest& r, const Scene& scene, do
     return std::nullopt;
 }
 
+// Before a long run: that its end can be kept.
+void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, Settings settings) {
+    if (r.state.empty()) return;
+    store::must_be_writable(r.state);
+    if (d.clock == Clock::continuous) settings.sample_rate = 0;
+    if (make_scheme(d, scene, settings)->state().displacement.empty())
+        throw store::UsageError(
+            fmt::format("--state: {} keeps more here than displacement and velocity of each mode "
+                        "of one string; "
+                        "modal_two_point and the references do not, without compliance=matched",
+                        d.name));
+}
+
+// One row per contact, in the order of their starts; what lasts beyond the run has neither end nor
+// speed out.
+store::Table impacts_table(const std::vector<Impacts>& of_strings, double until) {
+    std::vector<std::pair<int, Impact>> all;  // string
+    for (const Impacts& of : of_strings)
+        for (Impact i : of.all()) {
+            if (i.end >= until) i.end = i.speed_out = store::nan;
+            if (i.start < until) all.emplace_back(&of - of_strings.data(), i);
+        }
+    std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second.start; });
+    store::Table t{{"string", "barrier", "start_s", "end_s", "largest_force_N", "impulse_N_s",
+                    "speed_in_m_per_s", "speed_out_m_per_s", "energy_lost_J"},
+                   {}};
+    for (const auto& [string, i] : all) {
+        t.rows.push_back({std::to_string(string), std::to_string(i.barrier)});
+        for (const double x :
+             {i.start, i.end, i.largest_force, i.impulse, i.speed_in, i.speed_out, i.energy_lost})
+            t.rows.back().push_back(store::text_of(x));
+    }
+    return t;
+}
+
 // The taps of one scene in a trace of a scene that has more.
 Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
     Trace part = all;
@@ -187,7 +224,14 @@ int run_command(RunRequest r) {
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
     const std::optional<report::Vega> vega = vega_for(r);
+    check_state(r, d, scene, settings);
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
+    std::vector<Impacts> impacts(scene.strings.begin(), scene.strings.end());
+    if (!r.impacts.empty()) {
+        if (std::ranges::all_of(scene.strings, [](const String& s) { return s.barriers.empty(); }))
+            throw store::UsageError("--impacts: no string of the scene has a barrier");
+        store::must_be_writable(r.impacts);
+    }
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
                                             scene.duration, settings.tap_rate));
@@ -199,7 +243,14 @@ int run_command(RunRequest r) {
         const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
         RunOptions options;
         options.energy = r.energy || vega;
-        options.progress = [&progress](long done, long rows) {
+        options.state = !r.state.empty();
+        if (!r.impacts.empty()) options.impacts = impacts.data();
+        options.progress = [&](long done, long rows) {
+            if (options.impacts && done > 0 && std::ranges::none_of(impacts, &Impacts::told))
+                throw store::UsageError(
+                    fmt::format("--impacts: {} does not tell what its contacts do; exact_contact, "
+                                "modal schemes and those of grids do",
+                                d.name));
             progress->show(static_cast<double>(done) / static_cast<double>(rows));
         };
         options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
@@ -220,6 +271,22 @@ int run_command(RunRequest r) {
         if (!level.empty()) json["level"] = level;
         text += fmt::format("\n  {:<28}{}{}", "written", r.out,
                             level.empty() ? "" : "  (" + level + ")");
+    }
+    if (!r.state.empty() && result.status.outcome == Outcome::ok) {
+        std::string rows = "mode,displacement_m,velocity_m_per_s\n";
+        for (std::size_t i = 0; i < result.state.displacement.size(); ++i)
+            rows += fmt::format("{},{},{}\n", i + 1, result.state.displacement[i],
+                                result.state.velocity[i]);
+        store::write_fresh(r.state, rows);
+        json["state"] = r.state;
+        text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
+    }
+    if (!r.impacts.empty()) {
+        const store::Table table =
+            impacts_table(impacts, static_cast<double>(result.trace.rows - 1) / settings.tap_rate);
+        store::write_fresh(r.impacts, store::csv(table));
+        json["impacts"] = store::rows_json(table);
+        text += fmt::format("\n  {:<28}{}  ({} contacts)", "written", r.impacts, table.rows.size());
     }
     if (vega) {
         if (drawn > 0) draw(r.plot, d, own, summary, part_of(result.trace, 0, own), *vega, r.width);
@@ -253,6 +320,12 @@ Act run_verb(CLI::App& program) {
            "every fact that the scheme reports, its solver's counters among them; --json always "
            "has them");
     v.option("--out", v.r.out, {"FILE"}, "writes the trace, .csv, or what is heard of it, .wav");
+    v.option("--state", v.r.state, {"FILE.csv"},
+             "writes displacement and velocity of each mode in the last row: another run goes on "
+             "from there by --set string.0.start=FILE.csv");
+    v.option("--impacts", v.r.impacts, {"FILE"},
+             "writes what each contact did, .csv: when, how hard, how fast in and out, what it "
+             "lost; a scheme knows instants to a step, exact_contact as they are");
     v.option("--width", v.r.width, {"WIDTH"}, "of the picture, as 85mm for a column of a paper");
     v.option("--plot", v.r.plot, {"FILE"},
              "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact "

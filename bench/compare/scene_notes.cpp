@@ -8,6 +8,7 @@
 
 #include "scenes/barrier.hpp"
 #include "scenes/pitch.hpp"
+#include "scenes/start.hpp"
 
 namespace jvari::bench::compare {
 
@@ -34,9 +35,9 @@ bool pressed(const String& s) {  // at rest something above or below it pushes o
            });
 }
 bool set_in_motion(const String& s, double before) {
-    const bool shaped =
-        s.initial && std::visit([](const auto& shape) { return shape.amplitude != 0; }, *s.initial);
-    return shaped || pressed(s) || (plucked(s) && s.pluck->start < before);
+    const bool table = s.start && std::holds_alternative<TableStart>(*s.start);
+    return largest_displacement(s) != 0 || table || s.velocity || pressed(s) ||
+           (plucked(s) && s.pluck->start < before);
 }
 }  // namespace
 
@@ -73,11 +74,8 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
         doubt(pitch_of(s) < least_pitch || pitch_of(s) > most_pitch,
               "the pitch that length, tension and linear_density give", pitch_of(s), "Hz",
               "10 to 10000 Hz");
-        const double start =
-            s.initial ? std::visit([](const auto& shape) { return std::abs(shape.amplitude); },
-                                   *s.initial)
-                      : 0;
-        doubt(start > most_start * s.length, "initial.amplitude", start, "m",
+        const double start = largest_displacement(s);
+        doubt(start > most_start * s.length, "start.amplitude", start, "m",
               "less than a tenth of the length");
         doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude",
               plucked(s) ? s.pluck->amplitude : 0, "N", "less than the tension");
@@ -92,7 +90,7 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
         const std::string why =
             plucked(s) ? fmt::format("its pluck begins at {:g} s, and the run ends at {:g} s",
                                      s.pluck->start, scene.duration)
-                       : "nothing sets it in motion; give it [string.initial] or [string.pluck]";
+                       : "nothing sets it in motion; give it [string.start] or [string.pluck]";
         listener.note(fmt::format("warning: string {} of {} stays silent: {}", i, scene.name, why));
     }
 }

@@ -121,20 +121,6 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     compare_costs(a, b, pairs, d);
 }
 
-void compare_dispersion(const store::Table& a, const store::Table& b, Difference& d) {
-    const std::vector<std::string> names{"scene", "scheme", "options", "rate", "mode"};
-    for (const Pair& p : in_both(named_rows(a, names), named_rows(b, names), d.modes))
-        for (const char* column :
-             {"own_cents", "own_decay_per_s", "trace_cents", "trace_decay_per_s"}) {
-            ++d.compared;
-            const Turn turn =
-                dispersion_turn(column, a.number(p.before, column), b.number(p.after, column));
-            if (turn != Turn::same)
-                d.findings.push_back({turn, "mode: " + p.name, column, a.at(p.before, column),
-                                      b.at(p.after, column), ""});
-        }
-}
-
 void compare_maps(const Folder& a, const Folder& b, Difference& d) {
     const std::vector<std::string> names{"map", "scene", "scheme", "x_key", "x", "y_key", "y"};
     for (const Pair& p : in_both(named_rows(a.maps, names), named_rows(b.maps, names), d.points)) {
@@ -173,7 +159,7 @@ int Difference::count(Turn t) const {
 }
 
 int Difference::missing() const {
-    return static_cast<int>(cells.before.size() + points.before.size() + modes.before.size());
+    return static_cast<int>(cells.before.size() + points.before.size());
 }
 
 bool Difference::nothing() const {
@@ -185,13 +171,12 @@ bool Difference::nothing() const {
 Difference difference(const Folder& before, const Folder& after) {
     Difference d;
     compare_cells(before, after, d);
-    compare_dispersion(before.dispersion, after.dispersion, d);
     compare_maps(before, after, d);
     for (const Folder* folder : {&before, &after})
         for (Finding& f : altered(*folder)) d.findings.push_back(std::move(f));
     if (d.compared == 0)
         throw store::UsageError(
-            fmt::format("{} and {} have no cell, mode or map in common: expected two folders of "
+            fmt::format("{} and {} have no cell or map in common: expected two folders of "
                         "one suite or scene",
                         before.name, after.name));
     return d;

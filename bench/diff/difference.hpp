@@ -29,8 +29,8 @@ struct Folder {
     std::string name;
     Provenance provenance;
     study::Cells cells;
-    store::Table dispersion, maps, boundaries;  // empty where the file is absent
-    store::Table shown;                         // cells.csv
+    store::Table maps, boundaries;  // empty where the file is absent
+    store::Table shown;             // cells.csv
 };
 
 // Throws UsageError where there is no manifest.json, no cells or maps, or a file cannot be read.
@@ -59,9 +59,6 @@ Turn turn_of_fact(const std::string& name, const study::TabledCell& before,
 Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string& tap,
              const study::TabledCell& before, const study::TabledCell& after);
 
-// A field of dispersion.csv.
-Turn dispersion_turn(const std::string& column, double before, double after);
-
 // ---- What changed
 
 struct Finding {
@@ -83,11 +80,10 @@ struct Only {  // what one of the folders has alone
 struct Difference {
     // of what both have; those of a row stand together, headline columns first
     std::vector<Finding> findings;
-    Only cells, columns, points, boundaries, modes;
+    Only cells, columns, points, boundaries;
     std::vector<std::pair<const char*, const Only*>> alone() const {  // each kind by its name
         return {{"cells", &cells},
                 {"columns", &columns},
-                {"modes", &modes},
                 {"points", &points},
                 {"boundaries", &boundaries}};
     }
@@ -98,7 +94,7 @@ struct Difference {
     int compared = 0;           // fields
 
     int count(Turn) const;
-    int missing() const;  // cells, points and modes that are no longer there
+    int missing() const;  // cells and points that are no longer there
     bool worse() const { return count(Turn::worse) > 0 || missing() > 0; }
     bool nothing() const;  // no finding, and nothing that one has alone
 };

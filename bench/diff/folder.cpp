@@ -50,13 +50,8 @@ Folder read_folder(const fs::path& path) {
     if (!fs::is_directory(path, error))
         throw store::UsageError(fmt::format("{}: no such folder", path.string()));
     const store::Folder folder{path};
-    const Folder f{path.string(),
-                   provenance_of(folder),
-                   study::read_cells(path, false),
-                   folder.table("dispersion"),
-                   folder.table("maps"),
-                   folder.table("boundaries"),
-                   folder.table("cells")};
+    const Folder f{path.string(),        provenance_of(folder),      study::read_cells(path, false),
+                   folder.table("maps"), folder.table("boundaries"), folder.table("cells")};
     if (f.cells.empty() && f.maps.columns.empty())
         throw store::UsageError(fmt::format("{}: neither facts.csv nor maps.csv", f.name));
     return f;

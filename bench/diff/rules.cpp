@@ -163,15 +163,4 @@ Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string
                    {tolerance, m.less_is_better ? 1 : -1, true, b.*certificate, a.*certificate});
 }
 
-Turn dispersion_turn(const std::string& column, double before, double after) {
-    const double tolerance = column.starts_with("own_") ? 1e-8
-                             : column == "trace_cents"  ? 1e-4
-                                                        : 1e-3;
-    if (same_number(before, after, tolerance)) return Turn::same;
-    if (!column.ends_with("_cents")) return Turn::moved;
-    if (std::isnan(before) || std::isnan(after))
-        return std::isnan(after) ? Turn::worse : Turn::better;
-    return std::abs(after) > std::abs(before) ? Turn::worse : Turn::better;
-}
-
 }  // namespace jvari::bench::diff

@@ -102,6 +102,18 @@ std::string sentence_of(const study::Cells& cells, const study::TabledCell& cell
                                   : text;
 }
 
+// What stands behind the error, the gravest first.
+std::string cause_sentence(const study::Cell& cell) {
+    constexpr double beyond_doubt = 1.05;
+    const study::Summary& s = cell.summary;
+    if (s.largest_over_bound > beyond_doubt)
+        return fmt::format("\n  it grows: a tap reaches {:.3g} times what start and pluck allow",
+                           s.largest_over_bound);
+    if (s.energy_gain > gain_allowed_unpromised)
+        return fmt::format("\n  it grows: {:.3g} of its energy is gained", s.energy_gain);
+    return cell.cause.empty() ? "" : "\n  it " + cell.cause;
+}
+
 // How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two
 // programs compute the same.
 std::string beside(const compare::Comparison& c, const study::Record& own) {
@@ -158,15 +170,25 @@ std::string verdict_of(const compare::Comparison& c) {
         if (!is_candidate(cell)) continue;
         if (cell.status() == "diverged")
             text += fmt::format(
-                "{}{}: {}: its taps go beyond what ten times the energy of the scene could make",
+                "{}{}: it grows: {}: its taps go beyond what ten times the energy of the scene "
+                "could "
+                "make",
                 text.empty() ? "" : "\n", cells[i].run(), cell.reason);
         else
             text += (text.empty() ? "" : "\n") + sentence_of(cells, cells[i]) +
-                    beside(c, c.outcome.records[i]);
+                    cause_sentence(cell) + beside(c, c.outcome.records[i]);
     }
+    const std::string own = c.outcome.records.front().cell.scheme->name;
+    const std::size_t window = compare::headline_error(cells, study::all_rows(cells));
+    for (const auto& [low, high] : compare::rising_with_the_rate(cells))
+        if (cells[low].scheme == own)
+            text += fmt::format(
+                "\nits error rises with the rate, from {} at {:g} Hz to {} at {:g} Hz",
+                compare::percent(compare::bound_of(cells[low], window).error), cells[low].rate,
+                compare::percent(compare::bound_of(cells[high], window).error), cells[high].rate);
     for (const compare::ObservedOrder& o : compare::convergence_of(cells))
-        if (cells[o.first].scheme == c.outcome.records.front().cell.scheme->name &&
-            o.measure == study::measure("error_l2_50ms") && o.tap == cells[o.first].headline_nut)
+        if (cells[o.first].scheme == own && o.measure == study::measure("error_l2_50ms") &&
+            o.tap == cells[o.first].headline_nut)
             text += fmt::format(
                 "\nobserved order of convergence over 50 ms: {:.2f}{}", o.order.order,
                 std::isfinite(o.order.half_width) ? fmt::format(" +- {:.2f}", o.order.half_width)

@@ -23,7 +23,7 @@ Scene twenty_contacts(int intervals) {  // a flat profile under nodes 2..21
     String& s = scene.strings.front();
     const double dx = s.length / intervals;
     s.barriers = {ProfileBarrier{FlatCurve{}, 1.5 * dx, 21.5 * dx, {1e11}, 1, 0}};
-    s.initial = TriangleInitial{0.3, 1.9e-3, 0.1};
+    s.start = TriangleShape{0.3, 1.9e-3, 0.1};
     return scene;
 }
 double rate_of(int intervals) {
@@ -58,7 +58,7 @@ struct Plain {
         b2 = z4 / D;
         gain = theta = dt * dt / static_cast<Real>(g.mass) / D;
         k = g.points.contacts.laws.front().k;
-        now.assign(g.initial.begin(), g.initial.end());
+        now.assign(g.start.begin(), g.start.end());
         before = next = now;
         // with u- = u: u + dt^2 (acceleration)
         step();

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "schemes/contact/contact.hpp"
 #include "schemes/run.hpp"
 
@@ -30,7 +31,7 @@ Scene scene_of(bool parabola) {
     s.tension = 180.5;
     s.bending_stiffness = 3.2683823738748857e-4;
     s.damping = QualityFactorDamping{0.43e-3, 1.8e-5, 1.2, 0.0045, 0.000203};
-    s.initial = TriangleInitial{0.501, 1.8e-3, 0.02};
+    s.start = TriangleShape{0.501, 1.8e-3, 0.02};
     if (parabola)
         s.barriers.push_back(ProfileBarrier{ParabolaCurve{0.0065}, 0, 19e-3, {1e13}, 1.3, 0});
     else s.barriers.push_back(LumpedBarrier{6e-3, 0, 0, {1e10}, 1.3, 0});
@@ -71,7 +72,7 @@ struct Coefficients {
     Real gain, theta;
     explicit Coefficients(const String& s) : C(M), Ct(M), y0(M), y1(M) {
         const Modes m = modes_of(s, M);
-        const auto start = initial_displacement(m, s);
+        const auto start = start_of(m, s).displacement;
         for (int j = 0; j < M; ++j) {
             const Real sigma = m.sigma[j], square = Real(m.omega0[j]) * m.omega0[j] - sigma * sigma,
                        e = std::exp(-sigma * Real(dt));

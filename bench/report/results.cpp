@@ -85,8 +85,7 @@ Results read_results(const fs::path& path) {
     Results r;
     r.folder = path;
     r.cells = study::read_cells(path, true);
-    for (const char* name :
-         {"dispersion", "convergence", "maps", "boundaries", "sounds", "path", "needs"})
+    for (const char* name : {"convergence", "maps", "boundaries", "sounds", "path", "needs"})
         r.tables[name] = folder.table(name);
     if (r.cells.empty() && r.tables["maps"].columns.empty() && r.tables["path"].columns.empty())
         throw store::UsageError(

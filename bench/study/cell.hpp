@@ -66,6 +66,7 @@ struct Cell {
     // "" where it was run; else its status: "refused", "past_time_limit", "error"
     std::string failure{};
     std::string reason{};  // of a failure, or why it is not needed
+    std::string cause{};   // of most of its headline error (cause.hpp); "": none is known
     Summary summary{};     // of the accuracy run; empty where it was not run
     Errors errors{};       // from the scene's own motion (truth.hpp)
     // from that of a string with as many modes: errors of the scheme alone; empty where none was

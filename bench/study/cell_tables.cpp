@@ -85,6 +85,7 @@ const std::vector<Column>& columns() {
          elsewhere},
         {"reference", "", Rule::text, &C::reference, "what the errors are measured against"},
         {"reason", "", Rule::text, &C::reason, "of a refusal or a failure"},
+        {"cause", "", Rule::text, &C::cause, "what explains most of its headline error", elsewhere},
         {"reference_modes", "", Rule::closed_form, &C::reference_modes, "modes of the reference",
          elsewhere},
         {"free_from_s", "s", Rule::closed_form, &C::free_from_s,

@@ -120,6 +120,7 @@ TabledCell cell_of(const Job& job, const Record& r) {
     if (r.cell.modes() > 0) c.modes = r.cell.modes();
     c.status = r.cell.status();
     c.reason = r.cell.reason;
+    c.cause = r.cell.cause;
     c.reference = r.against.reference;
     c.reference_doubling = r.against.doubling;
     if (r.against.modes > 0) c.reference_modes = r.against.modes;

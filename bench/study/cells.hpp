@@ -30,7 +30,7 @@ struct TabledCell {
     std::string cell, scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value
     std::string scheme, options, status, flags, machine, load, governor, untimed, below_floor,
-        reference, reason, reference_doubling, headline_nut, headline_bridge;
+        reference, reason, cause, reference_doubling, headline_nut, headline_bridge;
     double rate = store::nan, modes = store::nan;
     double cost_s_per_s = store::nan, cost_lower = store::nan, cost_upper = store::nan,
            processor_s_per_s = store::nan, processor_lower = store::nan,

@@ -104,6 +104,7 @@ std::string json_of(const Record& r, const std::string& identity) {
         rows[facet] = {{"columns", table.columns}, {"rows", table.rows}};
     return store::kept_text(identity, {{"failure", c.failure},
                                        {"reason", c.reason},
+                                       {"cause", c.cause},
                                        {"summary", summary_json(c.summary)},
                                        {"errors", numbers(c.errors)},
                                        {"in_model", numbers(c.in_model)},
@@ -126,6 +127,7 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         Record r{planned, {}, {}, {}};
         r.cell.failure = j.at("failure");
         r.cell.reason = j.at("reason");
+        r.cell.cause = j.value("cause", "");
         r.cell.summary = summary_in(j.at("summary"));
         r.cell.errors = errors_in(j.at("errors"));
         r.cell.in_model = errors_in(j.at("in_model"));

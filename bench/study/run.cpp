@@ -11,6 +11,7 @@
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/study/cause.hpp"
 #include "bench/study/cost.hpp"
 #include "scenes/excitation.hpp"
 
@@ -38,6 +39,9 @@ Record run_job(const Job& job, const References::Of& known, const ProgressOf& pr
                 cell.in_model =
                     &own->run.trace == truth ? cell.errors : errors_from(own->run.trace);
         }
+        if (job.sounds && truth && cell.reason.empty())
+            cell.cause = cause_of(point.true_scene(), trace, *truth, headline_of(point.scene).nut,
+                                  free_from(point.true_scene()));
         if (job.sounds && cell.reason.empty())
             cell.sound =
                 store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);

@@ -115,7 +115,7 @@ std::vector<store::Key<Map>> map_keys() {
         plain("rate", "44100 Hz", "of all points"),
         plain("modes", store::count().says, "the scheme's", "of all points"),
         plain("duration", "the scene's", "of all points"),
-        plain("amplitude", "1", "scales initial shapes and plucks"),
+        plain("amplitude", "1", "scales starts and plucks"),
         {{"options", "a table: [SCHEME:]NAME = value", "", "of schemes"},
          [](Map& m, const store::Entry& e) {
              for (const auto& [name, value] : e.members())

@@ -7,6 +7,7 @@
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/errors.hpp"
+#include "scenes/start.hpp"
 
 namespace jvari::bench::trim {
 
@@ -74,26 +75,29 @@ double elsewhere(double position, double length, int start) {
     return std::abs(there - position) < 0.05 * length ? length - there : there;
 }
 
-Initial initial(const Initial& own, double length, int start) {
-    const auto* mode = std::get_if<ModeInitial>(&own);
-    const auto* triangle = std::get_if<TriangleInitial>(&own);
+// Of a shape; a start of a file or in equilibrium is scaled or stays.
+Start other_start(const String& s, int start) {
+    const Start& own = *s.start;
+    const double length = s.length;
+    const auto* mode = std::get_if<ModeShape>(&own);
+    const auto* triangle = std::get_if<TriangleShape>(&own);
+    if (!mode && !triangle) return *scaled(s, sizes[start]).start;
     const double amplitude = sizes[start] * (mode ? mode->amplitude : triangle->amplitude);
-    if (start == 2) return ModeInitial{mode ? mode->number + 4 : 5, amplitude};
+    if (start == 2) return ModeShape{mode ? mode->number + 4 : 5, amplitude};
     const double position = elsewhere(triangle ? triangle->position : 0, length, start);
     const double sharp = plectrum * length,
                  smoothing = triangle ? triangle->smoothing : 0.05 * length;
-    return TriangleInitial{position, amplitude,
-                           start == 1 ? std::min(sharp, smoothing) : smoothing};
+    return TriangleShape{position, amplitude, start == 1 ? std::min(sharp, smoothing) : smoothing};
 }
 }  // namespace
 
 Scene started(Scene scene, int start) {
     if (start == 0) return scene;
     for (String& s : scene.strings) {
-        if (s.initial) s.initial = initial(*s.initial, s.length, start);
+        if (s.start) s.start = other_start(s, start);
         if (!s.pluck) continue;
         s.pluck->amplitude *= sizes[start];
-        s.pluck->duration *= shortest[start];
+        if (s.pluck->time.empty()) s.pluck->duration *= shortest[start];
         if (s.pluck->width < 0.2 * s.length)
             s.pluck->position = elsewhere(s.pluck->position, s.length, start);
     }
@@ -105,13 +109,14 @@ std::string name_of_start(const Scene& scene) {
         if (s.pluck)
             return fmt::format("a pluck of {:.3g} N in {:.3g} s at {:.3g} m", s.pluck->amplitude,
                                s.pluck->duration, s.pluck->position);
-        if (!s.initial) continue;
-        if (const auto* m = std::get_if<ModeInitial>(&*s.initial))
+        if (!s.start) continue;
+        if (const auto* m = std::get_if<ModeShape>(&*s.start))
             return fmt::format("mode {}, {:.3g} m", m->number, m->amplitude);
-        const auto& t = std::get<TriangleInitial>(*s.initial);
-        return fmt::format("a {}triangle at {:.3g} m, {:.3g} m",
-                           t.smoothing > plectrum * s.length ? "smoothed " : "", t.position,
-                           t.amplitude);
+        if (const auto* table = std::get_if<TableStart>(&*s.start)) return table->file;
+        if (const auto* t = std::get_if<TriangleShape>(&*s.start))
+            return fmt::format("a {}triangle at {:.3g} m, {:.3g} m",
+                               t->smoothing > plectrum * s.length ? "smoothed " : "", t->position,
+                               t->amplitude);
     }
     return "at rest";
 }

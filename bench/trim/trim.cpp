@@ -47,7 +47,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
     if (!path.passed_over.empty())
         left.push_back(fmt::format("beyond a first look, whose errors do not fall fast enough: {}",
                                    fmt::join(path.passed_over, ", ")));
-    if (judge.scene().strings.front().pluck || judge.scene().strings.front().initial)
+    if (judge.scene().strings.front().pluck || judge.scene().strings.front().start)
         left.emplace_back("plainer excitations: they are the question");
     if (judge.target().name != "decay")
         left.emplace_back(

@@ -6,10 +6,11 @@
 //     w^l_ij = int_0^c_i (c_i - x)^l/l! L_j(x) dx,
 //
 // so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface as
-// in string_equations.hpp. Newton's iteration solves for the node forces; the last Legendre
-// coefficients say whether the step was short enough.
+// in string_equations.hpp; where it is clipped, 0 in place of a negative factor. Newton's iteration
+// solves for the node forces; the last Legendre coefficients say whether the step was short enough.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -24,6 +25,7 @@ class MacroWindow;
 struct BarrierLaw {  // odd beyond the surface
     ContactLaw law;
     double beta = 0;  // of a contact loss [s/m]
+    bool clipped = false;
     bool spring() const noexcept { return law.alpha == 1 && beta == 0; }
     // -dF/dy where the elastic force is known
     double stiffness(double eta, double elastic) const noexcept {
@@ -33,7 +35,11 @@ struct BarrierLaw {  // odd beyond the surface
     double elastic(double eta) const noexcept {
         return std::copysign(law.force(std::abs(eta)), eta);
     }
-    double force(double eta, double v) const noexcept { return elastic(eta) * (1 - beta * v); }
+    // F over the elastic force, where the string leaves at v
+    double give(double v) const noexcept {
+        return clipped ? std::max(0.0, 1 - beta * v) : 1 - beta * v;
+    }
+    double force(double eta, double v) const noexcept { return elastic(eta) * give(v); }
 };
 
 class CollocatedContact {
@@ -53,7 +59,7 @@ public:
     double force(int which, double at) const noexcept;
     // until no later than the step's end
     void moments(int which, double until, int count, double* m) const noexcept;
-    double dissipated() const noexcept;
+    double dissipated(int which) const noexcept;
 
 private:
     void derivatives(int which, double* f) const noexcept;  // of a force, at the step's start
@@ -70,6 +76,8 @@ private:
 
     void guess(std::span<const int> touching, double d, From) noexcept;
     void couple(double d) noexcept;
+    // in the last step, or takes hold again: the force that it has or would have [N]; 0 where not
+    double lets_go_within(int which) const noexcept;
 
     std::vector<int> touching_;
     int count_ = 0;

@@ -23,10 +23,13 @@
 #include "reference/exact/pluck_series.hpp"
 #include "reference/exact/touching_set.hpp"
 #include "reference/exact/window_energies.hpp"
+#include "reference/pluck_parts.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/start.hpp"
+#include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -45,6 +48,28 @@ constexpr double share_of(double tolerance, double share) {
 // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
 constexpr long phases_between_questions = 64;
 
+// The largest value in [0, end]. A lossy contact pushes hardest on the way in and may pull on the
+// way out: the extremes of its force are those of a polynomial in time, sought by samples and, where
+// a sample is the largest of three, by golden sections around it.
+template <class Force>
+double most_in(double end, const Force& force) {
+    constexpr int samples = 16;
+    constexpr double golden = 0.6180339887498949;
+    double at[samples + 1], most = -HUGE_VAL;
+    for (int k = 0; k <= samples; ++k) most = std::max(most, at[k] = force(end * k / samples));
+    for (int k = 1; k < samples; ++k) {
+        if (at[k] < std::max(at[k - 1], at[k + 1])) continue;
+        double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
+        for (int n = 0; n < 40; ++n) {
+            const double a = high - golden * (high - low), b = low + golden * (high - low);
+            const bool before = force(a) > force(b);
+            (before ? high : low) = before ? b : a;
+        }
+        most = std::max(most, force(0.5 * (low + high)));
+    }
+    return most;
+}
+
 struct Extremes {  // of the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0,
            deepest = 0, tolerance = 0;
@@ -54,7 +79,8 @@ std::vector<BarrierLaw> laws_of(const String& s) {
     std::vector<BarrierLaw> laws;
     for (const Barrier& barrier : s.barriers) {
         const auto& b = std::get<LumpedBarrier>(barrier);
-        laws.push_back({{b.stiffness.k, b.exponent}, b.contact_loss});
+        laws.push_back(
+            {{b.stiffness.k, b.exponent}, b.contact_loss, b.loss_law == LossLaw::clipped});
     }
     return laws;
 }
@@ -86,10 +112,14 @@ String with_springs(String s, const Descriptor& descriptor, const std::optional<
 class ExactContact final : public Scheme {
 public:
     ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance,
-                 const std::optional<InSeries>&);
+                 const std::optional<InSeries>&, std::vector<int> barrier_of_each);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
+    ModalState state() const override {
+        return window_.series() ? ModalState{}
+                                : state_of(y_, u_, modes_.count(), 1 / window_.seconds());
+    }
     std::vector<Fact> facts() const override;
 
 private:
@@ -109,6 +139,7 @@ private:
     void move_on(double by, double left) noexcept;
     void measure(int touching, double end, bool leaves) noexcept;
     void measure_force(int which, double end) noexcept;
+    void tell_impacts(double now, double end) noexcept;  // of the phase in hand
     double stored(double F_e) const noexcept;
     void write(const Block& out, int row) const noexcept;
     double* at(std::vector<double>& rows, int a) const noexcept {
@@ -125,9 +156,11 @@ private:
         // spring
         sets_;
     Readout readout_;
-    std::vector<Pluck> pluck_;                // none or one
+    std::vector<Pluck> pluck_;  // none or one
+    PluckParts parts_;
     double tap_rate_, tolerance_, interval_;  // of an interval: windows
-    std::vector<double> start_, stiffness_;   // y at t = 0; m omega0^2, per mode
+    // y and u at t = 0; m omega0^2, per mode; z at t = 0
+    std::vector<double> start_, start_u_, stiffness_, start_z_;
 
     std::vector<double> y_, u_;  // the state
     std::vector<double> z_;      // and that of what is in series
@@ -140,6 +173,9 @@ private:
     double rigid_stiffness_ = 0;  // of the stiffest spring that stands for a rigid barrier [N/m]
     double leaves_ = HUGE_VAL;    // when the first of the points in collocation lets go, perhaps
     Extremes extremes_;
+    std::vector<int> barrier_;    // of each contact
+    Impacts* impacts_ = nullptr;  // of the block in hand
+    double clock_ = 0;            // when the window begins [s]
 
     // one window; rows of window_.stride
     std::vector<double> r_, path_, moments_, moment_;
@@ -154,25 +190,33 @@ private:
 };
 
 ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate,
-                           double tolerance, const std::optional<InSeries>& series)
+                           double tolerance, const std::optional<InSeries>& series,
+                           std::vector<int> barrier_of_each)
     : modes_(std::move(modes)),
       window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
       law_(laws_of(s)),
       collocation_(window_, law_),
       spending_(window_, modes_, share_of(tolerance, window_share)),
       readout_(scene, modes_),
+      parts_(s.pluck),
       tap_rate_(tap_rate),
       tolerance_(share_of(tolerance, window_share)),
       interval_(window_.per_row),
-      steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)) {
+      steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)),
+      barrier_(std::move(barrier_of_each)) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    start_ = window_.osc.pad(initial_displacement(modes_, s));
+    ModalStart start =
+        start_of(modes_, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{});
+    for (double& v : start.velocity) v *= window_.seconds();
+    start_ = window_.osc.pad(start.displacement);
+    start_u_ = window_.osc.pad(start.velocity);
+    if (series) start_z_ = series->resting(start.force);
     std::vector<double> stiffness;
     for (int i = 0; i < modes_.count(); ++i)
         stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
     stiffness_ = window_.osc.pad(stiffness);
     y_ = u_ = start_;
-    if (series) z_.assign(series->states, 0.0);
+    z_ = start_z_;
     const int contacts = window_.contacts;
     touching_.resize(contacts + 1);
     known_zero_.resize(contacts + 1);
@@ -200,8 +244,8 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
 
 void ExactContact::reset() noexcept {
     std::copy(start_.begin(), start_.end(), y_.begin());
-    std::fill(u_.begin(), u_.end(), 0.0);
-    std::fill(z_.begin(), z_.end(), 0.0);
+    std::copy(start_u_.begin(), start_u_.end(), u_.begin());
+    std::copy(start_z_.begin(), start_z_.end(), z_.begin());
     std::fill(touching_.begin(), touching_.end(), 0);
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     row_ = idle_ = 0;
@@ -214,6 +258,8 @@ void ExactContact::reset() noexcept {
 }
 
 Status ExactContact::advance(const Block& out) noexcept {
+    impacts_ = out.impacts;
+    if (impacts_) impacts_->told = true;
     for (int row = 0; row < out.rows; ++row) {
         write(out, row);
         if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
@@ -233,14 +279,9 @@ void ExactContact::write(const Block& out, int row) const noexcept {
 bool ExactContact::interval(const Block& out) noexcept {
     bridge_impulse_ = thread_impulse_ = 0;
     energies_ = {};
-    double from = interval_, to = interval_;  // of the pluck within this interval
-    if (!pluck_.empty()) {
-        const double start = pluck_[0].start - row_ / tap_rate_;
-        from = std::clamp(start / window_.seconds(), 0.0, interval_);
-        to = std::clamp((start + pluck_[0].duration) / window_.seconds(), 0.0, interval_);
-    }
-    return stretch(0, from, false, out) && stretch(from, to, true, out) &&
-           stretch(to, interval_, false, out);
+    return parts_.each(
+        row_ / tap_rate_, interval_, window_.seconds(),
+        [&](double from, double to, bool plucked) { return stretch(from, to, plucked, out); });
 }
 
 bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
@@ -249,6 +290,7 @@ bool ExactContact::stretch(double from, double to, bool plucked, const Block& ou
     const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
     for (long i = 0; i < count; ++i) {
         const double at = from + (to - from) * i / count;
+        clock_ = row_ / tap_rate_ + at * window_.seconds();
         const double since_pluck =
             plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds())
                     : 0;
@@ -390,9 +432,11 @@ double ExactContact::phase(double now, double left, bool probe) noexcept {
             }
         };
         spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
-        if (!touched_.empty() && !touch_) energies_.dissipated += collocation_.dissipated();
+        for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
+            energies_.dissipated += collocation_.dissipated(i);
     }
     moments_until(end, count_);
+    if (impacts_) tell_impacts(now, end);
     move_on(end, left);
     if (crossed >= 0) {
         touching_[crossed] = !touching_[crossed];
@@ -521,32 +565,37 @@ void ExactContact::measure(int a, double end, bool leaves) noexcept {
         extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
 }
 
-// A lossy contact pushes hardest on the way in and may pull on the way out: the extremes of its
-// force are those of a polynomial in time, sought by samples and, where a sample is the largest of
-// three or the smallest, by golden sections around it.
 void ExactContact::measure_force(int which, double end) noexcept {
-    constexpr int samples = 16;
-    constexpr double golden = 0.6180339887498949;
-    double force[samples + 1];
-    for (int k = 0; k <= samples; ++k) force[k] = collocation_.force(which, end * k / samples);
-    for (const double sign : {1.0, -1.0}) {
-        double most = -HUGE_VAL;
-        for (int k = 0; k <= samples; ++k) {
-            most = std::max(most, sign * force[k]);
-            if (k == 0 || k == samples ||
-                sign * force[k] < std::max(sign * force[k - 1], sign * force[k + 1]))
-                continue;
-            double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
-            for (int n = 0; n < 40; ++n) {
-                const double a = high - golden * (high - low), b = low + golden * (high - low);
-                if (sign * collocation_.force(which, a) > sign * collocation_.force(which, b))
-                    high = b;
-                else low = a;
-            }
-            most = std::max(most, sign * collocation_.force(which, 0.5 * (low + high)));
+    const auto force = [&](double at) { return collocation_.force(which, at); };
+    extremes_.largest_force = std::max(extremes_.largest_force, most_in(end, force));
+    double least = -most_in(end, [&](double at) { return -force(at); });
+    // where it lets go a polynomial dips by what the step errs
+    if (law_[touched_[which]].clipped) least = std::max(0.0, least);
+    extremes_.smallest_force = std::min(extremes_.smallest_force, least);
+}
+
+void ExactContact::tell_impacts(double now, double end) noexcept {
+    const double second = window_.seconds();
+    const int touched = static_cast<int>(touched_.size());
+    for (int first = 0, behind = 0; first < touched; first = behind) {
+        Impact part{barrier_[touched_[first]], clock_ + now * second,
+                    clock_ + (now + end) * second};
+        part.speed_in = part.speed_out = -HUGE_VAL;
+        for (; behind < touched && barrier_[touched_[behind]] == part.barrier; ++behind) {
+            const Gap g = gap(touched_[behind], window_.size);
+            part.speed_in = std::max(part.speed_in, g.at_start().slope / second);
+            part.speed_out = std::max(part.speed_out, -g.at(end).slope / second);
+            part.impulse += at(moment_, behind)[0] * second;
+            if (collocated_) part.energy_lost += collocation_.dissipated(behind);
         }
-        if (sign > 0) extremes_.largest_force = std::max(extremes_.largest_force, most);
-        else extremes_.smallest_force = std::min(extremes_.smallest_force, -most);
+        part.largest_force = most_in(end, [&](double at) {
+            double sum = 0;
+            for (int i = first; i < behind; ++i)
+                sum += touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), at)
+                              : collocation_.force(i, at);
+            return sum;
+        });
+        impacts_->add(part);
     }
 }
 
@@ -610,11 +659,17 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
         chosen.options.emplace_back(compliance_option.name, "matched");
     Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, chosen);
-    const String s =
-        with_springs(with_points(scene.strings.at(0), modes.count(), profile_points(settings)),
-                     descriptor, series);
+    String s = scene.strings.at(0);
+    std::vector<int> barrier_of_each;
+    for (String one = s; const Barrier& barrier : s.barriers) {
+        one.barriers = {barrier};
+        const int of = static_cast<int>(&barrier - s.barriers.data());
+        const auto points = with_points(one, modes.count(), profile_points(settings)).barriers;
+        barrier_of_each.insert(barrier_of_each.end(), points.size(), of);
+    }
+    s = with_springs(with_points(s, modes.count(), profile_points(settings)), descriptor, series);
     return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance,
-                                          series);
+                                          series, std::move(barrier_of_each));
 }
 constexpr Approximation approximates[] = {points_for_a_profile[0],
                                           {Feature::rigid_barrier, facts::rigid_stiffness}};
@@ -631,7 +686,8 @@ const Descriptor exact_contact = {
                   Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
                   Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
                   Features(Feature::thread) | Features(Feature::initial_shape) |
-                  Features(Feature::pluck) | Features(Feature::rigid_barrier),
+                  Features(Feature::pluck) | Features(Feature::rigid_barrier) |
+                  Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

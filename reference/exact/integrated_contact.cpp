@@ -17,10 +17,12 @@
 #include "reference/exact/flight.hpp"
 #include "reference/integrated_instrument.hpp"
 #include "reference/integrator.hpp"
+#include "reference/pluck_parts.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
 #include "reference/references.hpp"
 #include "reference/string_equations.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -38,6 +40,9 @@ public:
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
+    ModalState state() const override {
+        return series() ? ModalState{} : state_of(y_, u_, modes_.count(), flight_.window.osc.rate);
+    }
     std::vector<Fact> facts() const override;
 
 private:
@@ -67,8 +72,9 @@ private:
     Readout readout_;
     Choice choice_;
     std::vector<Pluck> pluck_;  // none or one
+    PluckParts parts_;
     double tap_rate_, interval_;
-    std::vector<double> start_;
+    std::vector<double> start_, start_u_, start_z_;
     std::vector<char> untouched_;
 
     std::vector<double> y_, u_;
@@ -90,10 +96,16 @@ IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes 
       integrator_(equations_, choice.integrator),
       readout_(scene, modes_),
       choice_(choice),
+      parts_(s.pluck),
       tap_rate_(tap_rate),
       interval_(flight_.window.osc.rate / tap_rate) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    start_ = flight_.window.osc.pad(initial_displacement(modes_, s));
+    ModalStart start =
+        start_of(modes_, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{});
+    for (double& v : start.velocity) v /= flight_.window.osc.rate;
+    start_ = flight_.window.osc.pad(start.displacement);
+    start_u_ = flight_.window.osc.pad(start.velocity);
+    if (series) start_z_ = series->resting(start.force);
     untouched_.assign(equations_.contacts + 1, 0);
     y_ = u_ = start_;
     reset();
@@ -101,9 +113,10 @@ IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes 
 
 void IntegratedContact::reset() noexcept {
     std::copy(start_.begin(), start_.end(), y_.begin());
-    std::fill(u_.begin(), u_.end(), 0.0);
+    std::copy(start_u_.begin(), start_u_.end(), u_.begin());
     std::fill(equations_.touched.begin(), equations_.touched.end(), 0);
     flight_.reset();
+    std::copy(start_z_.begin(), start_z_.end(), flight_.z.begin());
     integrator_.reset();
     row_ = idle_ = 0;
     leaving_ = -1;
@@ -132,14 +145,12 @@ Status IntegratedContact::advance(const Block& out) noexcept {
 
 bool IntegratedContact::interval(const Block& out) noexcept {
     sums_ = {};
-    double from = interval_, to = interval_;  // of the pluck within this interval
-    if (!pluck_.empty()) {
-        const double start = pluck_[0].start - row_ / tap_rate_;
-        from = std::clamp(start * flight_.window.osc.rate, 0.0, interval_);
-        to = std::clamp((start + pluck_[0].duration) * flight_.window.osc.rate, 0.0, interval_);
-    }
-    return stretch(0, from, false, out) && stretch(from, to, true, out) &&
-           stretch(to, interval_, false, out);
+    return parts_.each(row_ / tap_rate_, interval_, 1 / flight_.window.osc.rate,
+                       [&](double from, double to, bool plucked) {
+                           // lines of a file meet at an angle
+                           if (plucked && !pluck_[0].time.empty()) running_ = false;
+                           return stretch(from, to, plucked, out);
+                       });
 }
 
 bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
@@ -309,7 +320,8 @@ const Descriptor sundials = {
                   Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
                   Features(Feature::thread) | Features(Feature::initial_shape) |
                   Features(Feature::pluck) | Features(Feature::moving_body) |
-                  Features(Feature::tension_modulation),
+                  Features(Feature::tension_modulation) | Feature::initial_velocity |
+                  Feature::equilibrium | Feature::clipped_loss,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -5,12 +5,27 @@
 #include <numbers>
 
 #include "reference/exact/oscillators.hpp"
+#include "scenes/excitation.hpp"
 
 namespace jvari {
 
-double pluck_window(const Pluck& e) { return e.duration / (8 * std::max(1.0, std::abs(e.skew))); }
+double pluck_window(const Pluck& e) {
+    return e.time.empty() ? e.duration / (8 * std::max(1.0, std::abs(e.skew))) : HUGE_VAL;
+}
 
 void pluck_series(const Pluck& e, double u, double h, int count, double* c) {
+    if (!e.time.empty()) {
+        constexpr double rounding = 1e-6;  // of a line: no window begins so near its end
+        const double t = e.start + u;
+        std::size_t k = line_at(e, t);
+        if (k + 2 < e.time.size() && e.time[k + 1] - t < rounding * (e.time[k + 1] - e.time[k]))
+            ++k;
+        const double slope = (e.share[k + 1] - e.share[k]) / (e.time[k + 1] - e.time[k]);
+        std::fill_n(c, count, 0.0);
+        c[0] = e.amplitude * (e.share[k] + slope * (t - e.time[k]));
+        if (count > 1) c[1] = e.amplitude * slope * h;
+        return;
+    }
     // h_e is even in the skew
     const double k = std::abs(e.skew), x = u / e.duration, step = h / e.duration;
     // warped(x) = sinh(kx)/sinh(k) and its slope k cosh(kx)/sinh(k), as scenes/excitation.cpp

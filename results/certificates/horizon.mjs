@@ -36,7 +36,7 @@ const against = [
       "exact_contact",
       s.duration,
       "--set",
-      `string.0.initial.amplitude=${s.amplitude * (1 + 1e-12)}`,
+      `string.0.start.amplitude=${s.amplitude * (1 + 1e-12)}`,
     ],
   },
   {line: "sundials", key: "sundials", of: s => ["sundials", s.sundials, "--option", "rtol=1e-12"]},

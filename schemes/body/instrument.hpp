@@ -161,7 +161,7 @@ private:
             points_.positions.push_back(of_strings[k].positions[p]);
         };
         for (std::size_t k = 0; k < parts_.size(); ++k) {
-            points_.contacts.add(of_strings[k].contacts);
+            points_.contacts.add(of_strings[k].contacts, static_cast<int>(k));
             for (int a = 0; a < of_strings[k].contacts.count(); ++a) place(k, a);
         }
         for (std::size_t k = 0; k < parts_.size(); ++k)
@@ -169,6 +169,10 @@ private:
                 points_.threads.push_back(thread);
                 place(k, of_strings[k].contacts.count());
             }
+        points_.start_velocity.assign(points_.count(), 0.0);
+        for (std::size_t k = 0; k < parts_.size(); ++k)
+            for (std::size_t p = 0; p < of_strings[k].start_velocity.size(); ++p)
+                points_.start_velocity[parts_[k].place[p]] = of_strings[k].start_velocity[p];
     }
     void refuse_light(const std::vector<StringPoints>& of_strings) const {
         double taken = 0, ends = 0;

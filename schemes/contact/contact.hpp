@@ -13,6 +13,8 @@
 #include <cmath>
 #include <vector>
 
+#include "schemes/impacts.hpp"
+
 namespace jvari {
 
 struct ContactLaw {
@@ -38,18 +40,25 @@ struct Contacts {  // of a string
     std::vector<ContactLaw> laws;
     std::vector<double> heights;  // [m]
     std::vector<double> loss;     // Hunt-Crossley beta [s/m]
+    std::vector<LossLaw> loss_law;
+    std::vector<BarrierOf> of;
 
     int count() const { return static_cast<int>(laws.size()); }
     bool any_rigid() const {
         return std::any_of(laws.begin(), laws.end(), [](const ContactLaw& l) { return l.rigid(); });
     }
-    void add(const ContactLaw& law, double height, double beta) {
+    void add(const ContactLaw& law, double height, double beta,
+             LossLaw loss_by = LossLaw::hunt_crossley, BarrierOf barrier = {}) {
         laws.push_back(law);
         heights.push_back(height);
         loss.push_back(beta);
+        loss_law.push_back(loss_by);
+        of.push_back(barrier);
     }
-    void add(const Contacts& more) {
-        for (int a = 0; a < more.count(); ++a) add(more.laws[a], more.heights[a], more.loss[a]);
+    void add(const Contacts& more, int string) {
+        for (int a = 0; a < more.count(); ++a)
+            add(more.laws[a], more.heights[a], more.loss[a], more.loss_law[a],
+                {string, more.of[a].barrier, more.of[a].barriers});
     }
 };
 

@@ -31,7 +31,7 @@ public:
         {Feature::rigid_barrier, facts::rigid_barrier},
         // beside one that gives way
         {Feature::rigid_profile, facts::rigid_barrier}};
-    static constexpr Features leaves_out = Feature::contact_loss;
+    static constexpr Features leaves_out = Feature::contact_loss | Feature::equilibrium;
     using Rigid = MoreauJeanRule;
 
     MoreauJeanRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
@@ -42,8 +42,8 @@ public:
             throw Refusal("option restitution: expected a number from 0 to 1");
     }
     int dofs() const override { return levels_ == 1 ? static_cast<int>(w_.size()) : 0; }
-    void begin(const double*) override {
-        std::fill(w_.begin(), w_.end(), 0.0);
+    void begin(const double*, const double* moving) override {
+        for (std::size_t a = 0; a < w_.size(); ++a) w_[a] = levels_ == 1 ? 0.5 * moving[a] : 0;
         lost_ = 0;
     }
     bool acts(const BeforeStep&) const override { return !w_.empty(); }  // it follows the speed

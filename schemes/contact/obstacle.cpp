@@ -54,11 +54,12 @@ Obstacle Obstacle::halved(ThreadStart how, std::span<const double> theta,
     return {elastic, std::move(threads), theta, 0.5 * span_, levels_, 1, same, series};
 }
 
-void Obstacle::begin(const double* reading) {
-    for (int a = 0; a < contacts(); ++a) eta_[a] = contacts_.heights[a] - reading[a];
+void Obstacle::begin(const double* reading, const double* moving, const double* force) {
+    if (series_) series_->rest(force);
+    for (int a = 0; a < contacts(); ++a)
+        eta_[a] = contacts_.heights[a] - (reading[a] + (series_ ? series_->yields(0)[a] : 0));
     rule_->set(loss_.undamped());
-    rule_->begin(eta_.data());
-    if (series_) series_->rest();
+    rule_->begin(eta_.data(), moving);
 }
 
 void Obstacle::set(std::span<const double> theta) noexcept {
@@ -97,13 +98,17 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     bool converged = true;
     const bool damped = loss_.damp(before, b_.data());
     if (damped || rule_->acts(before)) {
-        if (damped) rule_->set(loss_.damped());
-        const GramSolution s = at_start ? rule_->start(before, r_.data(), force)
-                                        : rule_->solve(before, r_.data(), force);
-        converged = s.converged;
-        if (damped) {
-            loss_.settle(r_.data(), force);
+        GramSolution s;
+        for (int tries = 4 * n;; --tries) {
+            if (damped) rule_->set(loss_.damped());
+            const BeforeStep seen{damped ? loss_.older() : eta_.data(), now_.data(), b_.data()};
+            s = at_start ? rule_->start(seen, r_.data(), force)
+                         : rule_->solve(seen, r_.data(), force);
+            converged = s.converged && tries >= 0;
+            if (!damped) break;
+            loss_.settle(before, r_.data(), force);
             rule_->set(loss_.undamped());
+            if (!converged || !loss_.clip(before, r_.data(), force, b_.data())) break;
         }
         for (int a = 0; a < n; ++a) {
             for (int t = 0; t < m; ++t) pull_[t] -= threads_.answer(t, a) * force[a];
@@ -112,14 +117,14 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
         one_.tally.note(s.iterations, s.residual);
         lost_by_rule_ = rule_->lost();
     } else {
-        for (int a = 0; a < n; ++a) force[a] = 0;
+        for (int a = 0; a < n; ++a) force[a] = 0, r_[a] = -b_[a];
     }
     for (int t = 0; t < m; ++t) force[n + t] = pull_[t], from_[t] = at.older[n + t];
     return converged;
 }
 
 // The points touch where what is in series has yielded to, and (6) is the same equation.
-bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force) noexcept {
+bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force, bool in_full) noexcept {
     const int n = points();
     for (int p = 0; p < n; ++p) {
         older_points_[p] = at.older[p] + series_->yields(0)[p];
@@ -127,7 +132,8 @@ bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force) noex
         free_points_[p] = at.free[p] - series_->pulled()[p];
     }
     const ReadingsBeforeStep there{older_points_.data(), now_points_.data(), free_points_.data()};
-    const bool converged = fused_ ? solve_one(there, force) : solve_points(there, force, false);
+    const bool converged =
+        fused_ && !in_full ? solve_one(there, force) : solve_points(there, force, false);
     series_->step(force);
     return converged;
 }

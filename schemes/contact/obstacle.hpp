@@ -57,17 +57,21 @@ public:
     int dofs() const { return rule_->dofs(); }
 
     void clear() { one_.tally = {}; }
-    void begin(const double* reading);  // at rest at t = 0
+    // at t = 0: reading, how far each point would move in dt by its speed [m], and its force on a
+    // string in equilibrium [N]
+    void begin(const double* reading, const double* moving, const double* force);
     // of a step; without thread, contact loss and series
     void set(std::span<const double> theta) noexcept;
     void follow(const Obstacle& first);  // after `first` made the first half step
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge.
-    // Allocates nothing.
-    bool solve(const ReadingsBeforeStep& at, double* force) noexcept {
-        if (series_) return solve_in_series(at, force);
-        return fused_ ? solve_one(at, force) : solve_points(at, force, false);
+    // Allocates nothing. in_full: moved() is asked for.
+    bool solve(const ReadingsBeforeStep& at, double* force, bool in_full = false) noexcept {
+        if (series_) return solve_in_series(at, force, in_full);
+        return fused_ && !in_full ? solve_one(at, force) : solve_points(at, force, false);
     }
+    // of each contact in the last step, with what is in series [m]
+    const double* moved() const { return r_.data(); }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept {
         return series_ ? solve(at, force) : solve_points(at, force, true);
     }
@@ -108,7 +112,7 @@ private:
         return converged;
     }
     bool solve_points(const ReadingsBeforeStep&, double* force, bool at_start) noexcept;
-    bool solve_in_series(const ReadingsBeforeStep&, double* force) noexcept;
+    bool solve_in_series(const ReadingsBeforeStep&, double* force, bool in_full) noexcept;
 
     Contacts contacts_;
     EliminatedThreads threads_;

@@ -57,7 +57,8 @@ public:
     virtual void set(std::span<const double> theta) noexcept {
         std::copy(theta.begin(), theta.end(), theta_.begin());
     }
-    virtual void begin(const double*) {}  // eta of each contact, at rest at t = 0
+    // at t = 0: eta of each contact, and how far it would move in dt by its speed [m]
+    virtual void begin(const double*, const double*) {}
     // false: no force, and nothing to be solved
     virtual bool acts(const BeforeStep& at) const {
         bool touching = false;

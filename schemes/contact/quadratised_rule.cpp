@@ -30,7 +30,7 @@ QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws,
     set_.assign(n, 0);
 }
 
-void QuadratisedContacts::begin(const double* eta) {
+void QuadratisedContacts::begin(const double* eta, const double*) {
     for (int a = 0; a < contacts(); ++a) psi_[a] = psi_of_[a].psi(eta[a]);
     seen_ = {};
 }

@@ -30,7 +30,7 @@ public:
 
     bool iterates() const override { return variant_ == Quadratisation::released; }
     int dofs() const override { return contacts(); }  // psi
-    void begin(const double* eta) override;
+    void begin(const double* eta, const double*) override;
     bool acts(const BeforeStep&) const override;
     GramSolution solve(const BeforeStep&, double* r, double* force) noexcept override;
     GramSolution start(const BeforeStep&, double* r, double* force) noexcept override;

@@ -27,6 +27,7 @@ Residual::Residual(const MissingMatrix& m, double span, int levels)
     of(K_) = 0.5 * (k + k.transpose());
     for (State& s : state_)
         for (auto* x : {&s.P, &s.v, &s.D, &s.Q, &s.H}) x->assign(points_, 0.0);
+    steady_.assign(points_, 0.0);
 }
 
 }  // namespace jvari

@@ -57,12 +57,16 @@ public:
     const double* pulled() const { return state_[0].H.data(); }  // of the next step [m]
     int centre() const { return levels_ - 1; }  // the level that it is centred on, or starts from
 
-    void rest() noexcept {
-        for (State& s : state_)
-            for (auto* x : {&s.P, &s.v, &s.D, &s.Q, &s.H}) std::fill(x->begin(), x->end(), 0.0);
+    void rest(const double* force) noexcept {  // under steady forces of the points [N]
+        std::copy_n(force, points_, steady_.begin());
+        for (State& s : state_) {
+            std::copy_n(force, points_, s.P.begin());
+            std::fill(s.v.begin(), s.v.end(), 0.0);
+            prepare<0>(s, s.P.data(), s.Q.data());
+        }
     }
     void follow(const Residual& first) noexcept {  // after it made the first half step
-        rest();
+        rest(first.steady_.data());
         state_[1].P = first.state_[0].P;
         state_[1].v = first.state_[0].v;
         prepare<0>(state_[1], state_[1].P.data(), state_[1].Q.data());
@@ -137,6 +141,7 @@ private:
     std::vector<double> damper_, V_;  // V: patterns x points
     std::vector<MassStep> masses_;    // of each pattern
     State state_[2];
+    std::vector<double> steady_;          // of points, at rest [N]
     std::vector<double> moved_, behind_;  // in the last step: of points [m], of patterns [m/s]
 };
 

@@ -36,7 +36,9 @@ public:
     RigidRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : ObstacleRule(laws, theta), stored_(laws.size()), levels_(levels) {}
     int dofs() const override { return levels_ * static_cast<int>(stored_.size()); }
-    void begin(const double*) override { std::fill(stored_.begin(), stored_.end(), Levels{}); }
+    void begin(const double*, const double*) override {
+        std::fill(stored_.begin(), stored_.end(), Levels{});
+    }
     bool acts(const BeforeStep& at) const override {
         bool touching = false;
         for (std::size_t a = 0; a < stored_.size(); ++a)

@@ -89,7 +89,8 @@ const std::vector<Descriptor>& schemes_of_pairings() {
                 Descriptor d = *row->scheme;
                 d.name = names.emplace_back(new_name(*row, columns[c])).c_str();
                 d.source = columns[c].source;
-                d.represents = d.represents - Feature::moving_body - columns[c].leaves_out;
+                d.represents = d.represents - Feature::moving_body - Feature::clipped_loss -
+                               columns[c].leaves_out;
                 d.options =
                     both(columns[c].own_only ? own_only(d.options) : d.options, columns[c].options);
                 d.approximates = both(d.approximates, columns[c].approximates);

@@ -17,15 +17,17 @@ StringPoints points_of(const String& s, double dt) {
 
 std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals) {
     std::vector<Place> all;
-    const auto add = [&](const Place& place, const ContactLaw& law, double height, double loss) {
+    int of = -1;  // which barrier
+    const auto add = [&](const Place& place, const ContactLaw& law, double height, const auto& b) {
         all.push_back(place);
         p.positions.push_back(place.at.position);
-        p.contacts.add(law, height, loss);
+        p.contacts.add(law, height, b.contact_loss, b.loss_law,
+                       {0, of, static_cast<int>(s.barriers.size())});
     };
     for (const Barrier& barrier : s.barriers) {
+        ++of;
         if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) {
-            add({{b->position, b->width}}, {b->stiffness.k, b->exponent}, b->height,
-                b->contact_loss);
+            add({{b->position, b->width}}, {b->stiffness.k, b->exponent}, b->height, *b);
             continue;
         }
         const auto& b = std::get<ProfileBarrier>(barrier);
@@ -38,7 +40,7 @@ std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals)
         const std::vector<double> height = heights(b.curve, x);
         for (std::size_t i = 0; i < x.size(); ++i)
             add({{x[i], 0}, first + static_cast<int>(i)}, {b.stiffness.K * dx, b.exponent},
-                height[i], b.contact_loss);
+                height[i], b);
     }
     return all;
 }

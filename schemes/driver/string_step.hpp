@@ -40,8 +40,10 @@ struct StringPoints {  // what a string is to whatever solves for its points
     std::vector<double> theta;
     // of the first half step of a three-point scheme; empty: half of theta
     std::vector<double> start_theta;
-    std::optional<MissingMatrix> series;       // in series with the points, compliance=matched
-    std::optional<Pluck> pluck;                //
+    std::optional<MissingMatrix> series;  // in series with the points, compliance=matched
+    std::optional<Pluck> pluck;           //
+    // at t = 0: the velocity of each point [m/s]; its force in equilibrium [N], none elsewhere
+    std::vector<double> start_velocity, start_force;
     double mass = 0, length = 0, tension = 0;  // mu L [kg], L [m], T [N]
     double dt = 0;                             // [s]
     int count() const { return static_cast<int>(positions.size()); }

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "scenes/excitation.hpp"
-#include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -214,16 +214,9 @@ double relative_compliance(const GridString& g, const String& s, const LumpedBar
     return own / static_compliance(modes, footprint_weights(modes, b.position, b.width));
 }
 
-std::vector<double> initial_shape(const String& s, const Grid& g) {
-    std::vector<double> u(g.intervals + 1, 0.0);
-    if (!s.initial) return u;
-    if (const auto* mode = std::get_if<ModeInitial>(&*s.initial);
-        mode && mode->number >= g.intervals)
-        throw Refusal("the initial shape is mode " + std::to_string(mode->number) +
-                      " and the grid carries " + std::to_string(g.intervals - 1));
-    // as many as the grid can carry
-    const auto a = initial_displacement(modes_of(s, g.intervals - 1), s);
-    std::vector<double> sine(2 * g.intervals);
+// At the nodes, of as many modes as the grid can carry.
+std::vector<double> at_nodes(const std::vector<double>& a, const Grid& g) {
+    std::vector<double> u(g.intervals + 1, 0.0), sine(2 * g.intervals);
     for (int k = 0; k < 2 * g.intervals; ++k) sine[k] = std::sin(pi * k / g.intervals);
     for (int l = 1; l < g.intervals; ++l)
         for (long i = 1; i < g.intervals; ++i)
@@ -272,7 +265,17 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.c2 = s.tension / s.linear_density;
     g.kappa2 = s.bending_stiffness / s.linear_density;
     g.loss = loss;
-    g.initial = initial_shape(s, grid);
+    const auto mode_of = [](const auto& shape) {
+        return shape ? std::get_if<ModeShape>(&*shape) : nullptr;
+    };
+    for (const ModeShape* m : {mode_of(s.start), mode_of(s.velocity)})
+        if (m && m->number >= grid.intervals)
+            throw Refusal("the start is mode " + std::to_string(m->number) +
+                          " and the grid carries " + std::to_string(grid.intervals - 1));
+    const ModalStart start = start_of(modes_of(s, grid.intervals - 1), s);
+    g.start = at_nodes(start.displacement, grid);
+    g.start_velocity = at_nodes(start.velocity, grid);
+    g.moves = needed_by(scene).has(Feature::initial_velocity);
     g.points = points_of(s, dt);
     const auto lump = [&](const Footprint& f) {
         g.stencils.push_back(footprint_stencil(grid, f.position, f.width));
@@ -295,6 +298,8 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
         lump({s.thread->position, s.thread->width});
         g.points.positions.push_back(s.thread->position);
     }
+    for (const Stencil& at : g.stencils)
+        if (g.moves) g.points.start_velocity.push_back(at.read(g.start_velocity.data()));
     if (s.pluck) g.pluck_stencil = footprint_stencil(grid, s.pluck->position, s.pluck->width);
     for (const Tap& tap : scene.taps) {
         const bool of_a_point =

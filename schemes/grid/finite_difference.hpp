@@ -106,9 +106,10 @@ struct GridString {
     double mass = 0;            // mu dx, of a node [kg]
     double c2 = 0, kappa2 = 0;  // T/mu [m^2/s^2], EI/mu [m^4/s^2]
     LossFit loss;
-    std::vector<double> initial;    // u_0..u_N at t = 0 [m]
-    StringPoints points;            // theta: the scheme's to fill in
-    std::vector<Stencil> stencils;  // where obstacles read and push, of each point
+    std::vector<double> start, start_velocity;  // u_0..u_N at t = 0 [m], [m/s]
+    bool moves = false;                         // at t = 0
+    StringPoints points;                        // theta: the scheme's to fill in
+    std::vector<Stencil> stencils;              // where obstacles read and push, of each point
     Stencil pluck_stencil;
     // of the first contact under a steady force, relative to the scene's string; 0 unless it is
     // lumped
@@ -132,7 +133,7 @@ constexpr Features grid_features =
     Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
     Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
     Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
-    Feature::pluck | any_rigid;
+    Feature::initial_velocity | Feature::pluck | any_rigid;
 inline constexpr Approximation grid_approximates[] = {
     {Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 

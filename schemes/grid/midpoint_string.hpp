@@ -46,7 +46,8 @@ public:
         y_ = y_store_.data() + offset;
         q_ = q_store_.data() + offset;
         s_ = s_store_.data() + offset;
-        std::copy_n(g_.initial.data(), g_.grid.intervals + 1, y_);
+        std::copy_n(g_.start.data(), g_.grid.intervals + 1, y_);
+        for (int l = 0; l <= g_.grid.intervals; ++l) q_[l] = 0.5 * dt_ * g_.start_velocity[l];
         diverged_ = false;
         step_ = 0;
         budget_ = HUGE_VAL;

@@ -12,7 +12,7 @@
 // At row n it holds u^{n-1}, u^n, u^{n+1}; velocity is the central difference (u^{n+1} -
 // u^{n-1})/2dt, and the energy of the half step n + 1/2 is mass/2 <d, M d>/dt^2 + mass/2 <u^{n+1},
 // K u^n>, d = u^{n+1} - u^n.
-// Start from rest: u^1 = u^0 + dt^2/2 (acceleration), contacts and thread taken between u^0 and
+// Start: u^1 = u^0 + dt v + dt^2/2 (acceleration), contacts and thread taken between u^0 and
 // u^1, so that the start is stable however stiff they are, of second order, and without losses
 // exactly the scheme's own cosine.
 // On a body that moves (schemes/body) the points of all strings are solved for together, and its
@@ -64,6 +64,7 @@ public:
         }
         g_.points.theta = compliances(places, responses, gain_, g_.grid);
         for (auto* v : {&older_, &now_, &free_}) v->assign(g_.stencils.size(), 0.0);
+        if (g_.moves) drift_.assign(g_.grid.intervals + 1, 0.0);
         for (auto& b : buffer_)
             b = AlignedVector(node_offset + g_.grid.intervals + five_point_overhang);
         reset();
@@ -80,30 +81,45 @@ public:
             std::fill_n(buffer_[i].data(), buffer_[i].size(), 0.0);
         }
         double *before = level_[0], *now = level_[1], *next = level_[2];
-        std::copy_n(g_.initial.data(), N + 1, now);
-        std::copy_n(g_.initial.data(), N + 1, before);
+        std::copy_n(g_.start.data(), N + 1, now);
         mirror(now);
+        if (!drift_.empty()) {  // u+ with u- = u - 2 dt v
+            for (int l = 0; l <= N; ++l) before[l] = now[l] - 2 * dt_ * g_.start_velocity[l];
+            mirror(before);
+            update_(next, before, before);
+            update_(next, now, before);
+            for (int l = 0; l <= N; ++l)
+                drift_[l] = 0.5 * dt_ * g_.start_velocity[l] + 0.25 * next[l];
+        }
+        std::copy_n(g_.start.data(), N + 1, before);
         mirror(before);
         diverged_ = false;
         step_ = 0;
         budget_ = HUGE_VAL;
         update_(next, now, before);  // so that it keeps what it needs of u-
         update_(next, now, before);  // with u- = u this is u + dt^2 (acceleration)
-        for (int l = 1; l < N; ++l) next[l] = now[l] + 0.5 * (next[l] - now[l]);
+        for (int l = 1; l < N; ++l) {
+            const double by_speed = drift_.empty() ? 0 : drift_[l] - 0.25 * next[l];
+            next[l] = now[l] + 0.5 * (next[l] - now[l]) + by_speed;
+        }
         pluck(0, 0.5, next);
         F_e_ = g_.pluck_at(0);
         for (std::size_t p = 0; p < now_.size(); ++p) {
             now_[p] = older_[p] = g_.stencils[p].read(now);
             free_[p] = g_.stencils[p].read(next) - older_[p];
         }
-        if (g_.on_body) inertia_ = 2 / (dt_ * dt_) * (g_.mu.read(next) - g_.mu.read(now));
+        if (g_.on_body)
+            inertia_ =
+                2 / (dt_ * dt_) *
+                (g_.mu.read(next) - g_.mu.read(now) - dt_ * g_.mu.read(g_.start_velocity.data()));
     }
     void start(const double* force, double a) noexcept {  // level 1 with them
         double *before = level_[0], *next = level_[2];
         for (std::size_t p = 0; p < responses_.size(); ++p)
             if (force[p] != 0) responses_[p].add(0.5 * gain_ * force[p], next);
         if (g_.on_body) mu_response_.add(-0.5 * gain_ * a, next);
-        std::copy_n(next - 1, g_.grid.intervals + 2, before - 1);  // at rest: u^{-1} = u^1
+        std::copy_n(next - 1, g_.grid.intervals + 2, before - 1);  // u^{-1} = u^1 - 2 dt v
+        for (std::size_t l = 0; l < drift_.size(); ++l) before[l] -= 2 * dt_ * g_.start_velocity[l];
     }
     // what it has at the start [J]
     void expect(double energy) noexcept { budget_ = std::abs(energy); }
@@ -240,8 +256,9 @@ private:
     double F_e_ = 0, inertia_ = 0;  // of the step: the pluck [N]; sum mu v'' without forces [N]
     std::vector<double> older_, now_, free_;
     AlignedVector buffer_[3];
-    double* level_[3] = {};  // u^{n-1}, u^n, u^{n+1}; [l] is node l
-    long step_ = 0;          // n
+    std::vector<double> drift_;  // of each node by a velocity at t = 0; none at rest [m]
+    double* level_[3] = {};      // u^{n-1}, u^n, u^{n+1}; [l] is node l
+    long step_ = 0;              // n
     double budget_ = HUGE_VAL;
     bool diverged_ = false;
 };

@@ -59,7 +59,6 @@ public:
         modes_ = modes_of(s, settings);
         p_ = points_of(s, dt_);
         add_lumped(p_, s);
-        q0_ = initial_displacement(modes_, s);
         for (const Footprint& f : sites_of(scene).forces)
             if (g_.size() < p_.positions.size())
                 g_.push_back(footprint_weights(modes_, f.position, f.width));
@@ -79,11 +78,12 @@ public:
             }
         if (choice_option(settings, compliance_option) == "matched")
             p_.series = modal_missing_matrix(descriptor, scene, modes_, dt_, own);
+        start_ = start_of(modes_, s, yield_of(own, p_.series));
+        put_start(p_, s, modes_, start_);
         for (const Tap& tap : scene.taps)
             taps_.emplace_back(tap.quantity, tap_weights(tap, modes_, s));
         for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
-        for (auto* v : {&v_, &a_, &next_, &push_}) v->assign(count(), 0.0);
-        q_ = q0_;
+        for (auto* v : {&q_, &v_, &a_, &next_, &push_}) v->assign(count(), 0.0);
         reset();
     }
 
@@ -91,13 +91,14 @@ public:
     void reset() noexcept {
         step_ = 0;
         sum_ = 0;
-        q_ = q0_;
+        std::copy(start_.displacement.begin(), start_.displacement.end(), q_.begin());
+        std::copy(start_.velocity.begin(), start_.velocity.end(), v_.begin());
+        std::fill(a_.begin(), a_.end(), 0.0);
+        if (!start_.force.empty()) return;  // in equilibrium
         const double F_e = pluck_at(0);
-        for (int i = 0; i < count(); ++i) {
-            v_[i] = 0;
+        for (int i = 0; i < count(); ++i)
             a_[i] = (g_e_.empty() ? 0 : g_e_[i] * F_e / modes_.mass) -
-                    modes_.omega0[i] * modes_.omega0[i] * q_[i];
-        }
+                    modes_.omega0[i] * modes_.omega0[i] * q_[i] - 2 * modes_.sigma[i] * v_[i];
     }
     void approach(bool) noexcept {  // next_: v'^{n+1} without the points' forces
         F_e_ = (1 - w_.f) * pluck_at(step_ + 1) + w_.f * pluck_at(step_);
@@ -181,7 +182,8 @@ private:
     StringPoints p_;
     std::vector<std::vector<double>> g_;  // the contacts in order, then the thread
     std::vector<double> g_e_, inverse_;   // inverse_: of what multiplies v'^{n+1}
-    std::vector<double> q0_, q_, v_, a_, next_, push_, older_, free_;
+    ModalStart start_;
+    std::vector<double> q_, v_, a_, next_, push_, older_, free_;
     std::vector<std::pair<Quantity, std::vector<double>>> taps_;
     long step_ = 0;
     // of the step: the pluck's force [N]; the points' readings added up [m]

@@ -2,6 +2,8 @@
 // them one by one.
 #include "schemes/modal/modal_compliance.hpp"
 
+#include <numeric>
+
 namespace jvari {
 
 MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& scene,
@@ -29,6 +31,21 @@ double relative_compliance(const Modes& modes, const String& s, std::span<const 
     double sum = 0;
     for (int i = 0; i < modes.count(); ++i) sum += g[i] * g[i] * own[i];
     return sum / static_compliance(modes, g);
+}
+
+Yield yield_of(std::span<const double> own, const std::optional<MissingMatrix>& series) {
+    return series ? Yield{own, series->C, series->pluck} : Yield{own, {}, {}};
+}
+
+void put_start(StringPoints& p, const String& s, const Modes& modes, const ModalStart& start) {
+    p.start_force = start.force;
+    std::vector<Footprint> points = footprints_of(s);
+    if (s.thread) points.push_back({s.thread->position, s.thread->width});
+    for (const Footprint& f : points) {
+        const auto g = footprint_weights(modes, f.position, f.width);
+        p.start_velocity.push_back(
+            std::inner_product(g.begin(), g.end(), start.velocity.begin(), 0.0));
+    }
 }
 
 }  // namespace jvari

@@ -70,8 +70,9 @@ private:
         if (points().pluck) return nan;
         double E = 0;
         for (int j = 0; j < p_.modes.count(); ++j) {
-            const double w = p_.modes.omega0[j] * p_.initial[j];
-            E += 0.5 * p_.modes.mass * w * w;
+            const double w = p_.modes.omega0[j] * p_.start.displacement[j],
+                         v = p_.start.velocity[j];
+            E += 0.5 * p_.modes.mass * (w * w + v * v);
         }
         return law.slope(std::pow((law.alpha + 1) * E / law.k, 1 / (law.alpha + 1)));
     }

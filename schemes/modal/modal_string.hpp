@@ -18,7 +18,8 @@ constexpr int modal_padding = 16;  // whole vectors of any machine, in pairs
 constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping |
                                     Feature::frequency_dependent_damping | Feature::measured_modes |
                                     Feature::lumped_barrier | Feature::power_law_contact |
-                                    Feature::thread | Feature::initial_shape | Feature::pluck;
+                                    Feature::thread | Feature::initial_shape | Feature::pluck |
+                                    Feature::initial_velocity | Feature::equilibrium;
 constexpr Features modal_features_of_points = modal_features | Features(Feature::profile_barrier) |
                                               Features(Feature::several_barriers) |
                                               Features(Feature::contact_loss);

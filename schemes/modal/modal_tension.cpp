@@ -86,9 +86,9 @@ public:
 
     void reset() noexcept {
         step_ = 0;
-        std::copy(p_.initial.begin(), p_.initial.end(), y_.begin());
+        std::copy(p_.start.displacement.begin(), p_.start.displacement.end(), y_.begin());
         std::fill(last_.begin(), last_.end(), 0.0);
-        for (std::size_t i = 0; i < y_.size(); ++i) coming_[i] = p_.three_point.start[i] * y_[i];
+        std::copy(p_.first.begin(), p_.first.end(), coming_.begin());
         prepare(0.5);
         // the outer levels are one: lambda = -2 kappa (d.q + r), r of the half step
         one_.kappa *= 2;
@@ -133,7 +133,8 @@ public:
         const auto& [quantity, w] = taps_[k];
         if (w.empty()) return heard_force(quantity, p_.points, mean);
         if (quantity != Quantity::velocity) return dot(w, y_);
-        return step_ == 0 ? 0 : 0.5 / p_.dt * (dot(w, coming_) + dot(w, last_));
+        return step_ == 0 ? dot(w, p_.start.velocity)
+                          : 0.5 / p_.dt * (dot(w, coming_) + dot(w, last_));
     }
     int dofs() const { return 2 * p_.update.modes(); }
     std::vector<Fact> facts() const { return p_.facts; }
@@ -209,8 +210,8 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
 extern const Descriptor modal_tension = {
     .name = "modal_tension",
     .source = "Bilbao 2009, ch. 8: linear in each step, with the impulse gain of each mode",
-    .represents = (modal_features - Feature::thread) | Features(Feature::several_barriers) |
-                  Feature::tension_modulation,
+    .represents = (modal_features - (Feature::thread | Feature::equilibrium)) |
+                  Features(Feature::several_barriers) | Feature::tension_modulation,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make,

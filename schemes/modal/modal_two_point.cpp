@@ -44,16 +44,17 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
 
 }  // namespace
 
-extern const Descriptor modal_two_point = {
-    .name = "modal_two_point",
-    .source = "van Walstijn et al. 2016, eqs 16-52",
-    .represents = modal_features_of_points | Feature::moving_body | any_rigid,
-    .balance = Balance::exact,
-    .clock = Clock::stepped,
-    .make = make<GradientRule>,
-    .options = matched_options,
-    .approximates = modal_approximates,
-    .stand_in_rank = 2};
+extern const Descriptor modal_two_point = {.name = "modal_two_point",
+                                           .source = "van Walstijn et al. 2016, eqs 16-52",
+                                           .represents = modal_features_of_points |
+                                                         Feature::moving_body | any_rigid |
+                                                         Feature::clipped_loss,
+                                           .balance = Balance::exact,
+                                           .clock = Clock::stepped,
+                                           .make = make<GradientRule>,
+                                           .options = matched_options,
+                                           .approximates = modal_approximates,
+                                           .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
     .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",

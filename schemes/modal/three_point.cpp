@@ -38,6 +38,7 @@ ThreePoint three_point(const Modes& modes, double dt, double exact_below) {
             c.start.push_back(fallen + decay * sigma * dt);
             rate = 1 / dt;
         }
+        c.drift.push_back(decay / rate);
         const bool exact = omega0 * dt < exact_below && sigma * dt < 1;
         c.velocity.push_back(exact ? 0.5 * rate / decay : 0.0);
     }

@@ -17,6 +17,7 @@ struct ThreePoint {
     std::vector<double> Ct, kappa;  // C~, and 1 + C~ - C to full relative precision
     std::vector<double> loss;       // 1 - C~
     std::vector<double> start;      // (y^1 - y^0)/y^0 of free motion from rest
+    std::vector<double> drift;      // (y^1 - y^0)/v^0 of free motion from y^0 = 0 [s]
     // G [1/s]: v^n = G [2 d+ + (kappa + 1 - C~) y + (dt^2/m) F] - sigma y, d+ without F; exact for
     // F = 0. 0 where three samples do not tell the velocity: near and above the Nyquist frequency
     std::vector<double> velocity;

@@ -12,7 +12,6 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
               ModalGain gain) {
     const String& s = p.string();
     const bool linear = p.points.contacts.count() == 0 && !s.thread;
-    p.initial = initial_displacement(p.modes, s);
     p.three_point = three_point(p.modes, p.dt, (linear ? 0.95 : 0.25) * std::numbers::pi);
     LinearUpdate& u = p.update;
     u.Ct = p.three_point.Ct;
@@ -50,6 +49,15 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
         p.points.series = modal_missing_matrix(descriptor, p.scene, p.modes, p.dt, own);
     else if (s.barriers.size() == 1 && std::holds_alternative<LumpedBarrier>(s.barriers.front()))
         p.facts.push_back({facts::static_compliance, relative_compliance(p.modes, s, own)});
+    p.start = start_of(p.modes, s, yield_of(own, p.points.series));
+    p.points.start_force = p.start.force;
+    for (int j = 0; j < p.modes.count(); ++j) {
+        const double y = p.start.displacement[j], v = p.start.velocity[j];
+        // in equilibrium the recursion itself, whose levels 0 and -1 are one
+        p.first.push_back(
+            (p.start.force.empty() ? p.three_point.start[j] * y : -0.5 * u.kappa[j] * y) +
+            p.three_point.drift[j] * v);
+    }
 }
 
 ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& scene,

@@ -26,6 +26,7 @@
 #include <numbers>
 
 #include "scenes/excitation.hpp"
+#include "scenes/start.hpp"
 #include "schemes/body/body_modes.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/modal/kernels/three_point_pass.hpp"
@@ -43,7 +44,8 @@ struct ThreePointProblem {
     Scene scene;  // of one string
     double dt = 0;
     Modes modes;
-    std::vector<double> initial;  // modal displacement at t = 0 [m]
+    ModalStart start;
+    std::vector<double> first;  // y^1 - y^0 of each mode without contacts and pluck [m]
     ThreePoint three_point;
     std::vector<double> W;  // [kg]
     // ports: contacts, thread, moving body, which all are read, and the pluck
@@ -76,6 +78,9 @@ public:
         for (auto* v : {&force_, &earlier_force_}) v->assign(p_.update.ports.size(), 0.0);
         for (auto* v : {&modal_now_, &modal_last_, &modal_coming_})
             v->assign(p_.modes.count(), 0.0);
+        if (p_.on_body)
+            drift_of_body_ =
+                p_.dt * inner(p_.update.ports[p_.points.count()].weights, p_.start.velocity);
         pluck_port_ = p_.points.pluck ? static_cast<int>(reads) : -1;
         for (std::size_t z = 0; z < reads; ++z)
             for (std::size_t c = 0; c < reads; ++c)
@@ -90,9 +95,8 @@ public:
     ReadingsBeforeStep readings() const { return {older_.data(), now_.data(), free_.data()}; }
 
     void reset() noexcept {
-        modal_now_ = p_.initial;
-        for (int j = 0; j < p_.modes.count(); ++j)
-            modal_coming_[j] = p_.three_point.start[j] * modal_now_[j];
+        modal_now_ = p_.start.displacement;
+        modal_coming_ = p_.first;
         form_.start(modal_now_.data(), modal_coming_.data());
         form_.read(read_.data());
         for (int z = 0; z < p_.update.reads; ++z)
@@ -101,7 +105,7 @@ public:
         std::fill(force_.begin(), force_.end(), 0.0);
         if (pluck_port_ >= 0) push_by_pluck();
         from(older_);
-        inertia_ = p_.on_body ? 2 * free_.back() / (p_.dt * p_.dt) : 0;
+        inertia_ = p_.on_body ? 2 * (free_.back() - drift_of_body_) / (p_.dt * p_.dt) : 0;
     }
     void start(const double* force, double a) noexcept { put(force, a); }
     void approach(bool last_of_row) noexcept {
@@ -141,7 +145,7 @@ public:
         if (r.displacement.empty()) return heard_force(r.quantity, p_.points, mean);
         if (r.quantity != Quantity::velocity)
             return modal_dot(r.displacement, form_.levels.displacement);
-        if (step_ == 0) return 0;
+        if (step_ == 0) return r.at_start;
         double v = modal_dot(r.displacement, form_.levels.displacement) +
                    modal_dot(r.increment, form_.levels.increment);
         if (differenced_) v += modal_dot(r.kept, form_.levels.kept);
@@ -182,6 +186,7 @@ private:
         Quantity quantity;
         AlignedVector displacement, increment, kept;  // weights on the form's levels
         std::vector<double> force, earlier_force;     // velocity: weights of F^n and F^{n-1}
+        double at_start = 0;                          // velocity at t = 0 [m/s]
     };
     static double inner(const std::vector<double>& a, const std::vector<double>& b) {
         double sum = 0;
@@ -251,7 +256,7 @@ private:
     }
 
     TapReading reading_of(const Tap& tap) {
-        TapReading r{tap.quantity, {}, {}, {}, {}, {}};
+        TapReading r{tap.quantity, {}, {}, {}, {}, {}, 0};
         const auto w = tap_weights(tap, p_.modes, p_.string());
         if (tap.quantity != Quantity::velocity) {
             if (!w.empty()) r.displacement = form_.reading(w);
@@ -270,6 +275,7 @@ private:
             earlier[j] = p_.update.gain_of(j) * kept[j];
             differenced_ = differenced_ || G == 0;
         }
+        r.at_start = inner(w, p_.start.velocity);
         if (differenced_) form_.levels.listen();
         r.displacement = form_.reading(y);
         r.increment = form_.reading(d);
@@ -298,7 +304,8 @@ private:
     std::vector<double> read_, free_;
     // F^n and, for velocity taps, F^{n-1} of each port [N]
     std::vector<double> force_, earlier_force_;
-    double inertia_ = 0;  // sum mu v'' without forces [N]
+    double inertia_ = 0;        // sum mu v'' without forces [N]
+    double drift_of_body_ = 0;  // dt sum mu v' at t = 0 [kg m]
     // y^n, y^n - y^{n-1}, y^{n+1} - y^n
     std::vector<double> modal_now_, modal_last_, modal_coming_;
 };

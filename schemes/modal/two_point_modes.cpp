@@ -51,10 +51,10 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     const int count = m_.modes = modes.count();
     m_.size = (count + modal_padding - 1) / modal_padding * modal_padding;
     const bool matched = choice_option(settings, compliance_option) == "matched";
-    std::vector<double> A, B, scale, own;  // scale: sqrt(J/xi)
+    std::vector<double> A, B, own;
+    std::vector<double>& scale = scale_;
     AlignedVector c(m_.size), loss(m_.size);
     for (AlignedVector* a : {&J_, &y0_, &u0_, &push_}) a->assign(m_.size, 0.0);
-    const auto shape = initial_displacement(modes, s);
     for (int i = 0; i < count; ++i) {
         const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], dt_);
         const double J = J_[i] = 1 + Ai + Bi;
@@ -67,8 +67,6 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         const double mass =
             modes.mass * (matched ? 0.5 * dt_ * modes.omega0[i] / std::sqrt(Ai) : 1);
         scale.push_back(std::sqrt(J / (dt_ * dt_ / (2 * mass))));
-        y0_[i] = shape[i] * scale[i];
-        u0_[i] = -2 * Ai / J * y0_[i];               // (42) with q = 0
         own.push_back(dt_ * dt_ / (4 * mass * Ai));  // (42) with s = 0
         free_modes_.push_back(two_point_mode(Ai, Bi, dt_));
         offset_ = std::max(offset_, lead_at_start(modes.omega0[i], modes.sigma[i], Ai, Bi));
@@ -86,6 +84,14 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
 
     p_ = points_of(s, dt_);
     add_lumped(p_, s);
+    if (matched) p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
+    const ModalStart start = start_of(modes, s, yield_of(own, p_.series));
+    put_start(p_, s, modes, start);
+    for (int i = 0; i < count; ++i) {
+        y0_[i] = start.displacement[i] * scale[i];
+        // (42) with q = v dt/2
+        u0_[i] = -2 * A[i] / J_[i] * y0_[i] + dt_ / J_[i] * start.velocity[i] * scale[i];
+    }
     for (const Footprint& f : sites_of(scene).forces)
         if (g_.size() < p_.positions.size())
             g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
@@ -132,8 +138,8 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         }
         taps_.push_back(std::move(t));
     }
-    if (matched) p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
-    else if (p_.contacts.count() == 1 && !on_body) compliance_ = relative_compliance(modes, s, own);
+    if (!matched && p_.contacts.count() == 1 && !on_body)
+        compliance_ = relative_compliance(modes, s, own);
     for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
     if (p_.contacts.count() <= 1 && !on_body) {
         const bool barrier = p_.contacts.count() == 1, thread = !p_.threads.empty();
@@ -151,6 +157,15 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         plucked_ = two_point_pass(barrier, thread, true);
     }
     reset();
+}
+
+ModalState TwoPointModes::state() const {
+    ModalState state;
+    for (int i = 0; i < m_.modes; ++i) {  // v = 2q/dt
+        state.displacement.push_back(at(Column::y, i) / scale_[i]);
+        state.velocity.push_back(2 * J_[i] * momentum_of(i) / (dt_ * scale_[i]));
+    }
+    return state;
 }
 
 void TwoPointModes::put(Column column, const AlignedVector& values) {

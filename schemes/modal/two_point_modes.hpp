@@ -48,6 +48,7 @@ public:
         return sum;
     }
     int dofs() const { return 2 * m_.modes; }
+    ModalState state() const;
     std::vector<Fact> facts() const;
     std::vector<FreeMode> free_modes() const { return free_modes_; }
 
@@ -87,6 +88,7 @@ private:
     StringPoints p_;
     TwoPointStream m_;
     AlignedVector stream_, J_, y0_, u0_, push_;
+    std::vector<double> scale_;     // sqrt(J/xi)
     std::vector<AlignedVector> g_;  // scaled; the contacts in order, then the thread
     AlignedVector g_e_;             // the pluck's
     PluckForce pluck_;

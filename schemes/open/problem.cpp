@@ -8,6 +8,7 @@
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/start.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 #include "schemes/run.hpp"
@@ -70,7 +71,7 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
     p_.bending_stiffness = s.bending_stiffness;
     p_.modal_mass = modes.mass;
     p_.beta = keep(modes.beta), p_.omega0 = keep(modes.omega0), p_.sigma = keep(modes.sigma);
-    p_.start = keep(initial_displacement(modes, s));
+    p_.start = keep(start_of(modes, s).displacement);
 
     std::vector<Footprint> points = footprints_of(s);
     std::vector<double> weights;
@@ -140,10 +141,12 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
 
 void refuse_beyond_arrays(const Scene& scene) {
     const Features needed = needed_by(scene);
-    const char* beyond = scene.strings.size() != 1           ? "several strings"
-                         : needed.has(Feature::moving_body)  ? "a moving body"
-                         : needed.has(Feature::polarisation) ? "two polarisations"
-                         : needed.any(any_rigid)             ? "a rigid barrier"
+    const char* beyond = scene.strings.size() != 1               ? "several strings"
+                         : needed.has(Feature::moving_body)      ? "a moving body"
+                         : needed.has(Feature::polarisation)     ? "two polarisations"
+                         : needed.any(any_rigid)                 ? "a rigid barrier"
+                         : needed.has(Feature::initial_velocity) ? "a velocity at the start"
+                         : needed.has(Feature::clipped_loss) ? "a contact loss that does not pull"
                          : needed.has(Feature::tension_modulation)
                              ? "a tension that grows as the string stretches"
                              : nullptr;

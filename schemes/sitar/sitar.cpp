@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scenes/barrier.hpp"
-#include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 
 namespace jvari {
 
@@ -23,7 +23,7 @@ SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Set
     s.f0 = std::sqrt(string.tension / string.linear_density) / (2 * string.length);
     s.sigma = first.sigma.front();
     s.step_loss = std::exp(-s.sigma * s.dt);
-    if (const auto* mode = string.initial ? std::get_if<ModeInitial>(&*string.initial) : nullptr;
+    if (const auto* mode = string.start ? std::get_if<ModeShape>(&*string.start) : nullptr;
         mode && mode->number * s.f0 * s.dt >= 0.5)
         throw Refusal("the initial mode " + std::to_string(mode->number) +
                       " lies above half the sample rate");
@@ -102,10 +102,12 @@ double rounding(double u, double s) {
 
 struct ShapeAt {
     double L, x;  // 0 <= x <= L
-    double operator()(const ModeInitial& m) const {
+    double operator()(const ModeShape& m) const {
         return m.amplitude * std::sin(m.number * pi * x / L);
     }
-    double operator()(const TriangleInitial& t) const {
+    double operator()(const TableStart& t) const { return displacement_at(t, L, x); }
+    double operator()(const RestStart&) const { return 0; }  // refused
+    double operator()(const TriangleShape& t) const {
         const double x0 = t.position, kink = t.amplitude * L / (x0 * (L - x0));
         const double sharp = t.amplitude * (x < x0 ? x / x0 : (L - x) / (L - x0));
         // of opposite sign beyond each end
@@ -116,10 +118,10 @@ struct ShapeAt {
 }  // namespace
 
 double initial_shape(const String& string, double x) {
-    if (!string.initial) return 0;
+    if (!string.start) return 0;
     const double L = string.length, z = x - 2 * L * std::floor(x / (2 * L));
-    return z <= L ? std::visit(ShapeAt{L, z}, *string.initial)
-                  : -std::visit(ShapeAt{L, 2 * L - z}, *string.initial);
+    return z <= L ? std::visit(ShapeAt{L, z}, *string.start)
+                  : -std::visit(ShapeAt{L, 2 * L - z}, *string.start);
 }
 
 std::vector<SitarTap> sitar_taps(const Scene& scene, SitarString& s) {

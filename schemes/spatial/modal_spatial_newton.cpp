@@ -70,7 +70,8 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
 extern const Descriptor modal_spatial_newton = {
     .name = "modal_spatial_newton",
     .source = "Issanchou et al. 2016, eqs 13-16, 20-21, 24-28",
-    .represents = modal_features_of_points | Feature::moving_body | any_rigid,
+    .represents =
+        (modal_features_of_points - Feature::equilibrium) | Feature::moving_body | any_rigid,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make<GradientRule>,

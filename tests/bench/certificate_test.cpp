@@ -116,7 +116,7 @@ TEST(Certificate, OfASceneThatNoReferenceRepresentsIsTheStandInsOwnEstimate) {
 
 TEST(Certificate, OfALinearSceneRestsOnTheClosedForm) {
     Scene scene = c3_free();
-    scene.strings.front().initial = ModeInitial{2, 1e-3};
+    scene.strings.front().start = ModeShape{2, 1e-3};
     scene.duration = 20e-3;
     const Certificate c = certified(scene, {30, 44100});
     EXPECT_EQ(c.entries.front().reference, "exact_linear");

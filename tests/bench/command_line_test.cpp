@@ -232,6 +232,33 @@ TEST(CommandLine, RunShowsSolverCountersWithFactsAloneAndApproximationsAlways) {
     EXPECT_TRUE(says(all.out, "contact_iterations_mean"));
 }
 
+TEST(CommandLine, RunWritesARowPerContactAndSaysWhoKnowsNone) {
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3_release --duration 0.01 --modes 40 --impacts " +
+                            (scratch / "i.csv") + " --scheme ";
+    const Outcome o = jvari(scratch, run + "modal_two_point --json");
+    ASSERT_EQ(o.code, 0) << o.err;
+    const bench::store::Table t = bench::store::read_csv(content(scratch / "i.csv"));
+    const std::vector<std::string> columns{
+        "string",      "barrier",          "start_s",           "end_s",        "largest_force_N",
+        "impulse_N_s", "speed_in_m_per_s", "speed_out_m_per_s", "energy_lost_J"};
+    EXPECT_EQ(t.columns, columns);
+    const auto json = nlohmann::json::parse(o.out);
+    ASSERT_EQ(json.at("impacts").size(), t.rows.size());
+    ASSERT_GT(t.rows.size(), 2u);
+    double hardest = 0;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        EXPECT_EQ(json.at("impacts")[i].at("start_s").get<double>(), t.number(i, "start_s"));
+        EXPECT_GE(t.number(i, "start_s"), i > 0 ? t.number(i - 1, "start_s") : 0);
+        hardest = std::max(hardest, t.number(i, "largest_force_N"));
+    }
+    EXPECT_EQ(hardest, json.at("largest_contact_force").get<double>());
+    EXPECT_TRUE(ends(jvari(scratch, run + "sundials"), 2, "sundials does not tell what its "));
+    EXPECT_TRUE(ends(
+        jvari(scratch, "run free_string --scheme exact_linear --impacts " + (scratch / "i.csv")), 2,
+        "--impacts: no string of the scene has a barrier"));
+}
+
 TEST(CommandLine, TapRateIs44100OrTheRateWhereThatIsNoMultiple) {
     const Scratch scratch;
     const auto rows = [&scratch](const std::string& arguments) {
@@ -715,7 +742,7 @@ TEST(Units, ValuesThatLookLikeAnotherUnitAreNamed) {
     };
     EXPECT_TRUE(says(said("--set string.0.length=62"), "length = 62 m"));
     EXPECT_TRUE(says(said("--set string.0.tension=1e9"), "the pitch that"));
-    EXPECT_TRUE(says(said("--set string.0.initial.amplitude=1.9"), "initial.amplitude = 1.9 m"));
+    EXPECT_TRUE(says(said("--set string.0.start.amplitude=1.9"), "start.amplitude = 1.9 m"));
     EXPECT_FALSE(says(said(""), "warning"));
 }
 
@@ -743,7 +770,7 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
         "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
     EXPECT_EQ(jvari(scratch, sympathetic).err, "")
         << "its bridge shakes the strings that nobody plucks";
-    const Outcome still = jvari(scratch, sympathetic + " --set string.0.initial.amplitude=0");
+    const Outcome still = jvari(scratch, sympathetic + " --set string.0.start.amplitude=0");
     EXPECT_TRUE(says(still.err, "string 2 of sitar_sympathetic stays silent"));
     const std::string rest =
         "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.amplitude=0 "

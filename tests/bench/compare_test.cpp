@@ -720,11 +720,11 @@ TEST(Truth, AMatchedOneLeavesOutNoLessThanItLiesBesideOwnModesExtrapolated) {
 
 // The third derivative at the end, of modes that fall as 1/i^2, is a sum that grows without end.
 TEST(Truth, TheForceOfASharpCornerOnAStiffStringIsUnknown) {
-    const Scene scene = bench::compare::load_scene(
-        "free_string",
-        {"string.0.initial.smoothing=0", "string.0.damping={law=\"none\"}",
-         "string.0.bending_stiffness=6e-3"},
-        0.0105);
+    const Scene scene =
+        bench::compare::load_scene("free_string",
+                                   {"string.0.start.smoothing=0", "string.0.damping={law=\"none\"}",
+                                    "string.0.bending_stiffness=6e-3"},
+                                   0.0105);
     const bench::study::Plan plan = plan_for("free_string", {"modal_two_point"});
     const auto truth = bench::study::run_truth(plan.points.front().references, scene, 1024, 1,
                                                bench::store::Listener());

@@ -194,28 +194,6 @@ TEST(Cells, ThatAreMissingAfterAreWorse) {
     EXPECT_FALSE(difference(one, two).worse());
 }
 
-Folder modes(const std::vector<std::string>& own_cents) {
-    Folder f;
-    f.dispersion.columns = {"scene", "scheme",    "options",        "rate",
-                            "mode",  "own_cents", "own_decay_per_s"};
-    for (std::size_t k = 0; k < own_cents.size(); ++k)
-        f.dispersion.rows.push_back(
-            {"s", "a", "", "44100", std::to_string(k + 1), own_cents[k], "1"});
-    return f;
-}
-
-TEST(Dispersion, IsWorseWhereAModeIsFurtherFromItsPitchOnEitherSide) {
-    for (const auto& [before, after] :
-         {std::pair{"1", "-3"}, {"-1", "-3"}, {"1", "3"}, {"-1", "3"}, {"1", ""}}) {
-        EXPECT_EQ(turn_in(difference(modes({before}), modes({after})), "own_cents"), Turn::worse)
-            << before << " " << after;
-        EXPECT_EQ(turn_in(difference(modes({after}), modes({before})), "own_cents"), Turn::better)
-            << before << " " << after;
-    }
-    EXPECT_EQ(turn_in(difference(modes({"1"}), modes({"1.000000001"})), "own_cents"), Turn::same);
-    EXPECT_TRUE(difference(modes({"1", "2"}), modes({"1"})).worse());
-}
-
 Folder boundary(const std::string& low, const std::string& high) {
     Folder f;
     f.boundaries.columns = {"map", "scheme", "x_key", "y_key", "y", "between", "x_low", "x_high"};

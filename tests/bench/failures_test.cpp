@@ -41,7 +41,7 @@ TEST(Failures, AMapThatReproducesNoneHasNone) {
         m.scene = "tanpura_c3_release";
         m.schemes = {"modal_explicit_penalty"};
         m.x = {"rate", {"44100"}, {44100}, false};
-        m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.initial.amplitude", "-1e-6"}};
+        m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.start.amplitude", "-1e-6"}};
         m.reference = "none";
         m.reproduce = reproduce;
         const std::vector<bench::suite::Map> maps = {m};

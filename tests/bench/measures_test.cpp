@@ -1,14 +1,16 @@
-// What a suite measures beside errors: dispersion and compliance of the schemes, observed orders,
-// the cheapest cells.
+// What is measured beside errors: partials and compliance of the schemes, observed orders, the
+// cheapest cells.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "bench/check/promise.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/study/cell.hpp"
-#include "bench/suite/facet.hpp"
+#include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 #include "tests/cells_from.hpp"
@@ -24,67 +26,54 @@ const Descriptor& scheme_named(const std::string& name) {
     throw std::runtime_error(name);
 }
 
-bench::store::Table rows_for(const std::string& scheme, const std::string& scene_name, double rate,
-                             std::vector<std::string> set = {}, double duration = 0.3) {
-    const Scene scene = bench::compare::load_scene(scene_name, set, duration);
-    Settings settings;
-    settings.sample_rate = rate;
-    const Descriptor& d = scheme_named(scheme);
-    const Run r = run(d, scene, settings);
-    return bench::suite::dispersion_rows({scene, d, settings, r.trace, nullptr, 0});
+std::vector<bench::check::HeardPartial> partials_of(const std::string& scheme,
+                                                    const std::string& scene_name, double rate,
+                                                    std::vector<std::string> set = {}) {
+    const Scene scene = bench::compare::load_scene(scene_name, set, 0.3);
+    return bench::check::heard_partials(scheme_named(scheme), scene, {rate, rate, 0, {}}, 0);
 }
+double hertz(double omega) { return omega / (2 * pi); }
 
-// ---- Dispersion
+// ---- Partials
 
-TEST(Dispersion, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
+TEST(Partials, TheOwnRelationOfEachSchemeIsWhatItsTraceSays) {
     for (const char* name :
          {"modal_two_point", "modal_two_point_trapezoidal", "modal_spatial_newton",
           "modal_three_point", "finite_difference_explicit", "finite_difference_theta",
           "finite_difference_hamiltonian"}) {
-        const bench::store::Table t =
-            rows_for(name, "free_string", 88200, {"string.0.initial.position=0.2137"});
-        ASSERT_EQ(t.rows.size(), 30u) << name;
-        for (std::size_t i = 0; i < t.rows.size(); ++i) {
-            EXPECT_NEAR(t.number(i, "own_cents"), t.number(i, "trace_cents"), 1e-5)
-                << name << " mode " << i + 1;
-            EXPECT_NEAR(t.number(i, "own_decay_per_s"), t.number(i, "trace_decay_per_s"), 1e-4)
-                << name << " mode " << i + 1;
+        const auto all =
+            partials_of(name, "free_string", 88200, {"string.0.start.position=0.2137"});
+        ASSERT_EQ(all.size(), 30u) << name;
+        for (const auto& p : all) {
+            EXPECT_NEAR(cents(p.heard.frequency, hertz(p.own.omega)), 0, 1e-5) << name << p.mode;
+            EXPECT_NEAR(p.heard.decay, p.own.sigma, 1e-4) << name << p.mode;
         }
     }
 }
 
-TEST(Dispersion, ExactCoefficientsAreExactAndTrapezoidalOnesWarpByTheirArctangent) {
+TEST(Partials, ExactCoefficientsAreExactAndTrapezoidalOnesWarpByTheirArctangent) {
     const double dt = 1 / 44100.0;
-    const bench::store::Table exact = rows_for("modal_two_point", "free_string", 44100),
-                              warped =
-                                  rows_for("modal_two_point_trapezoidal", "free_string", 44100);
-    for (std::size_t i = 0; i < exact.rows.size(); ++i) {
-        const double omega = 2 * pi * exact.number(i, "frequency_hz");
-        EXPECT_NEAR(exact.number(i, "own_cents"), 0, 1e-9);
-        EXPECT_NEAR(exact.number(i, "own_decay_per_s"), exact.number(i, "decay_per_s"), 1e-9);
-        EXPECT_NEAR(warped.number(i, "own_cents"),
+    const Modes modes = modes_of(read_scene("free_string").strings[0], 30);
+    for (const auto& p : partials_of("modal_two_point", "free_string", 44100)) {
+        const double omega0 = modes.omega0[p.mode - 1], sigma = modes.sigma[p.mode - 1];
+        EXPECT_NEAR(cents(p.own.omega, std::sqrt(omega0 * omega0 - sigma * sigma)), 0, 1e-9);
+        EXPECT_NEAR(p.own.sigma, sigma, 1e-9);
+    }
+    for (const auto& p : partials_of("modal_two_point_trapezoidal", "free_string", 44100)) {
+        const double omega = modes.omega0[p.mode - 1];
+        EXPECT_NEAR(cents(p.own.omega, omega),
                     1200 * std::log2(2 / dt * std::atan(omega * dt / 2) / omega),
                     1e-3);  // to sigma^2/omega^2
     }
 }
 
-TEST(Dispersion, TheSitarOfIntegerLengthIsSharpByAsMuchAsThePaperSays) {
-    const bench::store::Table t = rows_for("sitar_waveguide", "sitar_c5_decay", 44100);
-    ASSERT_GT(t.rows.size(), 10u);
-    EXPECT_NEAR(t.number(0, "own_cents"), 5.78, 0.01);  // 42 samples: 525 Hz in place of 523.25
-    EXPECT_NEAR(t.number(0, "trace_cents"), t.number(0, "own_cents"), 1e-6);
-    EXPECT_EQ(t.at(1, "note"), "not heard");  // plucked in the middle: even modes are silent
-    EXPECT_EQ(t.at(1, "trace_cents"), "");
-}
-
-TEST(Dispersion, AStringAgainstABridgeHasNoModesOfItsOwnToHear) {
-    const bench::store::Table t =
-        rows_for("modal_two_point", "tanpura_c3_release", 44100, {}, 0.05);
-    ASSERT_FALSE(t.rows.empty());
-    for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        EXPECT_EQ(t.at(i, "trace_cents"), "");
-        EXPECT_EQ(t.at(i, "note"), "contact: the trace has no modes of its own");
-    }
+TEST(Partials, TheSitarOfIntegerLengthIsSharpByAsMuchAsThePaperSays) {
+    const auto all = partials_of("sitar_waveguide", "sitar_c5_decay", 44100);
+    ASSERT_GT(all.size(), 5u);
+    // 42 samples: 525 Hz in place of 523.25
+    EXPECT_NEAR(cents(hertz(all[0].own.omega), 523.25), 5.78, 0.01);
+    EXPECT_NEAR(cents(all[0].heard.frequency, hertz(all[0].own.omega)), 0, 1e-6);
+    EXPECT_EQ(all[1].mode, 3);  // plucked in the middle: even modes are silent
 }
 
 // ---- Static compliance at the bridge

@@ -19,7 +19,7 @@ Scene string_over_barrier() {
     s.strings[0].length = 2;
     s.strings[0].tension = 4;
     s.strings[0].linear_density = 1;
-    s.strings[0].initial = ModeInitial{1, 0.1};
+    s.strings[0].start = ModeShape{1, 0.1};
     s.strings[0].barriers.push_back(LumpedBarrier{});
     return s;
 }
@@ -125,7 +125,7 @@ TEST(Outcome, ARunThatNothingSpeaksOfIsUnjudgedAndNeverSound) {
     MadeUp m;
     std::fill(m.run.trace.energy.begin(), m.run.trace.energy.end(), 0.0);
     m.run.facts.clear();
-    m.scene.strings[0].initial.reset();  // nor does its own energy say how far it may swing
+    m.scene.strings[0].start.reset();  // nor does its own energy say how far it may swing
     EXPECT_EQ(m.judgement(Balance::none, false).verdict, bench::study::Verdict::unjudged);
     EXPECT_NE(m.judgement(Balance::none, false).detail, "");
     // its reference speaks

@@ -1,7 +1,7 @@
 // The smoke suite against results/smoke: has a number of any scheme moved by more than rounding can
 // move it?
 //
-// Every column of its cells and every mode of its dispersion, by the rules of `jvari diff`
+// Every column of its cells, by the rules of `jvari diff`
 // (bench/diff/rules.cpp), without the clock. `below_floor` follows from the rest: each error that
 // it names is no larger than its floor, and no other.
 #include <cmath>

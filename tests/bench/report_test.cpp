@@ -28,9 +28,9 @@ struct MadeUp : Scratch {  // some of the files
             fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
     }
 };
-const std::vector<std::string> every_file{"manifest.json", "facts.csv",      "errors.csv",
-                                          "cost.csv",      "dispersion.csv", "convergence.csv",
-                                          "maps.csv",      "boundaries.csv", "others.svg"};
+const std::vector<std::string> every_file{"manifest.json",  "facts.csv",       "errors.csv",
+                                          "cost.csv",       "convergence.csv", "maps.csv",
+                                          "boundaries.csv", "others.svg"};
 
 Json data_of(const std::string& page) {
     const auto from = page.find("id=\"data\">") + 10;
@@ -47,7 +47,7 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     EXPECT_TRUE(says(data.at("missing").get<std::string>(), "npm ci"));
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");
     EXPECT_EQ(data.at("pictures").at(0).at("name"), "others");
-    for (const char* name : {"dispersion", "convergence", "maps", "boundaries"}) {
+    for (const char* name : {"convergence", "maps", "boundaries"}) {
         const auto kept = bench::store::read_csv(data.at("tables").at(name)),
                    file = bench::store::read_csv(content(folder / (std::string(name) + ".csv")));
         EXPECT_EQ(kept.only(file.columns).rows, file.rows) << name;  // the files' own rows, whole

@@ -316,8 +316,7 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
         bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "spectrogram");
     ASSERT_TRUE(drawn);
     EXPECT_EQ(drawn->level, first.records[0].levels.level);
-    EXPECT_FALSE(
-        bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "dispersion"));
+    EXPECT_FALSE(bench::study::read_levels(scratch.path / (plan.jobs[0].id + ".json"), "another"));
     EXPECT_EQ(scratch.files(), 8 + 8);  // numbers and clocks
 
     const bench::store::Table t = all_of(plan, first.records);
@@ -494,7 +493,7 @@ TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
     const Scratch scratch;
     std::ofstream(scratch / "s.toml") << "name = \"s\"\nsource = \"none\"\nduration = "
                                          "0.01\n[[string]]\nlength = 1.0\nlinear_density = "
-                                         "1e-3\ntension = 50.0\n[string.initial]\nshape = "
+                                         "1e-3\ntension = 50.0\n[string.start]\nshape = "
                                          "\"mode\"\nnumber = 1\namplitude = 1e-3\n";
     std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"" << scratch / "s.toml"
                                       << "\"]\nschemes = [\"modal_two_point\"]\nrates = [44100]\n";

@@ -78,7 +78,7 @@ TEST(TraceFile, NeedsNoTapAndASoundSaysHowLoudItIs) {
     std::ofstream(scratch / "none.toml")
         << "name = \"s\"\nduration = 0.1\n[[string]]\nlength = 1.0\nlinear_density = 1e-3\ntension "
            "= 50.0\n"
-           "[string.initial]\nshape = \"triangle\"\nposition = 0.3\namplitude = 1e-3\n";
+           "[string.start]\nshape = \"triangle\"\nposition = 0.3\namplitude = 1e-3\n";
     EXPECT_EQ(shell(scratch, "$J run none.toml --scheme modal_two_point --out x.csv").code, 0);
     const Outcome o =
         shell(scratch, "$J run none.toml --scheme modal_two_point --json --out x.wav");

@@ -94,11 +94,11 @@ TEST(Starts, OthersAreScenesWithAnotherShape) {
 
 TEST(Starts, AreOfAnotherFamily) {
     const Scene own = read_scene("tanpura_c3_release");
-    const auto initial = [&](int start) { return *trim::started(own, start).strings[0].initial; };
-    const auto sharp = std::get<TriangleInitial>(initial(1));
+    const auto initial = [&](int start) { return *trim::started(own, start).strings[0].start; };
+    const auto sharp = std::get<TriangleShape>(initial(1));
     EXPECT_LE(sharp.smoothing, 0.01);
     EXPECT_LT(std::min(sharp.position, 1 - sharp.position), 0.15);
-    EXPECT_GE(std::get<ModeInitial>(initial(2)).number, 5);
+    EXPECT_GE(std::get<ModeShape>(initial(2)).number, 5);
     const Scene plucked = read_scene("nylon_guitar");
     for (int s = 1; s < trim::starts; ++s) {
         const Pluck &was = *plucked.strings[0].pluck,

@@ -50,7 +50,6 @@ const every_file = [
   "facts.csv",
   "errors.csv",
   "cost.csv",
-  "dispersion.csv",
   "convergence.csv",
   "maps.csv",
   "boundaries.csv",
@@ -162,16 +161,7 @@ test("sections stand in their order, and those without data do not appear", () =
   const of = whole();
   assert.deepEqual(
     of("sections_of()").map(s => s.id),
-    [
-      "work-precision",
-      "sweep",
-      "dispersion",
-      "convergence",
-      "overview",
-      "maps",
-      "figures",
-      "cells",
-    ],
+    ["work-precision", "sweep", "convergence", "overview", "maps", "figures", "cells"],
   );
   assert.deepEqual(
     on(report(folder_of(["manifest.json", "maps.csv"])))("sections_of()").map(s => s.id),
@@ -185,7 +175,10 @@ test("sections stand in their order, and those without data do not appear", () =
   );
 });
 test("pictures of others stand in the page and its own do not", () => {
-  const folder = folder_of(every_file, {"dispersion.svg": "<svg/>"});
+  const [drawn] = whole()("sections_of()").flatMap(s =>
+    s.charts.flatMap(c => c.twins.map(t => t.file)),
+  );
+  const folder = folder_of(every_file, {[drawn]: "<svg/>"});
   assert.deepEqual(
     section(on(report(folder)), "figures").pictures.map(p => p.name),
     ["others"],
@@ -586,15 +579,6 @@ test("errors below their noise floor have no order", () => {
     rows.map(row => row[at("points")]),
     ["3"],
   );
-});
-test("dispersion is drawn rate by rate, with decays relative to the true ones", () => {
-  const of = whole(),
-    [chart] = section(of, "dispersion").charts,
-    rows = of("dispersion_rows()");
-  assert.deepEqual(choices(chart, "rate_field", chart.scenes[0]), ["44100", "88200"]);
-  assert.equal(rows.length, 120);
-  assert.ok(Math.abs(rows[70].own.decay + 1e-3 * rows[70].mode) < 2e-5);
-  assert.equal(rows[4].trace.decay, null); // an empty field
 });
 test("maps hold their boundaries and theory, and their tiles meet half-way", () => {
   const page = report(folder_of(every_file)),

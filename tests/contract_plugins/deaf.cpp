@@ -73,6 +73,11 @@ constexpr Deaf table_of[] = {
      [](Scene& s) { parts(s, &String::thread, [](auto& t) { t.height = 0; }); }},
     {"pluck_start_ignored",
      [](Scene& s) { parts(s, &String::pluck, [](auto& p) { p.start = 0; }); }},
+    {"velocity_up",
+     [](Scene& s) {
+         parts(s, &String::velocity,
+               [](auto& v) { std::visit([](auto& shape) { shape.amplitude *= 1.02; }, v); });
+     }},
     {"second_barrier_lower", [](Scene& s) { second(s, [](auto& b) { b.height -= 1e-4; }); }},
     {"second_barrier_softer", [](Scene& s) { second(s, [](auto& b) { b.stiffness.k *= 0.5; }); }},
     {"barriers_swapped", swap_barriers},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 #include "schemes/plugin.hpp"
 
@@ -23,7 +24,7 @@ public:
         steps_per_row(settings);
         const String& s = scene.strings.front();
         modes_ = modes_of(s, settings);
-        shape_ = initial_displacement(modes_, s);
+        shape_ = start_of(modes_, s).displacement;
         for (int i = 0; i < modes_.count(); ++i) {
             const double sigma = modes_.sigma[i], omega0 = modes_.omega0[i],
                          T = 1 / settings.tap_rate;

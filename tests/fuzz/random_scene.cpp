@@ -91,10 +91,10 @@ void set_in_motion(Dice& d, String& s) {
     const double L = s.length;
     const int how = d.upto(10);
     if (how < 4) {
-        s.initial = ModeInitial{1 + d.upto(4), d.sign() * d.scale(1e-5, 3e-3, 100)};
+        s.start = ModeShape{1 + d.upto(4), d.sign() * d.scale(1e-5, 3e-3, 100)};
     } else if (how < 7) {
-        s.initial = TriangleInitial{d.between(0.05, 0.95) * L, d.sign() * d.scale(1e-5, 3e-3, 100),
-                                    d.chance(0.5) ? 0 : d.between(0, 0.2) * L};
+        s.start = TriangleShape{d.between(0.05, 0.95) * L, d.sign() * d.scale(1e-5, 3e-3, 100),
+                                d.chance(0.5) ? 0 : d.between(0, 0.2) * L};
     }
     if (how >= 6 && how < 9) {
         const double x = d.between(0.1, 0.9) * L;

@@ -33,8 +33,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const SceneFileError&) {}
     try {
         std::vector<double> x, y;
-        read_columns("table.csv", text, Column{"x_m", "x_m", any}, x,
-                     Column{"height_m", "height_m", any}, y);
+        const ColumnTo both[] = {{{"x_m", "x_m", any}, x}, {{"height_m", "height_m", any}, y}};
+        read_columns("table.csv", text, both);
     } catch (const SceneFileError&) {}
+    try {
+        const TableStart start = start_from("start.csv", text);
+        promise(start.at.size() == start.velocity.size(), "a row has a velocity", text);
+    } catch (const SceneFileError&) {}
+    for (const char* file : {"force.csv", "force.wav"}) try {
+            Pluck pluck;
+            force_from(file, std::string(reinterpret_cast<const char*>(data), size), pluck);
+            promise(pluck.time.size() == pluck.share.size(), "an instant has a force", text);
+        } catch (const SceneFileError&) {}
     return 0;
 }

@@ -9,6 +9,7 @@
 
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal_coefficients.hpp"
 #include "schemes/scheme.hpp"
@@ -70,7 +71,7 @@ public:
                 w = to_real(nut_force_weights(modes_, string_));
             taps_.push_back(w);
         }
-        y0_ = to_real(initial_displacement(modes_, string_));
+        y0_ = to_real(start_of(modes_, string_).displacement);
         PlainTwoPoint::reset();
     }
     void reset() noexcept override {

@@ -80,7 +80,7 @@ TEST(Oversampled, EstimatesNoLessThanItsErrorAgainstTheExactReference) {
 TEST(StandIn, IsTheSchemeThatErrsLeastAndSaysSoItself) {
     Scene one = c3_free();
     one.duration = 10e-3;
-    one.strings.front().initial = ModeInitial{4, 1e-3};
+    one.strings.front().start = ModeShape{4, 1e-3};
     one.taps = {{"nut", Quantity::nut_force, {}, 0}};
     Scene two = one;
     two.strings.push_back(two.strings.front());
@@ -113,7 +113,7 @@ TEST(StandIn, OfOneStringCarriesItsModes) {
 // a grid's dispersion is of second order
 TEST(Oversampled, SeesTheSchemesOrderWhereThereIsNoContact) {
     Scene scene = lossless(c3_free());
-    scene.strings.front().initial = TriangleInitial{0.3, 1e-3, 0.3};
+    scene.strings.front().start = TriangleShape{0.3, 1e-3, 0.3};
     scene.strings.front().bending_stiffness = 0;
     scene.duration = 5e-3;
     const Oversampled o =

@@ -16,6 +16,7 @@
 
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "schemes/run.hpp"
 
 namespace {
@@ -165,7 +166,7 @@ int main(int count_of_arguments, char** arguments) {
         s.damping =
             PolynomialDamping{std::pow(10, uniform(-2, 2)), std::pow(10, uniform(-4, -1)), 0};
         const int M = 1 + static_cast<int>(random() % 5);
-        s.initial = TriangleInitial{uniform(0.1, 0.9), uniform(0.5e-3, 3e-3), 0.02};
+        s.start = TriangleShape{uniform(0.1, 0.9), uniform(0.5e-3, 3e-3), 0.02};
         if (random() % 2)
             s.thread =
                 Thread{uniform(0.02, 0.2), 1e-3, std::pow(10, uniform(1, 5)), uniform(0, 2), 0};
@@ -173,7 +174,7 @@ int main(int count_of_arguments, char** arguments) {
         b.position = uniform(0.01, 0.5);
         b.stiffness.k = std::pow(10, uniform(3, 10));
         const Modes m = modes_of(s, M);
-        const auto g = footprint_weights(m, b.position, 0), y = initial_displacement(m, s);
+        const auto g = footprint_weights(m, b.position, 0), y = start_of(m, s).displacement;
         const Thread thread = s.thread.value_or(Thread{0.1, 1e-3, 0, 0, 0});
         const auto c = footprint_weights(m, thread.position, thread.width);
         const double first = m.omega0[0] / (2 * M_PI),

@@ -16,6 +16,7 @@
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "tests/c3.hpp"
 #include "tests/claims.hpp"
 
@@ -230,7 +231,10 @@ struct BruteForce {
     std::vector<double> thread, plucked, y, v;
     double impulse = 0;
     BruteForce(const String& string, int count)
-        : m(modes_of(string, count)), s(string), y(initial_displacement(m, string)), v(count, 0.0) {
+        : m(modes_of(string, count)),
+          s(string),
+          y(start_of(m, string).displacement),
+          v(count, 0.0) {
         for (const Barrier& b : s.barriers)
             g.push_back(footprint_weights(m, std::get<LumpedBarrier>(b).position,
                                           std::get<LumpedBarrier>(b).width));
@@ -360,7 +364,7 @@ TEST(ExactContact, TheC3ReleaseHasTheDigitsOfATwoBasisProgramInLongDouble) {
 
 TEST(ExactContact, AStringAtRestOnItsBarriersStaysAtRest) {
     Scene scene = c3();
-    scene.strings[0].initial.reset();
+    scene.strings[0].start.reset();
     scene.strings[0].barriers.push_back(LumpedBarrier{0.4, 1e-3, 0, {1e7}, 1, 0});
     scene.duration = 2e-3;
     const jvari::Run r = run(exact_contact, scene, settings(50));
@@ -373,7 +377,7 @@ TEST(ExactContact, WithoutLossesTheEnergyStaysAndWithThemTheLedgerCloses) {
     pressed.strings[0].pluck = Pluck{-0.6, 15e-3, 12, 0.2e-3, 0.02, 0.01};
     Scene tapped = lasting(few_modes(), 0.02);  // a pluck far shorter than the fastest period
     tapped.strings[0].pluck = Pluck{-30, 1e-5, 0, 1e-3, 0.4, 0.02};
-    tapped.strings[0].initial = ModeInitial{1, 1e-3};
+    tapped.strings[0].start = ModeShape{1, 1e-3};
     const std::vector<std::string> form{"exact_contact tolerance=1e-12"};
     const LedgerClaim::Open open{1e-13, 1e-12};
     holds(LedgerClaim("", form, {c3(false)}, {{0}, 44100, 133}, open, {.at_most = 0}, false, 20));
@@ -411,7 +415,7 @@ TEST(ExactContact, AContactThatCreepsUnderAStrongLossTakesAFewStepsAWindow) {
     s.tension = 1000;
     s.barriers = {LumpedBarrier{0.6, 0, 0, {2e7}, 1, 1000}};
     s.thread.reset();
-    s.initial = TriangleInitial{0.9, -7e-3, 0};
+    s.start = TriangleShape{0.9, -7e-3, 0};
     scene.duration = 5e-4;
     scene.taps.erase(scene.taps.begin() + 3);  // of the thread
     const jvari::Run r = run(exact_contact, scene, settings(5, "1e-10"));
@@ -448,7 +452,7 @@ TEST(ExactContact, ToleranceIsWhatTheTapsHoldForcesIncluded) {
     auto& b = std::get<LumpedBarrier>(s.barriers[0]);
     b.stiffness.k = 1.0548e9;
     b.position = 0.0621726;
-    s.initial = ModeInitial{1, 1.57438e-4};
+    s.start = ModeShape{1, 1.57438e-4};
     const jvari::Run fine = run(exact_contact, scene, settings(56, "1e-13"));
     for (const auto& [tolerance, most] : {std::pair("1e-6", 1e-6), std::pair("1e-8", 1e-8)}) {
         const jvari::Run r = run(exact_contact, scene, settings(56, tolerance));

@@ -35,7 +35,7 @@ TEST(ExactLinear, OneModeIsTheDampedOscillatorBelowAtAndAboveCriticalDamping) {
     for (double ratio : {0.0, 0.01, 1 - 1e-9, 1.0, 1 + 1e-9, 3.0}) {
         const double sigma = ratio * w0;
         Scene scene = one_string(TableDamping{"", {130.0}, {sigma}});
-        scene.strings[0].initial = ModeInitial{1, A};
+        scene.strings[0].start = ModeShape{1, A};
         const jvari::Run r = run(exact_linear, scene, settings(1));
         const double v = std::sin(0.3 * pi);
         for (long n = 0; n < r.trace.rows; n += 17) {
@@ -56,7 +56,7 @@ TEST(ExactLinear, OneModeIsTheDampedOscillatorBelowAtAndAboveCriticalDamping) {
 
 TEST(ExactLinear, HasNoPhaseErrorAfterMillionsOfPeriods) {
     Scene scene = one_string(TableDamping{"", {19876.5}, {0.0}});
-    scene.strings[0].initial = ModeInitial{1, 1.0};
+    scene.strings[0].start = ModeShape{1, 1.0};
     scene.duration = 100;
     const jvari::Run r = run(exact_linear, scene, settings(1, 10));
     const long double w = modes_of(scene.strings[0], 1).omega0[0];
@@ -97,7 +97,7 @@ TEST(ExactLinear, AnUnskewedPluckIsThreeComplexExponentials) {
 TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
     for (double skew : {0.0, 30.0, -30.0, 300.0}) {
         Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
-        scene.strings[0].initial = TriangleInitial{0.2, 1e-4, 0.01};
+        scene.strings[0].start = TriangleShape{0.2, 1e-4, 0.01};
         scene.strings[0].pluck = pluck(skew);
         scene.duration = 24 / 1225.0;
         const jvari::Run coarse = run(exact_linear, scene, settings(60, 1225)),
@@ -118,7 +118,7 @@ TEST(ExactLinear, TheLedgerClosesOverPluckAndDecayAlsoWithOverdampedModes) {
     sigma[3] = 2 * pi * f[3];
     sigma[11] = 4 * pi * f[11];
     Scene scene = one_string(TableDamping{"", f, sigma});
-    scene.strings[0].initial = ModeInitial{2, 1e-4};
+    scene.strings[0].start = ModeShape{2, 1e-4};
     scene.strings[0].pluck = pluck(30);
     holds(
         LedgerClaim("", {"exact_linear"}, {scene}, {{0}, 44100, 12}, {1e-14}, {.more_than = 0.1}));

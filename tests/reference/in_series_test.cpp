@@ -58,7 +58,7 @@ TEST(InSeries, ExactContactAndSundialsAgreeOnWhatIsMatched) {
 TEST(InSeries, TheyAgreeOnSeveralBarriers) {
     Scene scene = with(1, 1.2, true);
     scene.duration = 6e-3;
-    scene.strings.front().initial = ModeInitial{3, 5e-4};
+    scene.strings.front().start = ModeShape{3, 5e-4};
     scene.strings.front().barriers.push_back(LumpedBarrier{14e-3, 2e-3, 3e-6, {2e6}, 1, 0});
     const auto a = exact(scene, 20), b = integrated(scene, 20);
     EXPECT_EQ(fact(a, "events"), fact(b, "events"));
@@ -132,7 +132,7 @@ TEST(InSeries, AStringAtRestYieldsByTheTrueCompliance) {
     Scene scene = c3_release();
     String& s = scene.strings.front();
     s.damping = PolynomialDamping{300, 0, 0};
-    s.initial.reset();
+    s.start.reset();
     barrier(scene) = {10e-3, 2e-3, 1e-4, {1e5}, 1, 0};
     s.thread->height = -2e-5;
     scene.duration = 0.25;

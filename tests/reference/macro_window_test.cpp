@@ -10,6 +10,7 @@
 #include "reference/exact/crossing.hpp"
 #include "reference/exact/macro_window.hpp"
 #include "reference/exact/touching_set.hpp"
+#include "scenes/start.hpp"
 #include "tests/c3.hpp"
 
 namespace jvari {
@@ -23,7 +24,7 @@ double split_against_steps(int windows, int terms, double until, double stiffnes
     const String& s = scene.strings.front();
     const Modes modes = modes_of(s, 133);
     MacroWindow w(modes, s, 1 / 44100.0, 1e-12, {}, windows, terms);
-    std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0);
+    std::vector<double> y = w.osc.pad(start_of(modes, s).displacement), u(w.osc.padded, 0.0);
     w.open(y.data(), u.data(), false, 0);
     std::vector<double> r(w.free_motion(0), w.free_motion(0) + w.stride), path(w.stride),
         m(w.stride);
@@ -153,12 +154,12 @@ double after_rows(int rows, int terms, double& truncation) {
     String s = c3_release().strings.front();
     s.linear_density = 7.58e-3;
     s.damping = PolynomialDamping{0.2, 1e-2, 0};
-    s.initial = TriangleInitial{0.4, 1.5e-3, 0.02};
+    s.start = TriangleShape{0.4, 1.5e-3, 0.02};
     s.barriers = {LumpedBarrier{0.37, 0, 0, {1e8}, 1, 0}};
     s.thread = Thread{0.0244, 1e-3, 7.2e4, 0.22, 0};
     const Modes modes = modes_of(s, 2);
     MacroWindow w(modes, s, 1 / 4000.0, 1e-12, {}, 1, terms);
-    std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0),
+    std::vector<double> y = w.osc.pad(start_of(modes, s).displacement), u(w.osc.padded, 0.0),
                         none(2 * w.stride, 0.0);
     for (int row = 0; row < rows; ++row) {
         w.open(y.data(), u.data(), false, 0);
@@ -189,7 +190,7 @@ TEST(MacroWindow, APointThatNoModeMovesLeavesTheOthersAsTheyWere) {
         if (fixed) s.barriers.push_back(LumpedBarrier{0, -1, 0, {1e7}, 1, 0});
         s.thread.reset();
         MacroWindow w(modes, s, 1 / 44100.0, 1e-10);
-        std::vector<double> y = w.osc.pad(initial_displacement(modes, s)), u(w.osc.padded, 0.0),
+        std::vector<double> y = w.osc.pad(start_of(modes, s).displacement), u(w.osc.padded, 0.0),
                             M(2 * w.stride, 0.0);
         for (int n = 0; n < w.terms; ++n) M[n] = 1e-2 * inverse_factorial[n + 1];
         w.open(y.data(), u.data(), false, 0);

@@ -91,7 +91,7 @@ TEST(ProfilePoints, RefuseWhatComesToNoneOrTooMany) {
 TEST(ProfileReferences, AgreeOnALinearProfile) {
     String s = ideal_string();
     s.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0, 0.1, {1e8}, 1, 0}};
-    s.initial = TriangleInitial{0.2, 3e-3, 0.05};
+    s.start = TriangleShape{0.2, 3e-3, 0.05};
     const Scene scene = scene_of(s, 3e-3);
     const auto truth = play("exact_contact nodes=12", scene, {0, 44100, 30, {}}),
                r = play("sundials nodes=12", scene, {0, 44100, 30, {}});
@@ -137,7 +137,7 @@ struct Wrap {
             table.height.push_back(h - c * xi * xi);
         }
         s.barriers = {ProfileBarrier{table, 0.5 * length - 0.2, 0.5 * length + 0.2, {K}, 1, 0}};
-        s.initial = ModeInitial{1, 6e-3};
+        s.start = ModeShape{1, 6e-3};
         Scene scene = scene_of(s, 40e-3);
         scene.taps = {{"bridge", Quantity::bridge_force, 0, 0}, {"nut", Quantity::nut_force, 0, 0}};
         for (int i = 0; i <= taps; ++i)
@@ -199,7 +199,7 @@ TEST(StaticWrap, HasTheForceAndTheLengthOfItsClosedForm) {
 TEST(FlatObstacle, ReflectsTheFirstModeAsItsClosedFormSays) {
     String s = ideal_string();
     const double A = 3e-3, omega = pi * wave_speed(s) / s.length;
-    s.initial = ModeInitial{1, A};
+    s.start = ModeShape{1, A};
     for (const double K : {1e5, 1e11}) {
         s.barriers = {ProfileBarrier{FlatCurve{}, 0, s.length, {K}, 1, 0}};
         const double stiff = std::sqrt(omega * omega + K / s.linear_density),
@@ -231,7 +231,7 @@ TEST(FlatObstacle, ThrowsAPluckedStringBackTheWayItCame) {
     String s = ideal_string();
     const double A = 3e-3, h = 1.2e-3, c = wave_speed(s), L = s.length,
                  period = L / c * (1 + h / A);
-    s.initial = TriangleInitial{0.5 * L, A, 0};
+    s.start = TriangleShape{0.5 * L, A, 0};
     const auto triangle = [&](double x) {  // odd, 2L periodic
         x = std::remainder(x, 2 * L);
         return std::copysign(A * (1 - std::abs(2 * std::abs(x) / L - 1)), x);

@@ -8,7 +8,7 @@ namespace {
 
 Scene over(const std::string& stiffness) {
     Scene scene = read_scene("two_point_bridge",
-                             {"string.0.barrier.0.exponent=1", "string.0.initial.smoothing=0.1",
+                             {"string.0.barrier.0.exponent=1", "string.0.start.smoothing=0.1",
                               "string.0.barrier.0.stiffness=" + stiffness});
     scene.duration = 12e-3;
     return scene;
@@ -56,7 +56,7 @@ TEST(RigidBarrier, TwoPointsAreSolvedTogether) {
 TEST(RigidBarrier, ACornerAndAPointInTheOpenStringAskForMoreModes) {
     for (const bool corner : {true, false}) {
         Scene scene = over("rigid");
-        if (corner) std::get<TriangleInitial>(*scene.strings[0].initial).smoothing = 0;
+        if (corner) std::get<TriangleShape>(*scene.strings[0].start).smoothing = 0;
         else std::get<LumpedBarrier>(scene.strings[0].barriers[0]).position = 0.4;
         const auto truth = motion("exact_contact", scene, 500, "matched");
         const double matched =

@@ -1,5 +1,6 @@
 // Modes of the free string against the figures that the papers print.
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,7 @@ TEST(Modes, TooManyOfThemAreASentenceAboutThem) {
 }
 
 TEST(Triangle, CoefficientsFallByTheSquareOfTheModeHoweverHigh) {  // A/n^2 sin(beta x0)
-    const TriangleInitial t{0.5, 1e-3, 0};
+    const TriangleShape t{0.5, 1e-3, 0};
     for (const int mode : {1, 46341, 65535, 65537, 1048575}) {  // odd: sin = 1 or -1
         const double n = mode;
         EXPECT_NEAR(std::abs(coefficient(t, 1, mode)) * n * n, std::abs(coefficient(t, 1, 1)),
@@ -87,9 +88,9 @@ TEST(Modes, FootprintWeightIsTheIntegralOfShapeTimesFootprintAlsoAtItsLimit) {
 
 TEST(Modes, SmoothedTriangleStartsFromThePluckedShape) {
     String s = c3();
-    s.initial = TriangleInitial{0.3, 1e-3, 0.0};
+    s.start = TriangleShape{0.3, 1e-3, 0.0};
     const Modes m = modes_of(s, 20000);
-    const auto y = initial_displacement(m, s);
+    const auto y = start_of(m, s).displacement;
     for (double x : {0.1, 0.3, 0.65}) {
         const auto v = displacement_weights(m, x);
         double sum = 0;

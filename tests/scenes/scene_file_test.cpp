@@ -101,10 +101,10 @@ TEST(Library, TheC3StringIsTable1) {
     EXPECT_TRUE(s.barriers.at(0) == Barrier(LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1, 0}));
     EXPECT_TRUE(s.thread == (Thread{5e-3, 1.2e-3, 1.2e5, 1.2, 0}));
     EXPECT_TRUE(s.pluck == (Pluck{-0.4, 50e-3, 30, 0, 0.5, 1.0}));
-    EXPECT_FALSE(s.initial);
+    EXPECT_FALSE(s.start);
     EXPECT_EQ(scene.taps.size(), 4u);
     const Scene release = read_scene("tanpura_c3_release");
-    EXPECT_TRUE(release.strings.at(0).initial == Initial(ModeInitial{1, 1.9e-3}));
+    EXPECT_TRUE(release.strings.at(0).start == Start(ModeShape{1, 1.9e-3}));
     EXPECT_FALSE(release.strings.at(0).pluck);
 }
 
@@ -170,7 +170,7 @@ width = 1e-3
 stiffness = 1e5
 damping = 0.5
 height = 1e-5
-[string.initial]
+[string.start]
 shape = "triangle"
 position = 0.3
 amplitude = -1e-3
@@ -192,7 +192,7 @@ tension = 40
 damping = {law = "per_period", factor = 0.99}
 barrier = [{shape="profile", curve="line", coefficient=-0.01, from=0,to=0.01,stiffness_density=1e9},
            {shape = "profile", curve = "flat", from = 0.9, to = 1, stiffness_density = 1e9}]
-initial = {shape = "mode", number = 3, amplitude = 1e-3}
+start = {shape = "mode", number = 3, amplitude = 1e-3}
 [[tap]]
 name = "v"
 quantity = "velocity"
@@ -219,7 +219,7 @@ TEST(WriteScene, EveryKeyOfTheSchemaSurvives) {
     EXPECT_EQ(scene.strings[0].polarisation->pluck_angle, 0.2);
     EXPECT_EQ(std::get<ProfileBarrier>(scene.strings[0].barriers[1]).stiffness.K,
               12345678901234567000.0);
-    EXPECT_EQ(std::get<ModeInitial>(*scene.strings[1].initial).number, 3);
+    EXPECT_EQ(std::get<ModeShape>(*scene.strings[1].start).number, 3);
     EXPECT_EQ(scene.taps[1].string, std::nullopt);
     EXPECT_EQ(scene.body->nut, "nut.wav");
     EXPECT_TRUE((scene.body->modes == std::vector<BodyMode>{{0.25, 1.5e5, 6}, {0.1, 4e5, 0}}));
@@ -333,11 +333,11 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
 TEST(Overrides, NumbersAreReadWholeAndByTens) {
     const std::string base = "tanpura_c3_release";
     EXPECT_EQ(read_scene(base, {"string.0.length=010"}).strings[0].length, 10);
-    EXPECT_EQ(read_scene(base, {"string.0.initial={shape=\"mode\",number=2,amplitude=1e-3}",
-                                "string.0.initial.number=3e0"})
+    EXPECT_EQ(read_scene(base, {"string.0.start={shape=\"mode\",number=2,amplitude=1e-3}",
+                                "string.0.start.number=3e0"})
                   .strings[0]
-                  .initial,
-              Initial(ModeInitial{3, 1e-3}));
+                  .start,
+              Start(ModeShape{3, 1e-3}));
     for (const char* text : {"0x10", "1_0", "1e400", "nan", "inf", "0,5"})
         EXPECT_THROW(read_scene(base, {std::string("string.0.length=") + text}), std::runtime_error)
             << text;
@@ -349,14 +349,14 @@ TEST(Overrides, SetValuesByPathAlsoAbsentOnes) {
                                   "string.0.polarisation.rotation=0.1", "name=other-name",
                                   "source=\"quoted\"", "tap.4.name=v", "tap.4.quantity=velocity",
                                   "tap.4.string=0", "tap.4.position=0.1",
-                                  "string.0.initial={shape='mode', number=2, amplitude=1e-3}"});
+                                  "string.0.start={shape='mode', number=2, amplitude=1e-3}"});
     EXPECT_EQ(std::get<LumpedBarrier>(scene.strings[0].barriers[0]).stiffness.k, 1e9);
     EXPECT_EQ(scene.duration, 2);
     EXPECT_EQ(scene.strings[0].polarisation->rotation, 0.1);
     EXPECT_EQ(scene.name, "other-name");
     EXPECT_EQ(scene.source, "quoted");
     EXPECT_EQ(scene.taps.at(4).quantity, Quantity::velocity);
-    EXPECT_TRUE(scene.strings[0].initial == Initial(ModeInitial{2, 1e-3}));
+    EXPECT_TRUE(scene.strings[0].start == Start(ModeShape{2, 1e-3}));
     EXPECT_TRUE(scene.strings[0].pluck);
 }
 
@@ -376,8 +376,8 @@ TEST(Overrides, ChoosingAnotherLawOrShapeLeavesTheKeysOfTheFormerUnread) {
     const Scene flat = read_scene("sitar_c5", {"string.0.barrier.0.curve=flat"});
     EXPECT_TRUE(std::get<ProfileBarrier>(flat.strings[0].barriers[0]).curve == Curve(FlatCurve{}));
     const Scene mode =
-        read_scene("free_string", {"string.0.initial.shape=mode", "string.0.initial.number=5"});
-    EXPECT_TRUE(mode.strings[0].initial == Initial(ModeInitial{5, 1e-3}));
+        read_scene("free_string", {"string.0.start.shape=mode", "string.0.start.number=5"});
+    EXPECT_TRUE(mode.strings[0].start == Start(ModeShape{5, 1e-3}));
 }
 
 TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {

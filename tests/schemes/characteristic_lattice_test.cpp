@@ -42,7 +42,7 @@ TEST(CharacteristicLattice, TendsToTheClosedFormUntilTheEndsAreHeard) {
     // times the waves' speed.
     Scene scene = read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"});
     std::get<ProfileBarrier>(scene.strings[0].barriers[0]).to = 0.25;
-    scene.strings[0].initial = TriangleInitial{0.075, 2e-3, 0};
+    scene.strings[0].start = TriangleShape{0.075, 2e-3, 0};
     scene.taps = {tap(Quantity::displacement, 0.15)};
     scene.duration = 0.88 * across;
     const double tap_rate = 441000;

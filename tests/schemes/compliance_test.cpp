@@ -79,7 +79,7 @@ TEST_P(Matched, AStringAtRestYieldsByTheTrueCompliance) {
         Scene scene = lasting(c3_release(), 0.25);
         String& s = scene.strings.front();
         s.damping = PolynomialDamping{300, 0, 0};
-        s.initial.reset();
+        s.start.reset();
         barrier(scene) = {10e-3, 2e-3, 1e-4, {exponent == 1 ? 1e5 : 3e6}, exponent, 0};
         s.thread->height = -2e-5;
         scene.taps.push_back({"near", Quantity::displacement, 0, 9.5e-3});

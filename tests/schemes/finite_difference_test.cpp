@@ -257,7 +257,7 @@ TEST(GridContact, ForceOfAProfileIsTheIntegralOfItsDensityOverTheString) {
     Scene scene = lossless(c3_free());
     scene.duration = 0.002;
     String& s = scene.strings.front();
-    s.initial = ModeInitial{2, 1e-3};
+    s.start = ModeShape{2, 1e-3};
     const double K = 1e5, from = 0.55, to = 0.9, slope = -2e-4;
     s.barriers = {ProfileBarrier{LineCurve{slope}, from, to, {K}, 1.5, 0}};
     scene.taps = {{"bridge", Quantity::bridge_force, 0, 0}};
@@ -332,7 +332,7 @@ TEST(GridContact, MomentumOfTheStringIsTheImpulseOfAllForces) {
         String& s = scene.strings.front();
         s.tension = 1e-3;
         s.bending_stiffness = 0;
-        s.initial = ModeInitial{1, 1e-3};
+        s.start = ModeShape{1, 1e-3};
         s.thread = Thread{0.5, 1.0, 50, 0, 0};
         scene.duration = 0.004;
         scene.taps = {{"thread", Quantity::thread_force, 0, 0}};

@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-Scene heard(Scene scene, const Initial& initial, double seconds) {
-    scene.strings.front().initial = initial;
+Scene heard(Scene scene, const Start& start, double seconds) {
+    scene.strings.front().start = start;
     scene.taps = {{"y", Quantity::displacement, 0, 0.3},
                   {"v", Quantity::velocity, 0, 0.3},
                   {"nut", Quantity::nut_force, 0, 0}};
@@ -35,7 +35,7 @@ struct ExactClaim {
 
 std::vector<ExactClaim> claims() {
     const Scene lossy = c3_free(), quiet = lossless(c3_free());
-    const Initial wide = TriangleInitial{0.2, 2e-3, 0.02};
+    const Start wide = TriangleShape{0.2, 2e-3, 0.02};
     const std::string two = "modal_two_point", three = "modal_quadratised levels=3",
                       newton = "modal_spatial_newton";
     std::vector<ExactClaim> all{
@@ -45,7 +45,7 @@ std::vector<ExactClaim> claims() {
         // omega0 of mode 1 is 822/s
         {"QuadratisedInThreeLevelsOverdamped",
          three,
-         heard(with_damping(lossy, PolynomialDamping{1500, 0, 0}), ModeInitial{1, 1e-3}, 0.01),
+         heard(with_damping(lossy, PolynomialDamping{1500, 0, 0}), ModeShape{1, 1e-3}, 0.01),
          44100,
          1,
          {0},
@@ -73,7 +73,7 @@ std::vector<ExactClaim> claims() {
     for (const int times : {1, 64})
         for (const int mode : {1, 61, 133})
             all.push_back({"TwoPointInMode" + std::to_string(mode) + "At" + std::to_string(times),
-                           two, heard(quiet, ModeInitial{mode, 1e-3}, 0.5), times * 44100.0, 133});
+                           two, heard(quiet, ModeShape{mode, 1e-3}, 0.5), times * 44100.0, 133});
     return all;
 }
 void PrintTo(const ExactClaim& c, std::ostream* out) { *out << c.name; }
@@ -107,7 +107,7 @@ TEST(OwnRelation, IsWhatTheTraceOfAModeFollowsFromRowToRow) {
         for (const Descriptor& d : table)
             for (const Scene& base : {lossless(c3_free()), c3_free()})
                 for (int mode = 1; mode <= 30; ++mode) {
-                    const Scene scene = heard(base, ModeInitial{mode, 1e-3}, 0.02);
+                    const Scene scene = heard(base, ModeShape{mode, 1e-3}, 0.02);
                     const Settings s{44100, 44100, 133, {}};
                     if (!represents(d, scene) || !refusal(d.name, scene, s).empty()) break;
                     if (make_scheme(d, scene, s)->free_modes().empty()) break;
@@ -130,7 +130,7 @@ TEST(OwnRelation, OfALosslessModeIsACosineFromTheFirstSample) {
     for (const char* form : {"modal_two_point_trapezoidal", "finite_difference_explicit",
                              "finite_difference_theta", "finite_difference_hamiltonian"})
         for (const int mode : {1, 7, 23, 51}) {
-            const Scene scene = heard(lossless(c3_free()), ModeInitial{mode, 1e-3}, 0.1);
+            const Scene scene = heard(lossless(c3_free()), ModeShape{mode, 1e-3}, 0.1);
             const double omega = own_mode(form, scene, mode).omega;
             const auto r = play(form, scene, {44100, 44100, 133, {}});
             const auto y = r.trace.column(0);
@@ -174,7 +174,7 @@ TEST(OwnRelation, OfTheTunedThetaIsFarNearerToTheStringThanThatOfTheExplicitGrid
 TEST(Velocities, OfTwoPointAreWarpedByTheTangent) {
     for (const double rate : {44100.0, 64 * 44100.0})
         for (const int mode : {1, 61, 133}) {
-            const Scene scene = heard(lossless(c3_free()), ModeInitial{mode, 1e-3}, 0.5);
+            const Scene scene = heard(lossless(c3_free()), ModeShape{mode, 1e-3}, 0.5);
             const double omega = modes_of(scene.strings.front(), mode).omega0.back(),
                          amplitude = 1e-3 * std::sin(mode * pi * 0.3) * 2 * rate *
                                      std::tan(omega / (2 * rate));
@@ -187,7 +187,7 @@ TEST(Velocities, OfTwoPointAreWarpedByTheTangent) {
 }
 
 TEST(Velocities, OfQuadratisedFormsInThreeLevelsAreSecondOrderDifferences) {  // low modes
-    const Scene scene = heard(c3_free(), TriangleInitial{0.2, 2e-3, 0.02}, 0.01);
+    const Scene scene = heard(c3_free(), TriangleShape{0.2, 2e-3, 0.02}, 0.01);
     const auto r = play("modal_quadratised levels=3", scene, {16 * 44100, 44100, 5, {}});
     const auto y = r.trace.column(0), v = r.trace.column(1);
     EXPECT_EQ(v[0], 0);

@@ -73,7 +73,7 @@ Scene over_two_bridges(double seconds, double beta = 0) {
 Scene crowded() {
     Scene scene = c3_pluck();
     String& s = scene.strings.front();
-    s.initial = ModeInitial{1, 1.9e-3};
+    s.start = ModeShape{1, 1.9e-3};
     s.barriers = {LumpedBarrier{10e-3, 2e-3, 0, {4.39e8}, 1.3, 0},
                   LumpedBarrier{14e-3, 30e-3, -1e-6, {1e9}, 1.5, 0},
                   ProfileBarrier{ParabolaCurve{0.1}, 0.02, 0.12, {1e10}, 1.0, 0}};
@@ -96,13 +96,13 @@ Scene slow() {
     s.tension = 0.17;
     s.bending_stiffness = 0;
     s.damping = PolynomialDamping{3.2, 3.9e-3, 8e-6};
-    s.initial = ModeInitial{4, 2e-4};
+    s.start = ModeShape{4, 2e-4};
     return scene;
 }
 
 Scene free_mode() {
     Scene scene = lasting(lossless(c3_free()), 2e-3);
-    scene.strings.front().initial = ModeInitial{1, 1e-3};
+    scene.strings.front().start = ModeShape{1, 1e-3};
     return scene;
 }
 
@@ -136,7 +136,7 @@ std::vector<Scene> whatever_beside_a_parabola() {
                 if (exponent == 1) profile.stiffness.K = 1e10;
                 if (thread) s.thread = Thread{25e-3, 1.2e-3, 1.2e5, 1.2, 0};
                 if (pluck) {
-                    s.initial.reset();
+                    s.start.reset();
                     s.pluck = Pluck{-0.4, 10e-3, 30.0, 1e-3, 30e-3, 10e-3};
                 }
                 all.push_back(scene);
@@ -150,7 +150,7 @@ std::vector<Scene> creeping() {
     Scene one = lasting(c3_free(), 2e-3);
     String& s = one.strings[0];
     s.tension = 1000;
-    s.initial = TriangleInitial{0.9, -7e-3, 0};
+    s.start = TriangleShape{0.9, -7e-3, 0};
     s.barriers = {LumpedBarrier{0.6, 0, 0, {2e7}, 1, 1000}};
     Scene two = one;
     two.strings[0].barriers.emplace_back(LumpedBarrier{0.62, 0, 0, {1e7}, 1.5, 3000});
@@ -168,7 +168,7 @@ Scene gliding(bool fretted, bool plucked) {
         scene.strings[0].barriers = {LumpedBarrier{0.0364, 2e-3, -5e-4, {1e7}, 1, 0},
                                      LumpedBarrier{0.1, 2e-3, -1e-3, {1e7}, 1.3, 0}};
     if (plucked) {
-        scene.strings[0].initial.reset();
+        scene.strings[0].start.reset();
         scene.strings[0].pluck = Pluck{20, 4e-3, 3, 1e-3, 0.45, 0.01};
     }
     return scene;
@@ -297,7 +297,7 @@ TEST(StoredEnergy, OfQuadratisedFormsStartsAsThatOfTheShape) {
 
 TEST(StoredEnergy, OfAFreeModeOnAGridIsThatOfTheContinuousString) {
     Scene scene = lasting(lossless(c3_free()), 0.005);
-    scene.strings.front().initial = ModeInitial{3, 1e-3};
+    scene.strings.front().start = ModeShape{3, 1e-3};
     const Modes m = modes_of(scene.strings.front(), 3);
     const double want = 0.5 * m.mass * std::pow(m.omega0[2] * 1e-3, 2),
                  second_order = 0.5 * std::pow(m.omega0[2] / 44100, 2);

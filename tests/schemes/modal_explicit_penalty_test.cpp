@@ -1,5 +1,6 @@
 // A control: the explicit penalty fails where theory says.
 #include "scenes/modes.hpp"
+#include "scenes/start.hpp"
 #include "tests/c3.hpp"
 #include "tests/runs.hpp"
 
@@ -41,7 +42,7 @@ TEST(ExplicitPenalty, TheBoundaryOfLastingContactIsWithinOnePercentOfTheory) {
             const double rest =
                 e * k * g * 1e-3 / (num + e * k * g * g + (thread ? e * 4e4 * gc * gc : 0));
             ASSERT_GT(1e-3 - g * rest, 0);  // in contact
-            s.strings.front().initial = ModeInitial{1, rest * (1 + 1e-9)};
+            s.strings.front().start = ModeShape{1, rest * (1 + 1e-9)};
             s.duration = 0.05;
             const auto r = play(penalty, s, {rate, 44100, 1, {}});
             double largest = 0;  // distance from equilibrium in units of the first
@@ -61,13 +62,13 @@ TEST(ExplicitPenalty, AStringOfSeveralModesPressedOnAPointIsQuietBelowTheLimitAn
     Scene s = lossless(c3_free());
     // then a point load bends the string into the triangle
     s.strings.front().bending_stiffness = 0;
-    s.strings.front().initial = TriangleInitial{0.3, 1e-3, 0};
+    s.strings.front().start = TriangleShape{0.3, 1e-3, 0};
     s.strings.front().barriers = {LumpedBarrier{0.3, 0, 0, {1}, 1, 0}};
     s.duration = 0.5;
     const double rate = 11025, load = 33.1 * 1e-3 / (0.3 * 0.7);
     const int count = 5;
     const Modes m = modes_of(s.strings.front(), count);
-    const auto y0 = initial_displacement(m, s.strings.front()), w = displacement_weights(m, 0.3);
+    const auto y0 = start_of(m, s.strings.front()).displacement, w = displacement_weights(m, 0.3);
     double y = 0;
     for (int i = 0; i < count; ++i) y += w[i] * y0[i];
     for (double part : {0.5, 0.9, 0.99, 1.01, 1.1}) {
@@ -116,7 +117,7 @@ TEST(ExplicitPenalty, ImpactsGainEnergyEvenAboveTheRateOfTheLimit) {
 // Softly touched in three places.
 TEST(ExplicitPenalty, ALossTakesEnergyAndIsAccountedFor) {
     Scene scene = lasting(lossless(c3_free()), 0.01);
-    scene.strings.front().initial = ModeInitial{1, 1.9e-3};
+    scene.strings.front().start = ModeShape{1, 1.9e-3};
     scene.strings.front().barriers = {LumpedBarrier{10e-3, 2e-3, 0, {1e4}, 1.5, 0},
                                       LumpedBarrier{0.03, 0, 1e-5, {2e4}, 1, 0},
                                       LumpedBarrier{0.4, 0.02, 1e-4, {5e3}, 2, 0}};

@@ -46,7 +46,7 @@ Run steps(const Scene& scene, double rate, double tap_rate, int modes) {
 TEST(ModalSpatialNewton, OverdampedModesAreExactInTheDenseForm) {
     Scene scene = lasting(c3_free(), 0.2);
     scene.strings[0].damping = PolynomialDamping{3 * pi * 131, 0, 0};  // mode 1, the others not
-    scene.strings[0].initial = TriangleInitial{0.2, 1e-3, 0.02};
+    scene.strings[0].start = TriangleShape{0.2, 1e-3, 0.02};
     scene.taps.push_back({"v", Quantity::velocity, 0, 0.3});
     const auto r = dense(scene, {44100, 88.2, 20, {}}),
                truth = play("exact_linear", scene, {0, 88.2, 20, {}});
@@ -59,7 +59,7 @@ TEST(ModalSpatialNewton, OverdampedModesAreExactInTheDenseForm) {
 TEST(ModalSpatialNewton, AModeAboveNyquistAliases) {
     Scene scene = lasting(lossless(c3_free()), 0.1);
     scene.strings[0].bending_stiffness = 0;
-    scene.strings[0].initial = ModeInitial{30, 1e-3};
+    scene.strings[0].start = ModeShape{30, 1e-3};
     scene.taps = {{"y", Quantity::displacement, 0, 0.31}};
     const double f = 30 * std::sqrt(33.1 / 4.83e-4) / 2, rate = 5000;  // 3927 Hz sounds as 1073 Hz
     const auto r = steps(scene, rate, rate, 40);
@@ -130,7 +130,7 @@ TEST(ModalSpatialNewton, EveryInstructionSetOfThisMachineAgreesWithTheDenseForm)
 
 TEST(ModalSpatialNewton, TheLedgerOfBothFormsClosesWithEveryLossAndAPluck) {
     Scene scene = with_loss(tanpura(0.03), 5.0);
-    scene.strings[0].initial.reset();
+    scene.strings[0].start.reset();
     scene.strings[0].pluck = Pluck{-0.4, 10e-3, 3, 1e-3, 0.5, 1.0};
     const Settings settings{88200, 44100, 60, {}};
     const RunOptions probed{.energy = true};

@@ -38,7 +38,7 @@ TEST(ModalTension, OneModeHasTheFrequencyOfTheEllipticFunctionWhateverTheAmplitu
     for (const double a : {1e-3, 5e-3, 1e-2}) {
         Scene scene = lasting(read_scene("steel_string_glide"), 0.25);
         scene.strings[0].damping = NoDamping{};
-        scene.strings[0].initial = ModeInitial{1, a};
+        scene.strings[0].start = ModeShape{1, a};
         const double exact = elliptic_frequency(scene, a);
         glide_in_cents = 1200 * std::log2(exact / modes_of(scene.strings[0], 1).omega0[0]);
         for (const char* name : {"modal_tension", "sundials"}) {

@@ -28,7 +28,7 @@ TEST(ModalTwoPoint, ReportsThePhaseOffsetOfAStartFromRest) {
     // And it is what the trace shows: y(t) = A cos(omega t + phi) exp(-sigma t)/cos(phi), phi from
     // two samples of one mode.
     const int number = 120;
-    scene.strings.front().initial = ModeInitial{number, 1e-3};
+    scene.strings.front().start = ModeShape{number, 1e-3};
     const auto r = play("modal_two_point", scene, {44100, 44100, number, {}});
     const Modes modes = modes_of(scene.strings.front(), number);
     const double sigma = modes.sigma.back(),
@@ -48,7 +48,7 @@ TEST(ModalTwoPoint, OverdampedModesDecayAlongTheirTwoRealRoots) {
     // sigma > omega0 = 822 rad/s for the first two modes
     s.damping = PolynomialDamping{2000, 0, 0};
     for (const int number : {1, 2, 3}) {
-        s.initial = ModeInitial{number, 1e-3};
+        s.start = ModeShape{number, 1e-3};
         const auto r = play("modal_two_point", scene, {44100, 44100, 10, {}});
         const double w0 = modes_of(s, 10).omega0[number - 1], dt = 1 / 44100.0,
                      R2 = std::exp(-2 * 2000 * dt), root = std::sqrt(std::abs(w0 * w0 - 4e6));

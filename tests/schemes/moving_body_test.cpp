@@ -32,7 +32,7 @@ Scene instrument() {
     Scene scene = c3_release();
     scene.name = "three_on_a_body";
     String still = scene.strings.front();
-    still.initial.reset();
+    still.start.reset();
     String low = still;
     low.tension *= 0.5625;
     scene.strings = {scene.strings.front(), still, low};
@@ -54,7 +54,7 @@ Trace probed(const std::string& name, const Scene& scene, double seconds) {
 
 std::vector<LedgerClaim> claims() {
     Scene plucked = lasting(instrument(), 0.1);
-    plucked.strings[0].initial.reset();
+    plucked.strings[0].start.reset();
     plucked.strings[0].pluck = Pluck{-0.4, 20e-3, 30.0, 0.0, 0.5, 1.0};
     plucked.strings[2].pluck = Pluck{-0.3, 10e-3, 20.0, 5e-3, 0.2, 0.1};
     Scene no_thread = lasting(lossless_instrument(), 0.05);
@@ -116,7 +116,7 @@ TEST(MovingBody, TheDifferenceOfTwoStringsAlikeDoesNotMoveIt) {
         Scene scene = instrument();
         for (String& s : scene.strings) s.barriers.clear(), s.thread.reset();
         scene.strings = {scene.strings[0], scene.strings[0]};
-        std::get<ModeInitial>(*scene.strings[1].initial).amplitude *= -1;
+        std::get<ModeShape>(*scene.strings[1].start).amplitude *= -1;
         scene.taps = {{"y", Quantity::displacement, 0, 0.3}, {"support", Quantity::velocity, 0, 0}};
         const Trace t = probed(name, scene, 0.1);
         EXPECT_LT(largest(t.column(1)), 1e-12) << name;
@@ -171,7 +171,7 @@ TEST(MovingBody, PartialsOfAStringOnASpringWithAMassAreThoseOfTheClosedForm) {
     Scene scene = lossless(c3_free());
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
-    s.initial = TriangleInitial{0.31, 1e-3, 0};
+    s.start = TriangleShape{0.31, 1e-3, 0};
     // twice the string's mass; a spring to its first partial, a mass to those above 2
     const BodyMode light = resonance(200, 1e-3, 0);
     scene.body = Body{"", "", {light}};
@@ -238,7 +238,7 @@ TEST(MovingBody, TheDroneConvergesToItsReferenceAtTheOrderOfTheSingleString) {
     drone.taps = {{"nut", Quantity::nut_force, {}, 0}};
     for (String& s : drone.strings) {
         s.pluck.reset();
-        s.initial = ModeInitial{1, 1.9e-3};
+        s.start = ModeShape{1, 1.9e-3};
     }
     Scene one = drone;
     one.strings = {drone.strings[1]};

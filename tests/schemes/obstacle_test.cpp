@@ -39,13 +39,14 @@ void balances(int levels, bool threaded, double beta) {
         const Points p = points_of(random, threaded, beta);
         const int n = p.count();
         Obstacle obstacle(p.contacts, p.threads(), p.theta, span, levels, rule_with<Rule>({}));
+        const std::vector<double> nothing(n, 0.0);
         std::vector<double> older(n), now(n), free(n), force(n), newer(n);
         for (int k = 0; k < n; ++k) {
             older[k] = 1e-4 * unit(random);
             free[k] = 1e-4 * unit(random);
             now[k] = levels == 1 ? older[k] : older[k] + 0.5 * free[k];
         }
-        obstacle.begin(older.data());
+        obstacle.begin(older.data(), nothing.data(), nothing.data());
         const double before = obstacle.potential(older.data());
         ASSERT_TRUE(obstacle.solve({older.data(), now.data(), free.data()}, force.data()));
         double work = 0;
@@ -93,7 +94,8 @@ TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h -
             .halved(ThreadStart::taut, half, nullptr);
     const std::vector<double> older(n, 2e-4), free(n, -3e-4);
     std::vector<double> force(n);
-    start.begin(older.data());
+    const std::vector<double> nothing(n, 0.0);
+    start.begin(older.data(), nothing.data(), nothing.data());
     ASSERT_TRUE(start.start({older.data(), older.data(), free.data()}, force.data()));
     double newer = older.back() + free.back();
     for (int m = 0; m < n; ++m) newer += 0.5 * p.theta[(n - 1) * n + m] * force[m];
@@ -104,15 +106,15 @@ TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h -
 
 TEST(Obstacle, OneContactInClosedFormIsOneOfSeveral) {  // beside one that is never touched
     const double theta = 1e-6, apart[] = {theta, 0, 0, theta}, older[] = {-1e-5, 1},
-                 free[] = {1.5e-5, 0};
+                 free[] = {1.5e-5, 0}, nothing[2] = {};
     Contacts one, two;
     one.add({1e8, 1.5}, 0, 0);
-    two.add(one);
+    two.add(one, 0);
     two.add({1e8, 1}, 0, 0);
     const auto force = [&]<class Rule>(Rule*, const Contacts& contacts,
                                        std::span<const double> compliances) {
         Obstacle obstacle(contacts, {}, compliances, span, 1, rule_with<Rule>({}));
-        obstacle.begin(older);
+        obstacle.begin(older, nothing, nothing);
         double F[2] = {};
         EXPECT_TRUE(obstacle.solve({older, older, free}, F));
         return F[0];

@@ -39,7 +39,7 @@ Scene smooth() {
     Scene scene = with_damping(lasting(c3_free(), 0.01), PolynomialDamping{3, 0, 0});
     String& s = scene.strings.front();
     s.bending_stiffness = 1e-5;
-    s.initial = TriangleInitial{0.37, 1e-3, 0.4};
+    s.start = TriangleShape{0.37, 1e-3, 0.4};
     scene.taps = {{"nut", Quantity::nut_force, 0, 0},
                   {"y", Quantity::displacement, 0, 0.2718},
                   {"v", Quantity::velocity, 0, 0.2718}};
@@ -47,7 +47,7 @@ Scene smooth() {
 }
 Scene smooth_pluck() {
     Scene scene = smooth();
-    scene.strings.front().initial.reset();
+    scene.strings.front().start.reset();
     scene.strings.front().pluck = Pluck{-0.4, 6e-3, 4.0, 0.5e-3, 0.31, 0.3};
     return scene;
 }
@@ -69,7 +69,7 @@ Scene all_smoothly(const Damping& damping) {
     s.barriers.push_back(LumpedBarrier{0.11, 0.05, 1e-3, {3e5}, 2, 2.0});
     s.thread = Thread{0.23, 0.05, 300, 0.5, 5e-4};
     s.pluck = Pluck{0.3, 8e-3, 2, 0, 0.6, 0.1};
-    s.initial = ModeInitial{2, 1e-3};
+    s.start = ModeShape{2, 1e-3};
     scene.taps = {
         {"y10mm", Quantity::displacement, 0, 0.01}, {"y03", Quantity::displacement, 0, 0.3},
         {"nut", Quantity::nut_force, 0, 0},         {"v", Quantity::velocity, 0, 0.4},
@@ -107,7 +107,7 @@ Scene over_a_parabola(double beta) {  // which is met within 2 ms
     Scene scene = lasting(read_scene("sitar_parabola"), 2e-3);
     const double L = scene.strings.front().length;
     scene.taps = {{"y", Quantity::displacement, 0, 0.1 * L}};
-    scene.strings.front().initial = TriangleInitial{0.12 * L, 1.8e-3, 0.1 * L};
+    scene.strings.front().start = TriangleShape{0.12 * L, 1.8e-3, 0.1 * L};
     return with_loss(scene, beta);
 }
 Scene over_nodes_of_a_parabola() {
@@ -118,7 +118,7 @@ Scene over_nodes_of_a_parabola() {
     s.tension = 32;
     s.bending_stiffness = 0;
     s.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0, 0.1, {1e9}, 1.3, 0}};
-    s.initial = TriangleInitial{0.2, 3e-3, 0.05};
+    s.start = TriangleShape{0.2, 3e-3, 0.05};
     s.damping = PolynomialDamping{2, 0, 0};
     scene.taps = {{"y03", Quantity::displacement, 0, 0.24}};
     return scene;
@@ -127,7 +127,7 @@ Scene over_nodes_of_a_parabola() {
 // A string falls on a broad soft obstacle, which takes more than half of its energy in 20 ms.
 Scene on_a_broad_loss() {
     Scene scene = lasting(lossless(c3_free()), 0.02);
-    scene.strings[0].initial = ModeInitial{1, 1.9e-3};
+    scene.strings[0].start = ModeShape{1, 1.9e-3};
     scene.strings[0].barriers = {LumpedBarrier{0.4, 0.2, -5e-4, {1e7}, 1.5, 2}};
     scene.taps = {{"bridge", Quantity::bridge_force, 0, 0}};
     return scene;

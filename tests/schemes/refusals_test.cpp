@@ -32,7 +32,7 @@ std::vector<Refused> refused() {
     second.position = 14e-3;
     const Scene two_bridges = with_barriers(bridge_scene, {point, second});
     const Scene rigid_bridge = read_scene(
-        "two_point_bridge", {"string.0.barrier.0.exponent=1", "string.0.initial.smoothing=0.1",
+        "two_point_bridge", {"string.0.barrier.0.exponent=1", "string.0.start.smoothing=0.1",
                              "string.0.barrier.0.stiffness=rigid"});
     Scene inside = rigid_bridge, beside = rigid_bridge;
     barrier(inside).height = 1e-3;
@@ -88,13 +88,13 @@ std::vector<Refused> refused() {
         {"sitar_fdm",
          with_string(with_barriers(sitar, {bridge(FlatCurve{})}),
                      [](String& s) {
-                         s.initial = TriangleInitial{0.11, -2e-3, 0};
+                         s.start = TriangleShape{0.11, -2e-3, 0};
                      }),
          usual, "below the bridge"},
         {"sitar_waveguide",
          with_string(sitar,
                      [](String& s) {
-                         s.initial = ModeInitial{43, 1e-3};
+                         s.start = ModeShape{43, 1e-3};
                      }),
          usual, "half the sample rate"},
         {"exact_contact tolerance=0", c3, at(0, 5), ""},

@@ -35,7 +35,7 @@ void walk(Obstacle& obstacle, const Points& p, Each each) {
     const int n = p.count();
     std::vector<double> y(n, 0.0), free(n), force(n), r(n);
     obstacle.clear();
-    obstacle.begin(y.data());
+    obstacle.begin(y.data(), y.data(), y.data());  // at rest
     for (int step = 0; step < steps; ++step) {
         for (int k = 0; k < n; ++k) free[k] = 3e-6 * (unit(random) - 0.3) - 0.02 * y[k];
         ASSERT_TRUE(obstacle.solve({y.data(), y.data(), free.data()}, force.data())) << step;

@@ -56,7 +56,7 @@ TEST(MatchedRows, HaveTheSameBitsWhateverTheBlockAndTheProbe) {
     const std::vector<Scene> lumped{lasting(c3_release(), 0.02), lasting(c3_pluck(), 0.02)};
     Scene profile = lasting(read_scene("sitar_parabola"), 0.02);
     profile.strings[0].thread = Thread{25e-3, 1.2e-3, 1.2e5, 1.2, 0};
-    profile.strings[0].initial.reset();
+    profile.strings[0].start.reset();
     profile.strings[0].pluck = Pluck{-0.4, 10e-3, 30.0, 1e-3, 30e-3, 10e-3};
     const auto same = [](const std::string& form, const Scene& scene, int modes) {
         const Settings s{88200, 44100, modes, {}};

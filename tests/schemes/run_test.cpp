@@ -57,7 +57,7 @@ Scene sitar() {  // what the schemes on rails represent
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
     s.damping = PerPeriodDamping{0.996};
-    s.initial = TriangleInitial{0.3, 1e-3, 0};
+    s.start = TriangleShape{0.3, 1e-3, 0};
     scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
     return scene;
 }
@@ -138,7 +138,7 @@ TEST(RunLoop, ATapBeyondWhatTenfoldEnergyOfTheSceneAllowsHasDivergedWhateverTheS
     };
     Scene s = c3_free();
     s.duration = 1;
-    s.strings[0].initial = ModeInitial{1, 1e-3};
+    s.strings[0].start = ModeShape{1, 1e-3};
     s.strings[0].bending_stiffness = 0;
     s.taps = {{"y", Quantity::displacement, 0, 0.5 * s.strings[0].length}};
     const double antinode = 1e-3 * std::sqrt(10.0);  // of the one mode that it is asked to carry

@@ -1,6 +1,7 @@
 // Several strings as one scheme: whatever the scheme, what is heard of four strings is the sum of
 // four runs of one, to the last bit.
 #include "schemes/several_strings.hpp"
+#include "scenes/start.hpp"
 
 #include <hwy/highway.h>
 #include <hwy/targets.h>
@@ -49,9 +50,8 @@ Scene scene_for(const Descriptor& d) {
 // String k of four that differ: in pitch and in how far they are pulled.
 String variant(String s, int k) {
     s.tension *= 1 - 0.06 * k;
-    if (s.pluck) s.pluck->amplitude *= 1 + 0.3 * k, s.pluck->start = 1e-4 * k;
-    if (s.initial) std::visit([k](auto& i) { i.amplitude *= 1 + 0.3 * k; }, *s.initial);
-    return s;
+    if (s.pluck) s.pluck->start = 1e-4 * k;
+    return scaled(s, 1 + 0.3 * k);
 }
 
 struct Instrument {

@@ -46,7 +46,7 @@ double power(std::span<const double> y, double rate, double hertz, double t0, do
 TEST(Sitar, WaveguideAndFdmAndDAlembertAgreeSampleBySampleForOneSecond) {
     Scene scene = sitar_scene();
     const double dx = 0.25 / 42;
-    scene.strings[0].initial = TriangleInitial{9 * dx, 2e-3, 0};
+    scene.strings[0].start = TriangleShape{9 * dx, 2e-3, 0};
     scene = with_taps(scene,
                       {tap(Quantity::displacement, 13 * dx), tap(Quantity::displacement, 30.4 * dx),
                        tap(Quantity::velocity, 13 * dx), tap(Quantity::nut_force)});
@@ -101,7 +101,7 @@ TEST(Sitar, AnIntegerLengthIsSharpBySixCentsAndAFractionalOneIsInTune) {
     EXPECT_LT(1200 / std::log(2.0) * std::abs(drift) / (2 * pi * f0 * 0.9), 1e-3);  // cents
     // The stated error of the worst partial, the 38th, is where the trace has it.
     Scene off_centre = scene;
-    off_centre.strings[0].initial = TriangleInitial{0.3 * 0.25, 2e-3, 0};
+    off_centre.strings[0].start = TriangleShape{0.3 * 0.25, 2e-3, 0};
     const auto heard = run_sitar(fractional, off_centre);
     const double stated = 38 * f0 * std::exp2(fact(heard, "worst_partial_error_cents") / 1200);
     EXPECT_GT(std::abs(stated - 38 * f0), 50);
@@ -114,7 +114,7 @@ TEST(Sitar, AnIntegerLengthIsSharpBySixCentsAndAFractionalOneIsInTune) {
 TEST(Sitar, DispersionPutsTheFirstPartialsWhereTheStiffStringHasThem) {
     Scene scene = with_taps(sitar_scene(), {tap(Quantity::nut_force)});
     scene.strings[0].bending_stiffness = 5e-5;
-    scene.strings[0].initial = TriangleInitial{0.3 * 0.25, 2e-3, 0};
+    scene.strings[0].start = TriangleShape{0.3 * 0.25, 2e-3, 0};
     const auto stiff = run_sitar(fractional + " stiffness=dispersion", scene);
     const double worst = std::abs(fact(stiff, "worst_partial_error_cents"));
     const Modes modes = modes_of(scene.strings[0], 8);
@@ -187,7 +187,7 @@ TEST(Sitar, RowsFurtherApartAreRowsOfTheSameMotion) {
             with_taps(sitar_scene(), {tap(Quantity::displacement, 0.11),
                                       tap(Quantity::velocity, 0.2), tap(Quantity::nut_force)});
         scene.duration = 0.1;
-        scene.strings[0].initial = TriangleInitial{0.08, 2e-3, 0};
+        scene.strings[0].start = TriangleShape{0.08, 2e-3, 0};
         scene.strings[0].damping = PerPeriodDamping{0.991};
         if (two_planes) scene.strings[0].polarisation = Polarisation{0.3, 0.2};
         const auto every = run_sitar(waveguide, scene, 441000, 441000);
@@ -255,7 +255,7 @@ TEST(Sitar, SettingTheReturningWaveMovesTheStringAsPuttingTheNodeBackDoes) {
         for (const double pluck : {0.5, 0.25}) {
             Scene scene =
                 with_taps(sitar_scene(), {tap(Quantity::nut_force), tap(Quantity::bridge_force)});
-            scene.strings[0].initial = TriangleInitial{pluck * 0.25, 2e-3, 0};
+            scene.strings[0].start = TriangleShape{pluck * 0.25, 2e-3, 0};
             scene.strings[0].barriers = {
                 bridge(slope == 0 ? Curve(FlatCurve{}) : Curve(LineCurve{slope}))};
             const auto wave = run_sitar(waveguide, scene), grid = run_sitar(fdm, scene);

@@ -590,7 +590,7 @@ const parts = {
     expect((await see("state.tour")) === "", "a tour that is not there is none");
     for (const [hash, element, sentence] of [
       ["#modes=4294967299", "said", "no more than 1048576 are carried"],
-      ["#set.string.0.initial.amplitude=1e308", "title", "diverged at step 0"],
+      ["#set.string.0.start.amplitude=1e308", "title", "diverged at step 0"],
     ]) {
       await browser.page("Page.navigate", {url: "about:blank"});
       await browser.page("Page.navigate", {url: page + hash});

@@ -110,6 +110,23 @@ std::vector<ObservedOrder> convergence_of(const Cells& cells) {
     return all;
 }
 
+std::vector<std::pair<std::size_t, std::size_t>> rising_with_the_rate(const Cells& cells) {
+    constexpr double rise = 1.2;
+    std::vector<std::pair<std::size_t, std::size_t>> all;
+    const std::size_t window = headline_error(cells, study::all_rows(cells));
+    for (Rows rows : differing_in_rate(cells)) {
+        std::erase_if(rows, [&](std::size_t i) {
+            return !reached(cells[i]) || !(bound_of(cells[i], window).error >= 0);
+        });
+        if (rows.size() < 2) continue;
+        const auto [low, high] =
+            std::ranges::minmax(rows, {}, [&](std::size_t i) { return cells[i].rate; });
+        if (bound_of(cells[high], window).least() > rise * bound_of(cells[low], window).most())
+            all.emplace_back(low, high);
+    }
+    return all;
+}
+
 store::Table convergence_table(const Cells& cells) {
     const store::Table named = study::table_of(cells, study::Contents::cost);
     const auto rate = static_cast<std::size_t>(named.column("rate"));
@@ -195,8 +212,24 @@ std::string harm_text(const study::Cells& cells) {
         worse, pairs, worst);
 }
 
+std::string cause_text(const study::Cells& cells) {
+    std::string text;
+    const std::size_t window = headline_error(cells, study::all_rows(cells));
+    for (const auto& [low, high] : rising_with_the_rate(cells))
+        text += fmt::format("; {}: its error rises with the rate, from {} at {:g} Hz to {}",
+                            cells[high].run(), percent(bound_of(cells[low], window).error),
+                            cells[low].rate, percent(bound_of(cells[high], window).error));
+    for (const Rows& rows : differing_in_rate(cells)) {
+        const std::size_t high = std::ranges::max(
+            rows, {}, [&](std::size_t i) { return std::isnan(cells[i].rate) ? 0 : cells[i].rate; });
+        if (!cells[high].cause.empty())
+            text += fmt::format("; {}: {}", cells[high].run(), cells[high].cause);
+    }
+    return text.empty() ? "" : "most of an error has one cause: " + text.substr(2);
+}
+
 std::vector<std::string> warnings_of(const study::Cells& cells) {
-    std::vector<std::string> all{busy_text(cells), harm_text(cells)};
+    std::vector<std::string> all{busy_text(cells), harm_text(cells), cause_text(cells)};
     std::erase(all, "");
     return all;
 }

@@ -52,6 +52,10 @@ std::vector<ObservedOrder> convergence_of(const study::Cells&);
 // interval; empty with two points), points, from_hz, to_hz.
 store::Table convergence_table(const study::Cells&);
 
+// Of each series of cells that differ in the rate alone whose error surely rises with it, by more
+// than a fifth over the headline's window: the cells of its lowest and its highest rate.
+std::vector<std::pair<std::size_t, std::size_t>> rising_with_the_rate(const study::Cells&);
+
 // ---- Warnings
 
 // Half the distance of the quartiles of the cost over its median, of the middle one of the timed
@@ -63,6 +67,9 @@ std::string busy_text(const study::Cells&);
 // over the headline's window, is surely more than 1.2 times that of its own sibling; the sentence
 // that counts them and names the worst, else "".
 std::string harm_text(const study::Cells&);
+
+// Of each series the cause that explains the error at its highest rate, or that it rises; else "".
+std::string cause_text(const study::Cells&);
 
 std::vector<std::string> warnings_of(const study::Cells&);  // all of these that say something
 

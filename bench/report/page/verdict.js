@@ -230,7 +230,6 @@ function sections_of() {
     needs_section(),
     work_precision_section(),
     sweep_section(),
-    dispersion_section(),
     convergence_section(),
     overview_section(),
     map_section(),

@@ -1,0 +1,59 @@
+#include "schemes/impacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jvari {
+
+Impacts::Impacts(const String& s) {
+    for (const Barrier& b : s.barriers)
+        profile_.push_back(std::holds_alternative<ProfileBarrier>(b));
+}
+
+// A scheme that touches at points of a profile has as many for each profile.
+int Impacts::barrier_of(const BarrierOf& of) const {
+    const int barriers = static_cast<int>(profile_.size()),
+              profiles = static_cast<int>(std::count(profile_.begin(), profile_.end(), 1));
+    const int points = profiles > 0 ? (of.barriers - barriers + profiles) / profiles : 1;
+    int own = 0;
+    for (int behind = 0; own < barriers; ++own)
+        if (behind += profile_[own] ? points : 1; of.barrier < behind) break;
+    return own;
+}
+
+void Impacts::add(const Impact& part) {
+    constexpr double rounding = 1e-12;  // of instants [s]
+    const auto barrier = static_cast<std::size_t>(part.barrier);
+    if (last_.size() <= barrier) last_.resize(barrier + 1);
+    Last& last = last_[barrier];
+    if (last.row < 0 || part.start > all_[last.row].end + rounding) {
+        last = {static_cast<int>(all_.size()), part.largest_force};
+        all_.push_back(part);
+        return;
+    }
+    Impact& row = all_[last.row];
+    last.force = part.largest_force + (part.end > row.end + rounding ? 0 : last.force);
+    row.largest_force = std::max(row.largest_force, last.force);
+    row.impulse += part.impulse;
+    row.energy_lost += part.energy_lost;
+    row.speed_out = part.speed_out;
+    if (part.start < row.start + rounding) row.speed_in = std::fmax(row.speed_in, part.speed_in);
+    row.end = std::max(row.end, part.end);
+}
+
+void Impacts::step(const BarrierOf& of, int a, double to, double lasts, double span, double force,
+                   double moved) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (points_.size() <= static_cast<std::size_t>(a)) points_.resize(a + 1);
+    Point& point = points_[a];
+    const double speed = moved / span;
+    const int barrier = barrier_of(of);
+    if (force != 0)
+        add({barrier, to - lasts, to, force, force * lasts, point.known ? -point.speed : unknown,
+             unknown, -force * speed * lasts});
+    else if (point.force != 0) all_[last_[barrier].row].speed_out = speed;
+    point = {speed, force, true};
+}
+
+}  // namespace jvari
