@@ -132,7 +132,7 @@ TEST(Run, TheForceOfASharpCornerIsThatOfItsShape) {
     scene.duration = 1e-3;
     String& s = scene.strings.front();
     s.damping = NoDamping{};
-    s.initial = TriangleInitial{0.3 * s.length, 1e-3, 0};
+    s.start = TriangleShape{0.3 * s.length, 1e-3, 0};
     scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
     const double expected = s.tension * 1e-3 / (0.7 * s.length);
     for (const int modes : {133, 500, 4001}) {
@@ -140,7 +140,7 @@ TEST(Run, TheForceOfASharpCornerIsThatOfItsShape) {
         EXPECT_DOUBLE_EQ(r.trace.column(0)[0], expected);
         if (modes > 500) { EXPECT_NEAR(r.trace.column(0)[20], expected, 1e-3 * expected); }
     }
-    s.initial = TriangleInitial{0.3 * s.length, 1e-3, 0.1};
+    s.start = TriangleShape{0.3 * s.length, 1e-3, 0.1};
     const auto smooth = run(exact_linear, scene, {0, 44100, 500, {}});
     EXPECT_NE(smooth.trace.column(0)[0], expected);
     EXPECT_NEAR(smooth.trace.column(0)[0], expected, 1e-3 * expected);
