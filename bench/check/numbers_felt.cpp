@@ -82,7 +82,7 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
     }
     if (!f.has(Feature::moving_body)) scene.body.reset();
     std::erase_if(scene.taps, [&scene](const Tap& t) {
-        return lacks(scene.strings[*t.string], t.quantity) != nullptr;
+        return lacks(scene.strings[*t.string], t.quantity, t.mass) != nullptr;
     });
     return scene;
 }

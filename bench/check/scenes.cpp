@@ -108,6 +108,10 @@ Scene with(Feature feature, Scene scene) {
             s.start = RestStart{};
             s.barriers = {soft_bridge(s, 3, 1e-3 * s.length)};
             break;
+        case Feature::free_mass:  // that strikes the string at once
+            if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
+            s.masses = {{2e-3, 6 * s.length / (contract_modes + 1), 0, 2 * s.length, 0, 1e4, 1, 0}};
+            break;
         case Feature::moving_body:
             scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}};
             break;
@@ -254,6 +258,10 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::rigid_barrier: each_barrier([](auto& b) { b.stiffness = {1e5}; }); break;
         case Feature::tension_modulation:
             add([](String& s) { return s.axial_stiffness *= 3, true; });
+            break;
+        case Feature::free_mass:
+            for (double Mass::*member : {&Mass::mass, &Mass::velocity})
+                add([member](String& s) { return s.masses[0].*member *= 2, true; });
             break;
         case Feature::moving_body:
             all.push_back(scene);
