@@ -165,6 +165,13 @@ std::vector<Scene> read_contract_scenes() {
     scenes.push_back(
         named(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}),
               "rigid_wall"));
+    scenes.push_back(named(with(Feature::free_mass, string_at_rest()), "hammered"));
+    Mass& hammer = scenes.back().strings.front().masses.front();
+    hammer.gap = 1e-4, hammer.stiffness = 1e9, hammer.exponent = 2.3;
+    for (const auto& [name, quantity] : {std::pair{"z", Quantity::displacement},
+                                         {"v", Quantity::velocity},
+                                         {"F", Quantity::bridge_force}})
+        scenes.back().taps.push_back({name, quantity, 0, 0, 0});
     scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
     scenes.back().strings.front().start.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
