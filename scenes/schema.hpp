@@ -197,8 +197,8 @@ void fields(auto& pass, Is<Tap> auto& t) {
     pass.string_index("mass", t.mass);
     if (has_position(t.quantity) && !t.mass) pass.number("position", t.position, any, "m");
     else
-        pass.refused("position",
-                     "no position, which only the string's displacement and velocity have");
+        pass.refused("position", t.mass ? "no position beside mass, which is where it is"
+                                        : "no position, which only displacement and velocity have");
 }
 void fields(auto& pass, Is<BodyMode> auto& m) {
     pass.number("mass", m.mass, positive, "kg");
