@@ -99,8 +99,8 @@ private:
 
     double mass_, EA_, length_;
     double least_scale_ = 0;  // of what the pluck makes [m/s]
-    int modes_, held_;  // with and without the masses
-    bool rests_;  // when it starts
+    int modes_, held_;        // with and without the masses
+    bool rests_;              // when it starts
     SeriesStates series_;
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                    // none or one

@@ -1,6 +1,6 @@
-// What the contacts of one string do: one row from touching a barrier or a mass to letting go of it. A scheme
-// tells it step by step, the exact reference from event to event, and only where a run asks
-// (Block::impacts).
+// What the contacts of one string do: one row from touching a barrier or a mass to letting go of
+// it. A scheme tells it step by step, the exact reference from event to event, and only where a run
+// asks (Block::impacts).
 #pragma once
 
 #include <vector>

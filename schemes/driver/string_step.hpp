@@ -57,8 +57,8 @@ struct Place {  // of a contact: a node of a grid, or a footprint
     Footprint at;
     int node = 0;  // 0: none
 };
-// Adds the string's barriers and masses as contacts; of a profile each node of a grid of so many intervals is
-// one, which stands for a spacing of it.
+// Adds the string's barriers and masses as contacts; of a profile each node of a grid of so many
+// intervals is one, which stands for a spacing of it.
 // Refusal where no node lies on a profile
 std::vector<Place> add_contacts(StringPoints&, const String&, int intervals = 0);
 // its barriers, which all are lumped, its masses and its thread
