@@ -58,12 +58,10 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     const auto refuse = [&](const char* what) {
         throw Refusal(std::string(descriptor.name) + ": compliance=matched " + what);
     };
-    for (const Barrier& barrier : s.barriers) {
-        const auto* lumped = std::get_if<LumpedBarrier>(&barrier);
-        if (!lumped)
+    for (const Barrier& barrier : s.barriers)
+        if (!std::holds_alternative<LumpedBarrier>(barrier))
             refuse("takes lumped barriers and a thread; points of a profile are not solved for");
-        if (lumped->contact_loss != 0) refuse("leaves contact loss out");
-    }
+    if (needed_by(scene).has(Feature::contact_loss)) refuse("leaves contact loss out");
     std::vector<double> own;
     for (double omega : modes.omega0) own.push_back(1 / (modes.mass * omega * omega));
     InSeries series;

@@ -1,5 +1,6 @@
 #include "reference/readout.hpp"
 
+#include "reference/masses.hpp"
 #include "reference/partial_sums.hpp"
 
 namespace jvari {
@@ -15,10 +16,18 @@ double weighted_sum(const double* w, const double* y, int count) {
 }
 
 Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count()) {
+    for (const Mass& m : scene.strings.front().masses) {
+        mass_.push_back(m.mass);
+        share_.push_back(share_of(modes, m));
+    }
+    momentum_.resize(mass_.size());
+    force_ = momentum_;
     for (const Tap& tap : scene.taps) {
         quantity_.push_back(tap.quantity);
+        of_mass_.push_back(tap.mass.value_or(-1));
         std::vector<double> w(modes_, 0.0);
-        if (tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity)
+        if (tap.mass) w[modes_ - masses() + *tap.mass] = share_[*tap.mass];
+        else if (tap.quantity == Quantity::displacement || tap.quantity == Quantity::velocity)
             w = displacement_weights(modes, tap.position);
         if (tap.quantity == Quantity::nut_force)
             w = nut_force_weights(modes, scene.strings.front());
@@ -26,8 +35,19 @@ Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count())
     }
 }
 
+void Readout::begin(const double* u, double rate, double tap_rate) {
+    tap_rate_ = tap_rate;
+    for (int m = 0; m < masses(); ++m)
+        momentum_[m] = mass_[m] * share_[m] * u[modes_ - masses() + m] * rate;
+}
+
 void Readout::write(const Block& out, int row, const double* y, const double* u, double rate,
                     double bridge, double thread) const {
+    for (int m = 0; m < masses(); ++m) {
+        const double now = mass_[m] * share_[m] * u[modes_ - masses() + m] * rate;
+        bridge -= force_[m] = tap_rate_ * (momentum_[m] - now);
+        momentum_[m] = now;
+    }
     for (int k = 0; k < out.taps; ++k) {
         const double* w = weights_.data() + static_cast<long>(k) * modes_;
         double v = 0;
@@ -35,7 +55,7 @@ void Readout::write(const Block& out, int row, const double* y, const double* u,
             case Quantity::displacement:
             case Quantity::nut_force: v = weighted_sum(w, y, modes_); break;
             case Quantity::velocity: v = weighted_sum(w, u, modes_) * rate; break;
-            case Quantity::bridge_force: v = bridge; break;
+            case Quantity::bridge_force: v = of_mass_[k] < 0 ? bridge : force_[of_mass_[k]]; break;
             case Quantity::thread_force: v = thread; break;
             case Quantity::driving_force: v = -(bridge + thread); break;
         }

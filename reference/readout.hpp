@@ -15,13 +15,21 @@ double weighted_sum(const double* w, const double* y, int count);
 struct Readout {
     Readout(const Scene&, const Modes&);
 
+    void begin(const double* u, double rate, double tap_rate);  // at t = 0, before row 0
+    int masses() const { return static_cast<int>(mass_.size()); }
+
     // Writes row `row` of the block; y [m] and u [m] are modal displacements and velocities/rate;
     // forces are means over the interval [N].
+    // bridge: with masses, whose own share is their change of momentum
     void write(const Block& out, int row, const double* y, const double* u, double rate,
                double bridge, double thread) const;
 
 private:
     std::vector<Quantity> quantity_;
+    std::vector<int> of_mass_;                      // -1: of the string
+    std::vector<double> mass_, share_;              // [kg]; masses.hpp
+    mutable std::vector<double> momentum_, force_;  // at the last row [kg m/s]; mean to it [N]
+    double tap_rate_ = 0;
     std::vector<double> weights_;  // [tap][mode], unused where the tap is a contact force
     int modes_;
 };

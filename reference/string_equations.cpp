@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "reference/masses.hpp"
 #include "reference/partial_sums.hpp"
 #include "scenes/excitation.hpp"
 
@@ -50,6 +51,7 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
       EA_(s.axial_stiffness),
       length_(s.length),
       modes_(modes.count()),
+      held_(modes.count() - static_cast<int>(s.masses.size())),
       rests_(s.start && std::holds_alternative<RestStart>(*s.start)) {
     if (series) series_ = SeriesStates(*series, mass_);
     padded = (modes_ + series_.count + lanes - 1) / lanes * lanes;
@@ -58,7 +60,7 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
         rows.resize((rows.size() + padded - 1) / padded * padded, 0.0);
     };
     for (int i = 0; i < modes.count(); ++i) {
-        pad(omega_, modes.omega0[i]);
+        pad(omega_, modes.omega0[i < held_ ? i : 0]);
         pad(damping_, 2 * modes.sigma[i]);
         pad(loss_, 2 * modes.mass * modes.sigma[i]);
     }
@@ -67,15 +69,14 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
     for (auto* rows : {&omega_, &damping_, &loss_, &reach_}) fill(*rows);
     const auto add_point = [&](const std::vector<double>& g) {
         for (int i = 0; i < modes.count(); ++i) {
-            pad(reads_, g[i] / modes.omega0[i]);
+            pad(reads_, g[i] / scale(i));
             pad(weights_, g[i]);
             pad(gains_, g[i] / modes.mass);
         }
         for (auto* rows : {&reads_, &weights_, &gains_}) fill(*rows);
     };
-    for (const Barrier& barrier : s.barriers) {
-        const auto& b = std::get<LumpedBarrier>(barrier);
-        add_point(footprint_weights(modes, b.position, b.width));
+    for (const auto& [b, g] : touched_by(modes, s)) {
+        add_point(g);
         point_.push_back({{b.stiffness.k, b.exponent},
                           b.contact_loss,
                           0,
@@ -150,6 +151,7 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
     double *dp = dz, *dv = dz + padded, *sum = dz + 2 * padded;
     std::fill_n(sum, sums, 0.0);
     oscillate(omega_.data(), damping_.data(), p, v, dp, dv, padded);
+    std::fill(dv + held_, dv + modes_, 0.0);
     sum[dissipated] = square(loss_.data(), v, padded);
     if (!reach_.empty()) {
         const double pull = 0.125 * EA_ * length_ * square(reach_.data(), p, padded) / mass_;
@@ -238,6 +240,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
             const double w = gamma * omega_[i];
             inverse_[i] = 1 / (1 + gamma * damping_[i] + w * w);
         }
+        std::fill(inverse_.begin() + held_, inverse_.begin() + modes_, 1.0);
         for (int a = 0; a < points; ++a)
             for (int c = 0; c < points; ++c) {
                 double sum = 0;
@@ -254,6 +257,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         xp[i] = ((1 + gamma * damping_[i]) * p + w * v) * inverse_[i];
         xv[i] = (v - w * p) * inverse_[i];
     }
+    for (int i = held_; i < modes_; ++i) xp[i] = bp[i] + gamma * omega_[i] * bv[i], xv[i] = bv[i];
     series_.solve(states(b), states(x));
     // dF_a = -K_a dy_a - R_a dv_a,   dy_a = (block solution) + gamma^2 S_ab dF_b,   dv_a = (block
     //                                solution) + gamma S_ab dF_b

@@ -16,6 +16,8 @@
 // blocks plus one rank per force; (I - gamma J) x = b costs O(modes x forces) by Woodbury's
 // formula.
 //
+// Of a mass (masses.hpp) p = omega0 y with the string's first omega0, and nothing pulls it back.
+//
 // What is in series with the points has its states behind the modes' v (series_states.hpp).
 #pragma once
 
@@ -51,6 +53,7 @@ struct StringEquations final : Equations {
     double contact_force(int contact, const double* z) const noexcept override;
     // [J], of a barrier or the thread
     double potential(int point, double y) const noexcept;
+    double scale(int mode) const noexcept { return omega_[mode]; }  // p = scale y
     // (beta/omega0)^2
     double reach(int mode) const noexcept { return reach_.empty() ? 0 : reach_[mode]; }
     // of sum reach p^2 [J]
@@ -96,8 +99,8 @@ private:
 
     double mass_, EA_, length_;
     double least_scale_ = 0;  // of what the pluck makes [m/s]
-    int modes_;
-    bool rests_;  // when it starts
+    int modes_, held_;        // with and without the masses
+    bool rests_;              // when it starts
     SeriesStates series_;
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                    // none or one

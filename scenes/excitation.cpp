@@ -151,6 +151,10 @@ double available_energy(const String& s, const Modes& modes) {
     energy += s.axial_stiffness * stretch * stretch / (8 * s.length);
     for (const Barrier& barrier : s.barriers)
         energy += std::visit([&](const auto& b) { return stored(modes, y, b); }, barrier);
+    for (const Mass& m : s.masses) {
+        energy += 0.5 * m.mass * m.velocity * m.velocity;
+        energy += stored(modes, y, {m.position, m.width, -m.gap, {m.stiffness}, m.exponent});
+    }
     if (const auto& t = s.thread) {
         const double lag = t->height - at_start(footprint_weights(modes, t->position, t->width), y);
         energy += 0.5 * t->stiffness * lag * lag;
@@ -164,6 +168,8 @@ double available_energy(const String& s, const Modes& modes) {
 }
 
 double bound_squared(const Tap& tap, const String& s, const Modes& modes, double energy) {
+    if (tap.mass)
+        return tap.quantity == Quantity::velocity ? 2 * energy / s.masses[*tap.mass].mass : unknown;
     switch (tap.quantity) {
         case Quantity::displacement:
             return 2 * energy * static_compliance(modes, displacement_weights(modes, tap.position));

@@ -37,8 +37,8 @@ double hann_smoothing(double beta, double s);
 // ---- What the energy of a scene can make of its strings: a run that goes far beyond has diverged,
 // whether its scheme tells an energy or not.
 
-// No less than the energy [J] that strings, threads and barriers hold at t = 0 and plucks can
-// supply. Modes i of the string, from rest, and a force F with the static compliance C at its
+// No less than the energy [J] that strings, threads, barriers and masses hold at t = 0 and plucks
+// can supply. Modes i of the string, from rest, and a force F with the static compliance C at its
 // point: integrating F by parts, the energy is at most C (max|F| + integral of |F'|)^2/2 at any
 // time, so 2 C a_e^2 of a pluck (it rises to a_e and falls to 0). Contacts, threads and losses only
 // take from it. Infinite where a rigid barrier is penetrated, or where a body moves the strings'

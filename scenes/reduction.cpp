@@ -94,6 +94,12 @@ void remove_string(Scene& s, int k) {
     for (Tap& t : s.taps)
         if (t.string && *t.string > k) --*t.string;
 }
+void remove_mass(Scene& s, int string, int m) {
+    s.strings[string].masses.erase(s.strings[string].masses.begin() + m);
+    std::erase_if(s.taps, [=](const Tap& t) { return t.string == string && t.mass == m; });
+    for (Tap& t : s.taps)
+        if (t.string == string && t.mass > m) --*t.mass;
+}
 }  // namespace
 
 std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
@@ -136,6 +142,10 @@ std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
                 {Part::barrier, key(s) + ".barrier." + std::to_string(b), "", [s, b](Scene& x) {
                      x.strings[s].barriers.erase(x.strings[s].barriers.begin() + b);
                  }});
+    for (int s = strings - 1; s >= 0; --s)
+        for (int m = static_cast<int>(scene.strings[s].masses.size()) - 1; m >= 0; --m)
+            list.all.push_back({Part::mass, key(s) + ".mass." + std::to_string(m), "",
+                                [s, m](Scene& x) { remove_mass(x, s, m); }});
     if (strings > 1)
         for (int s = strings - 1; s >= 0; --s)
             list.all.push_back({Part::string, key(s), "", [s](Scene& x) { remove_string(x, s); }});
@@ -145,9 +155,10 @@ std::vector<Reduction> reductions_of(const Scene& scene, double penetration) {
 void remove_idle_taps(Scene& scene, const std::string& kept) {
     std::erase_if(scene.taps, [&](const Tap& t) {
         if (t.name == kept) return false;
-        if (t.string) return lacks(scene.strings[*t.string], t.quantity) != nullptr;
-        return std::all_of(scene.strings.begin(), scene.strings.end(),
-                           [&t](const String& s) { return lacks(s, t.quantity) != nullptr; });
+        if (t.string) return lacks(scene.strings[*t.string], t.quantity, t.mass) != nullptr;
+        return std::all_of(scene.strings.begin(), scene.strings.end(), [&t](const String& s) {
+            return lacks(s, t.quantity, t.mass) != nullptr;
+        });
     });
 }
 

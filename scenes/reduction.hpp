@@ -29,6 +29,7 @@ enum class Part {
     polarisation,
     tap,  // if there is another
     barrier,
+    mass,   // with its taps
     string  // with its taps, if there is another
 };
 

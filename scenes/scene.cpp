@@ -29,7 +29,8 @@ const char* unit_of(Quantity q) {
     return "";
 }
 
-const char* lacks(const String& s, Quantity q) {
+const char* lacks(const String& s, Quantity q, std::optional<int> mass) {
+    if (mass) return *mass < std::ssize(s.masses) ? nullptr : "that mass";
     const bool barrier = !s.barriers.empty(), thread = s.thread.has_value();
     if (q == Quantity::bridge_force && !barrier) return "a barrier";
     if (q == Quantity::thread_force && !thread) return "a thread";
@@ -38,7 +39,8 @@ const char* lacks(const String& s, Quantity q) {
 }
 
 bool hears(const Tap& tap, const Scene& scene, int string) {
-    return tap.string ? *tap.string == string : !lacks(scene.strings[string], tap.quantity);
+    return tap.string ? *tap.string == string
+                      : !lacks(scene.strings[string], tap.quantity, tap.mass);
 }
 
 Scene alone(const Scene& scene, int string) {
@@ -82,6 +84,7 @@ const char* name_of(Feature f) {
         case Feature::initial_velocity: return "initial velocity";
         case Feature::equilibrium: return "static equilibrium";
         case Feature::clipped_loss: return "contact loss that does not pull";
+        case Feature::free_mass: return "free mass";
     }
     return "?";
 }
@@ -120,21 +123,21 @@ struct DampingNeeds {
     }
 };
 
+Features needed_by_law(const auto& b) {
+    Features f;
+    if (b.exponent != 1) f = f | Feature::power_law_contact;
+    if (b.contact_loss == 0) return f;
+    f = f | Feature::contact_loss;
+    return b.loss_law == LossLaw::clipped ? f | Feature::clipped_loss : f;
+}
+
 Features needed_by(const Barrier& barrier) {
     const bool lumped = std::holds_alternative<LumpedBarrier>(barrier);
     if (is_rigid(barrier))
         return lumped ? Feature::lumped_barrier | Feature::rigid_barrier
                       : Features(Feature::rigid_profile);
-    Features f = lumped ? Feature::lumped_barrier : Feature::profile_barrier;
-    std::visit(
-        [&f](const auto& b) {
-            if (b.exponent != 1) f = f | Feature::power_law_contact;
-            if (b.contact_loss == 0) return;
-            f = f | Feature::contact_loss;
-            if (b.loss_law == LossLaw::clipped) f = f | Feature::clipped_loss;
-        },
-        barrier);
-    return f;
+    return (lumped ? Feature::lumped_barrier : Feature::profile_barrier) |
+           std::visit([](const auto& b) { return needed_by_law(b); }, barrier);
 }
 
 Features needed_by(const Start& start) {
@@ -154,7 +157,8 @@ Features needed_by(const Scene& scene) {
         if (s.axial_stiffness != 0) f = f | Feature::tension_modulation;
         f = f | std::visit(DampingNeeds{}, s.damping);
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
-        if (s.barriers.size() > 1) f = f | Feature::several_barriers;
+        for (const Mass& m : s.masses) f = f | Feature::free_mass | needed_by_law(m);
+        if (s.barriers.size() + s.masses.size() > 1) f = f | Feature::several_barriers;
         if (s.thread) f = f | Feature::thread;
         if (s.start) f = f | needed_by(*s.start);
         if (s.velocity) f = f | Feature::initial_velocity;

@@ -115,6 +115,22 @@ struct Thread {            // spring and damper, never detaches (van Walstijn et
     bool operator==(const Thread&) const = default;
 };
 
+// A barrier that moves: a free mass on the barriers' side of the string, which it meets at its top.
+// Its contact pushes the string by k [eta]^exponent, and the mass by as much the other way. Gravity
+// is not modelled.
+struct Mass {
+    double mass = 0;      // [kg]
+    double position = 0;  // [m]
+    double width = 0;     // of the footprint [m]
+    double velocity = 0;  // at t = 0, positive as y is: upwards, towards the string [m/s]
+    double gap = 0;       // at t = 0, from its top up to y = 0, the line of the straight string [m]
+    double stiffness = 0;  // [N/m^exponent]
+    double exponent = 1;
+    double contact_loss = 0;  // [s/m]
+    LossLaw loss_law = LossLaw::hunt_crossley;
+    bool operator==(const Mass&) const = default;
+};
+
 // ---- What sets it in motion.
 
 struct ModeShape {
@@ -174,10 +190,12 @@ struct String {
     Damping damping;
     std::vector<Barrier> barriers;
     std::optional<Thread> thread;
+    std::vector<Mass> masses;
     std::optional<Start> start;     // displacement at t = 0
     std::optional<Shape> velocity;  // at t = 0, beside that of a table
     std::optional<Pluck> pluck;
     std::optional<Polarisation> polarisation;
+    bool has_contacts() const { return !barriers.empty() || !masses.empty(); }
     bool operator==(const String&) const = default;
 };
 
@@ -199,6 +217,8 @@ struct Tap {
     Quantity quantity = Quantity::displacement;
     std::optional<int> string;  // absent: the sum over strings (forces only)
     double position = 0;        // [m], displacement and velocity only
+    // of the string, whose displacement, velocity or force on the string (bridge_force) is meant
+    std::optional<int> mass = {};
     bool operator==(const Tap&) const = default;
 };
 // an oscillator that the bridge moves; what all strings pull at is the sum of their displacements
@@ -224,8 +244,8 @@ struct Scene {
     bool operator==(const Scene&) const = default;
 };
 
-// What the quantity is taken from, where the string has none ("a barrier"); nullptr where it has.
-const char* lacks(const String&, Quantity);
+// What the tap is taken from, where the string has none ("a barrier"); nullptr where it has.
+const char* lacks(const String&, Quantity, std::optional<int> mass = {});
 
 // The scene of one of its strings: that string, and the taps that hear it, in their order.
 Scene alone(const Scene&, int string);
@@ -257,8 +277,9 @@ enum class Feature : unsigned {
     initial_velocity = 1u << 17,
     equilibrium = 1u << 18,   // a start at rest under what presses
     clipped_loss = 1u << 19,  // a contact loss that does not pull
+    free_mass = 1u << 20,     // that meets the string
 };
-constexpr int feature_count = 20;
+constexpr int feature_count = 21;
 const char* name_of(Feature);
 
 struct Features {

@@ -118,6 +118,18 @@ void fields(auto& pass, Is<Thread> auto& t) {
     pass.number("height", t.height, any, "m", 0.0);
 }
 
+void fields(auto& pass, Is<Mass> auto& m) {
+    pass.number("mass", m.mass, positive, "kg");
+    pass.number("position", m.position, any, "m");
+    pass.number("width", m.width, not_negative, "m", 0.0);
+    pass.number("velocity", m.velocity, any, "m/s", 0.0);
+    pass.number("gap", m.gap, any, "m", 0.0);
+    pass.number("stiffness", m.stiffness, positive, "N/m^exponent");
+    pass.number("exponent", m.exponent, one_or_more, "", 1.0);
+    pass.number("contact_loss", m.contact_loss, not_negative, "s/m", 0.0);
+    pass.choice("loss_law", m.loss_law, loss_law_names, LossLaw::hunt_crossley);
+}
+
 // ---- What sets it in motion
 
 void fields(auto& pass, Is<ModeShape> auto& m) {
@@ -165,6 +177,7 @@ void fields(auto& pass, Is<String> auto& s) {
     pass.part("damping", s.damping);
     pass.parts("barrier", s.barriers);
     pass.part("thread", s.thread);
+    pass.parts("mass", s.masses);
     pass.part("start", s.start);
     pass.part("velocity", s.velocity);
     pass.part("pluck", s.pluck);
@@ -181,8 +194,11 @@ void fields(auto& pass, Is<Tap> auto& t) {
     pass.text("name", t.name);
     pass.choice("quantity", t.quantity, quantity_names);
     pass.string_index("string", t.string);
-    if (has_position(t.quantity)) pass.number("position", t.position, any, "m");
-    else pass.refused("position", "no position, which only displacement and velocity have");
+    pass.string_index("mass", t.mass);
+    if (has_position(t.quantity) && !t.mass) pass.number("position", t.position, any, "m");
+    else
+        pass.refused("position", t.mass ? "no position beside mass, which is where it is"
+                                        : "no position, which only displacement and velocity have");
 }
 void fields(auto& pass, Is<BodyMode> auto& m) {
     pass.number("mass", m.mass, positive, "kg");

@@ -99,6 +99,7 @@ void rest(const Modes& modes, const String& s, const Yield& yield, ModalStart& s
                 add(part);
         }
     }
+    for (const Mass& m : s.masses) add({m.position, m.width, 0, {}});  // free: they give way
     if (const auto& t = s.thread) {
         points.push_back({t->stiffness, 1, t->height, true});
         g.push_back(footprint_weights(modes, t->position, t->width));

@@ -150,6 +150,9 @@ struct On {
             if (is_rigid(string.barriers[i]))
                 std::visit([&](const auto& b) { without_law(part, b); }, string.barriers[i]);
         }
+        for (std::size_t k = 0; k < string.masses.size(); ++k)
+            footprint("mass." + std::to_string(k), string.masses[k].position,
+                      string.masses[k].width);
         if (string.thread) footprint("thread", string.thread->position, string.thread->width);
         if (string.pluck) footprint("pluck", string.pluck->position, string.pluck->width);
         if (string.velocity) shape("velocity", *string.velocity);
@@ -198,13 +201,16 @@ void check(const Tap& tap, const Scene& scene, const std::string& path) {
     if (tap.string && (*tap.string < 0 || *tap.string >= static_cast<int>(scene.strings.size())))
         throw BadScene(path + "string", std::to_string(*tap.string),
                        "a string of the scene, 0 to " + std::to_string(scene.strings.size() - 1));
-    if (!tap.string && has_position(tap.quantity))
+    if (!tap.string && (has_position(tap.quantity) || tap.mass))
         throw BadScene(path + "string", "nothing",
                        "the string whose " + std::string(name_of(tap.quantity)) + " is meant");
+    if (tap.mass && !has_position(tap.quantity) && tap.quantity != Quantity::bridge_force)
+        throw BadScene(path + "quantity", quote(name_of(tap.quantity)) + " of a mass",
+                       "its \"displacement\", \"velocity\" or \"bridge_force\"");
     const char* lack = nullptr;
     if (tap.string) {
         const String& s = scene.strings[static_cast<std::size_t>(*tap.string)];
-        lack = lacks(s, tap.quantity);
+        lack = lacks(s, tap.quantity, tap.mass);
         if (has_position(tap.quantity) && !(tap.position >= 0 && tap.position <= s.length))
             throw BadScene(path + "position", number_text(tap.position), On{s, ""}.between("<="));
     } else {
@@ -242,6 +248,9 @@ void validate(const Scene& scene) {
         if (moves && s.start && std::holds_alternative<RestStart>(*s.start))
             throw BadScene("string." + std::to_string(i) + ".start", "\"rest\"",
                            "another start of a string that stretches or ends on a moving body");
+        if (moves && !s.masses.empty())
+            throw BadScene("string." + std::to_string(i) + ".mass", "a mass",
+                           "none on a string that stretches or ends on a moving body");
     }
     if (scene.body && scene.body->bridge.empty() && scene.body->nut.empty() &&
         scene.body->modes.empty())

@@ -9,6 +9,7 @@ namespace jvari {
 Impacts::Impacts(const String& s) {
     for (const Barrier& b : s.barriers)
         profile_.push_back(std::holds_alternative<ProfileBarrier>(b));
+    profile_.resize(s.barriers.size() + s.masses.size());
 }
 
 // A scheme that touches at points of a profile has as many for each profile.

@@ -1,6 +1,6 @@
-// What the contacts of one string do: one row from touching a barrier to letting go of it. A scheme
-// tells it step by step, the exact reference from event to event, and only where a run asks
-// (Block::impacts).
+// What the contacts of one string do: one row from touching a barrier or a mass to letting go of
+// it. A scheme tells it step by step, the exact reference from event to event, and only where a run
+// asks (Block::impacts).
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct BarrierOf {  // which barrier of which string of the scheme
 };
 
 struct Impact {
-    int barrier = 0;            // of the string
+    int barrier = 0;            // of the string, or the mass behind its barriers
     double start = 0, end = 0;  // [s]
     double largest_force = 0;   // of all points of the barrier together [N]
     double impulse = 0;         // [N s]

@@ -1,6 +1,6 @@
 #!/bin/sh
-# docs/first_minutes.md and docs/at_rest.md work as they stand: their commands, five at most, run one
-# after the other in an empty folder, and end in the answers that the text states. usage:
+# docs/first_minutes.md and docs/at_rest.md work as they stand: their commands, five at most, run
+# one after the other in an empty folder, and end in the answers that the text states. usage:
 # first_minutes.sh PROGRAM [TREE]
 program=$(realpath "$1")
 tree=$(cd "${2:-$(dirname "$0")/..}" && pwd)
@@ -20,7 +20,8 @@ follow() { # PAGE: its commands; what they say
     while read -r command; do
         case $command in *--plot*) [ -f "$node" ] && command -v node >/dev/null ||
             command=$(echo "$command" | sed 's/--plot [^ ]*//') ;; esac
-        sh -c "$command" >>said 2>errors </dev/null || { cat errors >&2; complain "fails: $command"; }
+        sh -c "$command" >>said 2>errors </dev/null ||
+            { cat errors >&2; complain "fails: $command"; }
     done <commands
 }
 

@@ -125,6 +125,9 @@ std::string string_text(const String& s) {
     o.with("pitch", pitch_of(s)).with("note", note_of(pitch_of(s)));
     o.raw("barrier",
           array(s.barriers, [&s](const Barrier& b) { return barrier_text(b, s.length); }));
+    o.raw("mass", array(s.masses, [](const Mass& m) {
+              return Object().with("position", m.position).with("height", -m.gap).text();
+          }));
     if (s.thread)
         o.raw(
             "thread",

@@ -89,6 +89,9 @@ function draw_obstacles(pen, v) {
     pen.stroke();
   }
   pen.fillStyle = colour("ink");
+  // masses where they are at t = 0
+  for (const m of s.mass)
+    (pen.beginPath(), pen.arc(v.x(m.position), v.y(m.height) + 7, 7, 0, 7), pen.fill());
   for (const x of [0, s.length])
     if (x <= v.length) (pen.beginPath(), pen.arc(v.x(x), v.y(0), 4, 0, 7), pen.fill());
 }

@@ -83,7 +83,10 @@ function forget() {
 // many digits. Its modes are not doubled.
 const dear = scene =>
   scene.string.some(
-    s => s.barrier.length > 2 || s.barrier.some(b => b.shape === "profile" || b.exponent !== 1),
+    s =>
+      s.mass.length > 0 ||
+      s.barrier.length > 2 ||
+      s.barrier.some(b => b.shape === "profile" || b.exponent !== 1),
   ) ||
   (scene.reference === "exact_linear" && scene.string.some(s => s.pluck));
 async function reference_of(state, scene, go_on) {

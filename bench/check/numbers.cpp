@@ -120,6 +120,13 @@ std::vector<Scene> make_scenes_of_numbers() {
     }
     {
         String s = played;
+        s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 0.3}};
+        all.push_back(scene("hammered", {s}));
+        all.back().taps.push_back({"z", Quantity::displacement, 0, 0, 0});
+        all.back().taps.push_back({"mass", Quantity::bridge_force, 0, 0, 0});
+    }
+    {
+        String s = played;
         s.thread = Thread{0.2, 0.08, 900, 0.2, 2e-4};
         s.pluck = Pluck{0.5, 2e-3, 3, 5e-4, 0.13, 0.1};
         all.push_back(scene("plucked", {s}));

@@ -62,6 +62,7 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
         if (!f.has(Feature::initial_shape)) s.start.reset();
         if (!f.has(Feature::initial_velocity)) s.velocity.reset();
         if (!f.has(Feature::pluck)) s.pluck.reset();
+        if (!f.has(Feature::free_mass)) s.masses.clear();
         if (!f.has(Feature::polarisation)) s.polarisation.reset();
         std::erase_if(s.barriers, [f](const Barrier& b) {
             return !f.has(std::holds_alternative<LumpedBarrier>(b) ? Feature::lumped_barrier
@@ -82,7 +83,7 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
     }
     if (!f.has(Feature::moving_body)) scene.body.reset();
     std::erase_if(scene.taps, [&scene](const Tap& t) {
-        return lacks(scene.strings[*t.string], t.quantity) != nullptr;
+        return lacks(scene.strings[*t.string], t.quantity, t.mass) != nullptr;
     });
     return scene;
 }

@@ -48,10 +48,12 @@ Verdict starts_from_the_scenes_shape(const Case& c) {
 Verdict starts_without_contact_forces(const Case& c) {
     const jvari::Run r = fresh(c, {});
     for (int k = 0; r.trace.rows > 0 && k < r.trace.taps(); ++k) {
-        const Quantity q = c.scene.taps[k].quantity;
+        const Tap& tap = c.scene.taps[k];
+        const Quantity q = tap.quantity;
         const bool contact_force = q == Quantity::bridge_force || q == Quantity::thread_force ||
                                    q == Quantity::driving_force;
-        const bool at_rest = contact_force || !needed_by(c.scene).has(Feature::initial_shape);
+        const bool at_rest =
+            contact_force || (!tap.mass && !needed_by(c.scene).has(Feature::initial_shape));
         if (at_rest && r.trace.column(k)[0] != 0)
             return broken(fmt::format("tap {} is {:.3g} {} in row 0", r.trace.names[k],
                                       r.trace.column(k)[0], unit_of(q)));

@@ -108,6 +108,10 @@ Scene with(Feature feature, Scene scene) {
             s.start = RestStart{};
             s.barriers = {soft_bridge(s, 3, 1e-3 * s.length)};
             break;
+        case Feature::free_mass:  // that strikes the string at once
+            if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
+            s.masses = {{2e-3, 6 * s.length / (contract_modes + 1), 0, 2 * s.length, 0, 1e4, 1, 0}};
+            break;
         case Feature::moving_body:
             scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}};
             break;
@@ -161,6 +165,13 @@ std::vector<Scene> read_contract_scenes() {
     scenes.push_back(
         named(read_scene("flat_bridge_ideal", {"string.0.barrier.0.stiffness_density=rigid"}),
               "rigid_wall"));
+    scenes.push_back(named(with(Feature::free_mass, string_at_rest()), "hammered"));
+    Mass& hammer = scenes.back().strings.front().masses.front();
+    hammer.gap = 1e-4, hammer.stiffness = 1e9, hammer.exponent = 2.3;
+    for (const auto& [name, quantity] : {std::pair{"z", Quantity::displacement},
+                                         {"v", Quantity::velocity},
+                                         {"F", Quantity::bridge_force}})
+        scenes.back().taps.push_back({name, quantity, 0, 0, 0});
     scenes.push_back(named(released(), "pluck_that_starts_and_ends_between_rows"));
     scenes.back().strings.front().start.reset();
     scenes.back().strings.front().pluck = Pluck{-0.4, 2.003e-3, 30.0, 1.01e-3, 0.5, 1.0};
@@ -254,6 +265,10 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::rigid_barrier: each_barrier([](auto& b) { b.stiffness = {1e5}; }); break;
         case Feature::tension_modulation:
             add([](String& s) { return s.axial_stiffness *= 3, true; });
+            break;
+        case Feature::free_mass:
+            for (double Mass::*member : {&Mass::mass, &Mass::velocity})
+                add([member](String& s) { return s.masses[0].*member *= 2, true; });
             break;
         case Feature::moving_body:
             all.push_back(scene);

@@ -51,7 +51,7 @@ Verdict allocates_nothing(const Case& c) {
 Verdict gives_numbers(const Case& c) {
     const jvari::Run r = fresh(c, {.energy = c.scheme.balance != Balance::none});
     if (r.trace.rows <= 0) return broken("gives no row");
-    const auto touched = [](const String& s) { return !s.barriers.empty(); };
+    const auto touched = [](const String& s) { return s.has_contacts(); };
     if (c.scheme.balance == Balance::none &&
         std::any_of(c.scene.strings.begin(), c.scene.strings.end(), touched))
         return kept("it may diverge: it promises no balance");

@@ -121,11 +121,13 @@ Json columns_json() {
 
 Json taps_json() {
     constexpr std::pair<Quantity, const char*> taps[] = {
-        {Quantity::displacement, "of the string at a place, positive away from the barrier"},
-        {Quantity::velocity, "of the string at a place"},
+        {Quantity::displacement,
+         "of the string at a place, or of a mass, positive away from the barrier"},
+        {Quantity::velocity, "of the string at a place, or of a mass"},
         {Quantity::nut_force,
          "of the string on its end at x = length, which on a guitar is the saddle"},
-        {Quantity::bridge_force, "of the barriers on the string, the mean over a row"},
+        {Quantity::bridge_force,
+         "of the barriers, or of a mass, on the string, the mean over a row"},
         {Quantity::thread_force, "of the thread on the string, the mean over a row"},
         {Quantity::driving_force,
          "-(bridge_force + thread_force): of the string on what it touches"}};

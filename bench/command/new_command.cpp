@@ -70,6 +70,9 @@ constexpr const char* what_else = R"(
 #   quantity = "thread_force"   of the thread on the string, the same
 #   quantity = "driving_force"  -(bridge_force + thread_force)
 #
+# A hammer or a bolt is a [[string.mass]]: `mass`, `position`, `stiffness` of its felt, `gap` below
+# the string, `velocity` towards it. A tap with `mass = 0` hears it.
+#
 # Start: [string.start] is a shape that is let go, [string.velocity] the same of its velocity,
 # [string.pluck] the force of a finger or hammer.
 #   shape = "mode" (number, amplitude)

@@ -140,7 +140,8 @@ void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, S
 
 // One row per contact, in the order of their starts; what lasts beyond the run has neither end nor
 // speed out.
-store::Table impacts_table(const std::vector<Impacts>& of_strings, double until) {
+store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& scene,
+                           double until) {
     std::vector<std::pair<int, Impact>> all;  // string
     for (const Impacts& of : of_strings)
         for (Impact i : of.all()) {
@@ -152,7 +153,9 @@ store::Table impacts_table(const std::vector<Impacts>& of_strings, double until)
                     "speed_in_m_per_s", "speed_out_m_per_s", "energy_lost_J"},
                    {}};
     for (const auto& [string, i] : all) {
-        t.rows.push_back({std::to_string(string), std::to_string(i.barrier)});
+        const int mass = i.barrier - static_cast<int>(scene.strings[string].barriers.size());
+        t.rows.push_back({std::to_string(string),
+                          mass < 0 ? std::to_string(i.barrier) : fmt::format("mass.{}", mass)});
         for (const double x :
              {i.start, i.end, i.largest_force, i.impulse, i.speed_in, i.speed_out, i.energy_lost})
             t.rows.back().push_back(store::text_of(x));
@@ -228,8 +231,8 @@ int run_command(RunRequest r) {
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
     std::vector<Impacts> impacts(scene.strings.begin(), scene.strings.end());
     if (!r.impacts.empty()) {
-        if (std::ranges::all_of(scene.strings, [](const String& s) { return s.barriers.empty(); }))
-            throw store::UsageError("--impacts: no string of the scene has a barrier");
+        if (std::ranges::all_of(scene.strings, [](const String& s) { return !s.has_contacts(); }))
+            throw store::UsageError("--impacts: no string of the scene has a barrier or a mass");
         store::must_be_writable(r.impacts);
     }
     if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
@@ -282,8 +285,8 @@ int run_command(RunRequest r) {
         text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
     }
     if (!r.impacts.empty()) {
-        const store::Table table =
-            impacts_table(impacts, static_cast<double>(result.trace.rows - 1) / settings.tap_rate);
+        const store::Table table = impacts_table(
+            impacts, scene, static_cast<double>(result.trace.rows - 1) / settings.tap_rate);
         store::write_fresh(r.impacts, store::csv(table));
         json["impacts"] = store::rows_json(table);
         text += fmt::format("\n  {:<28}{}  ({} contacts)", "written", r.impacts, table.rows.size());

@@ -84,7 +84,7 @@ int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, S
              study::Plan& plan) {
     const int all = settings.modes;
     const bool contact = std::any_of(scene.strings.begin(), scene.strings.end(),
-                                     [](const String& s) { return !s.barriers.empty(); });
+                                     [](const String& s) { return s.has_contacts(); });
     if (!r.modes.empty() || all == 0 || !contact) return all;
     const SchemeSize equal = size_of(d, scene, settings);
     if (equal.modes == 0 && !equal.refused) return all;

@@ -37,6 +37,8 @@ bool pressed(const String& s) {  // at rest something above or below it pushes o
 bool set_in_motion(const String& s, double before) {
     const bool table = s.start && std::holds_alternative<TableStart>(*s.start);
     return largest_displacement(s) != 0 || table || s.velocity || pressed(s) ||
+           std::ranges::any_of(s.masses,
+                               [](const Mass& m) { return m.velocity > 0 || m.gap < 0; }) ||
            (plucked(s) && s.pluck->start < before);
 }
 }  // namespace
@@ -50,10 +52,11 @@ std::string tuning_text(const String& s) {
 
 std::string untouched_text(const Scene& scene, const Figures& run) {
     const bool any =
-        std::ranges::any_of(scene.strings, [](const String& s) { return !s.barriers.empty(); });
+        std::ranges::any_of(scene.strings, [](const String& s) { return s.has_contacts(); });
     if (!any || run.largest_contact_force != 0 || run.deepest_penetration > 0) return "";
     return fmt::format(
-        "no string of {} touches a barrier in {:g} s, so no contact is in this run. Are height "
+        "no string of {} touches a barrier or a mass in {:g} s, so no contact is in this run. Are "
+        "height "
         "[m], position and the side of "
         "the start as meant?",
         scene.name, scene.duration);

@@ -51,7 +51,7 @@ std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene
 
 bool touched(const Scene& scene) {
     return std::any_of(scene.strings.begin(), scene.strings.end(),
-                       [](const String& s) { return s.thread || !s.barriers.empty(); });
+                       [](const String& s) { return s.thread || s.has_contacts(); });
 }
 
 bool sets(const OptionValues& values, const Option& option) {

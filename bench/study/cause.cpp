@@ -114,7 +114,7 @@ double lateness(Signal x, Signal r) {
 bool hears_partials(const Scene& scene, Quantity q) {  // of the string's own modes
     const String& s = scene.strings.front();
     return (q == Quantity::displacement || q == Quantity::velocity || q == Quantity::nut_force) &&
-           scene.strings.size() == 1 && s.barriers.empty() && !s.thread && !s.polarisation;
+           scene.strings.size() == 1 && !s.has_contacts() && !s.thread && !s.polarisation;
 }
 }  // namespace
 

@@ -51,7 +51,7 @@ double dearness(const Descriptor& reference, const Scene& scene) {
 bool within_budget(const Descriptor& reference, const Scene& scene, const Size& s) {
     std::size_t contacts = 2;  // the closed forms take two alike
     for (const String& string : scene.strings)
-        contacts = std::max(contacts, string.barriers.size());
+        contacts = std::max(contacts, string.barriers.size() + string.masses.size());
     const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
     const int size = std::max(s.modes, s.points);  // few measured modes may lie under many points
     double work = 0;

@@ -23,6 +23,7 @@
 #include "reference/exact/pluck_series.hpp"
 #include "reference/exact/touching_set.hpp"
 #include "reference/exact/window_energies.hpp"
+#include "reference/masses.hpp"
 #include "reference/pluck_parts.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
@@ -49,8 +50,8 @@ constexpr double share_of(double tolerance, double share) {
 constexpr long phases_between_questions = 64;
 
 // The largest value in [0, end]. A lossy contact pushes hardest on the way in and may pull on the
-// way out: the extremes of its force are those of a polynomial in time, sought by samples and, where
-// a sample is the largest of three, by golden sections around it.
+// way out: the extremes of its force are those of a polynomial in time, sought by samples and,
+// where a sample is the largest of three, by golden sections around it.
 template <class Force>
 double most_in(double end, const Force& force) {
     constexpr int samples = 16;
@@ -75,13 +76,11 @@ struct Extremes {  // of the run so far
            deepest = 0, tolerance = 0;
 };
 
-std::vector<BarrierLaw> laws_of(const String& s) {
+std::vector<BarrierLaw> laws_of(const Modes& modes, const String& s) {
     std::vector<BarrierLaw> laws;
-    for (const Barrier& barrier : s.barriers) {
-        const auto& b = std::get<LumpedBarrier>(barrier);
+    for (const auto& [b, g] : touched_by(modes, s))
         laws.push_back(
             {{b.stiffness.k, b.exponent}, b.contact_loss, b.loss_law == LossLaw::clipped});
-    }
     return laws;
 }
 
@@ -111,14 +110,15 @@ String with_springs(String s, const Descriptor& descriptor, const std::optional<
 
 class ExactContact final : public Scheme {
 public:
-    ExactContact(const String&, const Scene&, Modes, double tap_rate, double tolerance,
+    ExactContact(const String&, const Scene&, const Modes&, double tap_rate, double tolerance,
                  const std::optional<InSeries>&, std::vector<int> barrier_of_each);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override {
-        return window_.series() ? ModalState{}
-                                : state_of(y_, u_, modes_.count(), 1 / window_.seconds());
+        return window_.series() || readout_.masses() > 0
+                   ? ModalState{}
+                   : state_of(y_, u_, modes_.count(), 1 / window_.seconds());
     }
     std::vector<Fact> facts() const override;
 
@@ -189,12 +189,12 @@ private:
     double counted_until_ = -1;  // by a step of that length
 };
 
-ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, double tap_rate,
+ExactContact::ExactContact(const String& s, const Scene& scene, const Modes& modes, double tap_rate,
                            double tolerance, const std::optional<InSeries>& series,
                            std::vector<int> barrier_of_each)
-    : modes_(std::move(modes)),
+    : modes_(with_masses(modes, s)),
       window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
-      law_(laws_of(s)),
+      law_(laws_of(modes_, s)),
       collocation_(window_, law_),
       spending_(window_, modes_, share_of(tolerance, window_share)),
       readout_(scene, modes_),
@@ -205,8 +205,8 @@ ExactContact::ExactContact(const String& s, const Scene& scene, Modes modes, dou
       steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)),
       barrier_(std::move(barrier_of_each)) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    ModalStart start =
-        start_of(modes_, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{});
+    ModalStart start = with_masses(
+        start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes, s);
     for (double& v : start.velocity) v *= window_.seconds();
     start_ = window_.osc.pad(start.displacement);
     start_u_ = window_.osc.pad(start.velocity);
@@ -246,6 +246,7 @@ void ExactContact::reset() noexcept {
     std::copy(start_.begin(), start_.end(), y_.begin());
     std::copy(start_u_.begin(), start_u_.end(), u_.begin());
     std::copy(start_z_.begin(), start_z_.end(), z_.begin());
+    readout_.begin(u_.data(), 1 / window_.seconds(), tap_rate_);
     std::fill(touching_.begin(), touching_.end(), 0);
     std::fill(known_zero_.begin(), known_zero_.end(), 0);
     row_ = idle_ = 0;
@@ -657,7 +658,7 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
     if (needed_by(scene).has(Feature::rigid_barrier) &&
         std::none_of(chosen.options.begin(), chosen.options.end(), says))
         chosen.options.emplace_back(compliance_option.name, "matched");
-    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, chosen);
     String s = scene.strings.at(0);
     std::vector<int> barrier_of_each;
@@ -667,9 +668,11 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
         const auto points = with_points(one, modes.count(), profile_points(settings)).barriers;
         barrier_of_each.insert(barrier_of_each.end(), points.size(), of);
     }
+    for (std::size_t k = 0; k < s.masses.size(); ++k)
+        barrier_of_each.push_back(static_cast<int>(s.barriers.size() + k));
     s = with_springs(with_points(s, modes.count(), profile_points(settings)), descriptor, series);
-    return std::make_unique<ExactContact>(s, scene, std::move(modes), settings.tap_rate, tolerance,
-                                          series, std::move(barrier_of_each));
+    return std::make_unique<ExactContact>(s, scene, modes, settings.tap_rate, tolerance, series,
+                                          std::move(barrier_of_each));
 }
 constexpr Approximation approximates[] = {points_for_a_profile[0],
                                           {Feature::rigid_barrier, facts::rigid_stiffness}};
@@ -687,7 +690,8 @@ const Descriptor exact_contact = {
                   Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
                   Features(Feature::thread) | Features(Feature::initial_shape) |
                   Features(Feature::pluck) | Features(Feature::rigid_barrier) |
-                  Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss,
+                  Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss |
+                  Feature::free_mass,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -17,6 +17,7 @@
 #include "reference/exact/flight.hpp"
 #include "reference/integrated_instrument.hpp"
 #include "reference/integrator.hpp"
+#include "reference/masses.hpp"
 #include "reference/pluck_parts.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/readout.hpp"
@@ -35,13 +36,15 @@ struct Choice {
 
 class IntegratedContact final : public Scheme {
 public:
-    IntegratedContact(const String&, const Scene&, Modes, double tap_rate, const Choice&,
+    IntegratedContact(const String&, const Scene&, const Modes&, double tap_rate, const Choice&,
                       const std::optional<InSeries>&);
     void reset() noexcept override;
     Status advance(const Block& out) noexcept override;
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override {
-        return series() ? ModalState{} : state_of(y_, u_, modes_.count(), flight_.window.osc.rate);
+        return series() || readout_.masses() > 0
+                   ? ModalState{}
+                   : state_of(y_, u_, modes_.count(), flight_.window.osc.rate);
     }
     std::vector<Fact> facts() const override;
 
@@ -87,10 +90,10 @@ private:
     double events_ = 0;
 };
 
-IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes modes,
+IntegratedContact::IntegratedContact(const String& s, const Scene& scene, const Modes& modes,
                                      double tap_rate, const Choice& choice,
                                      const std::optional<InSeries>& series)
-    : modes_(std::move(modes)),
+    : modes_(with_masses(modes, s)),
       equations_(modes_, s, series),
       flight_(modes_, s, 1 / tap_rate, series),
       integrator_(equations_, choice.integrator),
@@ -100,8 +103,8 @@ IntegratedContact::IntegratedContact(const String& s, const Scene& scene, Modes 
       tap_rate_(tap_rate),
       interval_(flight_.window.osc.rate / tap_rate) {
     if (s.pluck) pluck_.push_back(*s.pluck);
-    ModalStart start =
-        start_of(modes_, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{});
+    ModalStart start = with_masses(
+        start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes, s);
     for (double& v : start.velocity) v /= flight_.window.osc.rate;
     start_ = flight_.window.osc.pad(start.displacement);
     start_u_ = flight_.window.osc.pad(start.velocity);
@@ -118,6 +121,7 @@ void IntegratedContact::reset() noexcept {
     flight_.reset();
     std::copy(start_z_.begin(), start_z_.end(), flight_.z.begin());
     integrator_.reset();
+    readout_.begin(u_.data(), flight_.window.osc.rate, tap_rate_);
     row_ = idle_ = 0;
     leaving_ = -1;
     running_ = false;
@@ -185,7 +189,7 @@ double IntegratedContact::integrate(double left, bool plucked, double since_pluc
     if (stop == Integrator::Stop::failed) return -1;
     const double* z = integrator_.state();
     for (int i = 0; i < modes_.count(); ++i) {
-        y_[i] = z[i] / modes_.omega0[i];
+        y_[i] = z[i] / equations_.scale(i);
         u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
     }
     equations_.read_series(z, flight_.z.data());
@@ -216,7 +220,7 @@ void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
     double* z = integrator_.state();
     std::fill_n(z, equations_.size(), 0.0);
     for (int i = 0; i < modes_.count(); ++i) {
-        z[i] = modes_.omega0[i] * y_[i];
+        z[i] = equations_.scale(i) * y_[i];
         z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
     }
     equations_.put_series(flight_.z.data(), z);
@@ -296,15 +300,14 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
     if (moves) return integrated_instrument(descriptor, scene, unsampled, i);
-    Modes modes = modes_of(scene.strings.at(0), unsampled);
+    const Modes modes = modes_of(scene.strings.at(0), unsampled);
     const auto series = in_series(descriptor, scene, modes, settings);
     if (series && scene.strings.front().pluck)
         throw Refusal(
             std::string(descriptor.name) +
             ": compliance=matched takes strings that are released; exact_contact takes a pluck");
     const String s = with_points(scene.strings.at(0), modes.count(), profile_points(settings));
-    return std::make_unique<IntegratedContact>(s, scene, std::move(modes), settings.tap_rate,
-                                               choice, series);
+    return std::make_unique<IntegratedContact>(s, scene, modes, settings.tap_rate, choice, series);
 }
 
 }  // namespace
@@ -321,7 +324,7 @@ const Descriptor sundials = {
                   Features(Feature::thread) | Features(Feature::initial_shape) |
                   Features(Feature::pluck) | Features(Feature::moving_body) |
                   Features(Feature::tension_modulation) | Feature::initial_velocity |
-                  Feature::equilibrium | Feature::clipped_loss,
+                  Feature::equilibrium | Feature::clipped_loss | Feature::free_mass,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/exact/series_window.hpp"
+#include "reference/masses.hpp"
 
 namespace jvari {
 
@@ -15,12 +16,11 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s,
         weights.insert(weights.end(), w.begin(), w.end());
         gains.insert(gains.end(), d.begin(), d.end());
     };
-    for (const Barrier& barrier : s.barriers) {
-        const auto& b = std::get<LumpedBarrier>(barrier);
-        add(footprint_weights(modes, b.position, b.width));
-        k.push_back(b.stiffness.k);
+    for (const auto& [law, g] : touched_by(modes, s)) {
+        add(g);
+        k.push_back(law.stiffness.k);
         r.push_back(0);
-        height.push_back(b.height);
+        height.push_back(law.height);
     }
     contacts = static_cast<int>(k.size());
     if (s.thread) {

@@ -241,7 +241,7 @@ Sites sites_of(const Scene& scene, std::span<const Footprint> contacts) {
     for (std::size_t k = 0; k < scene.taps.size(); ++k) {
         const Tap& tap = scene.taps[k];
         const bool nut = tap.quantity == Quantity::nut_force;
-        if (!nut && tap.quantity != Quantity::displacement) continue;
+        if (tap.mass || (!nut && tap.quantity != Quantity::displacement)) continue;
         all.readings.push_back({{tap.position, 0}, nut});
         all.tap.push_back(k);
     }
@@ -253,6 +253,7 @@ std::vector<Footprint> footprints_of(const String& s) {
     for (const Barrier& barrier : s.barriers)
         if (const auto* b = std::get_if<LumpedBarrier>(&barrier))
             all.push_back({b->position, b->width});
+    for (const Mass& m : s.masses) all.push_back({m.position, m.width});
     return all;
 }
 

@@ -140,6 +140,6 @@ inline constexpr Option profile_points_option{
 
 // its profiles replaced; Refusal of a number of points that cannot be
 String with_profile_points(String, const Settings&);
-std::vector<Footprint> footprints_of(const String&);  // of its lumped barriers
+std::vector<Footprint> footprints_of(const String&);  // of lumped barriers and masses
 
 }  // namespace jvari

@@ -1,8 +1,8 @@
 // Contacts that lose energy (Hunt-Crossley, Issanchou et al. 2016, eq 24), as obstacle.hpp has
 // them: each pulls by D r more, D = beta V'(eta)/span at the level that the step is centred on, and
 // the contacts see other compliances while one of them is closed. A clipped loss does not pull:
-// where F - D r would, the contact lets go for the step, which is solved as if it were out of reach,
-// and what its spring gives is lost.
+// where F - D r would, the contact lets go for the step, which is solved as if it were out of
+// reach, and what its spring gives is lost.
 #pragma once
 
 #include <vector>

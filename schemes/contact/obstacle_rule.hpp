@@ -98,8 +98,8 @@ struct RuleChoice {  // by which the contacts of a string act
 };
 
 // What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not
-// give way; `own_only`, where nothing can stand in series with its contacts; options, which it reads
-// by choose(settings); features that it approximates, or leaves out.
+// give way; `own_only`, where nothing can stand in series with its contacts; options, which it
+// reads by choose(settings); features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;

@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "scenes/excitation.hpp"
+#include "schemes/driver/free_masses.hpp"
 #include "schemes/driver/string_step.hpp"
 #include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
@@ -54,22 +55,26 @@ public:
         : string_(std::move(string)),
           steps_(steps_per_row),
           means_(points().count(), levels, steps_per_row),
-          obstacle_(points().contacts, points().threads, points().theta, levels * points().dt,
-                    levels, make_rule, series()) {
+          masses_(points()),
+          obstacle_(points().contacts, points().threads, masses_.yielding(points().theta, levels),
+                    levels * points().dt, levels, make_rule, series()) {
         if constexpr (levels == 2) {
             std::vector<double> theta = points().start_theta;
             for (double x : points().theta)
                 if (points().start_theta.empty()) theta.push_back(0.5 * x);
-            start_ = obstacle_.halved(string_->thread_start(), theta, series());
+            start_ =
+                obstacle_.halved(string_->thread_start(), masses_.yielding(theta, 1), series());
         }
         for (auto* v : {&older_, &free_, &now_, &force_, &moving_, &resting_})
             v->assign(points().count(), 0.0);
         for (std::size_t p = 0; p < points().start_velocity.size(); ++p)
             moving_[p] = points().dt * points().start_velocity[p];
+        masses_.subtract_way(moving_.data(), 1);
         std::copy(points().start_force.begin(), points().start_force.end(), resting_.begin());
         plucked_in_series_ = points().series && !points().series->pluck.empty();
         dt_ = points().dt;
-        if constexpr (fuses) string_->fuse(obstacle_.one(), obstacle_.series(), steps_);
+        if constexpr (fuses)
+            if (masses_.empty()) string_->fuse(obstacle_.one(), obstacle_.series(), steps_);
         Driver::reset();
     }
 
@@ -80,19 +85,22 @@ public:
         means_.clear();
         obstacle_.clear();
         string_->reset();
+        masses_.clear();
         if constexpr (levels == 2) {
             start_->clear();
-            const ReadingsBeforeStep at = with_pluck(string_->readings(), 0, 0, 1);
+            const ReadingsBeforeStep at = at_contacts(string_->readings(), 0, 0, 1);
             start_->begin(at.older, moving_.data(), resting_.data());
             if constexpr (stretches) start_->set(string_->theta());
             if (!start_->start(at, force_.data())) status_ = {Outcome::not_converged, 0};
             string_->start(force_.data(), 0);
+            masses_.start(force_.data());
             obstacle_.follow(*start_);
         } else {
             string_->reading(0, now_.data());
             const double F_e = plucked_in_series_ ? pluck_at(0) : 0;
             for (int p = 0; F_e != 0 && p < points().count(); ++p)
                 now_[p] += points().series->pluck[p] * F_e;
+            masses_.subtract(now_.data(), 0);
             obstacle_.begin(now_.data(), moving_.data(), resting_.data());
         }
         if constexpr (requires { string_->expect(0.0); }) string_->expect(stored());
@@ -122,11 +130,12 @@ public:
         return status_;
     }
 
-    int dofs() const override { return string_->dofs() + obstacle_.dofs(); }
+    int dofs() const override { return string_->dofs() + masses_.dofs() + obstacle_.dofs(); }
     std::vector<FreeMode> free_modes() const override { return string_->free_modes(); }
     ModalState state() const override {
         if constexpr (requires(const String s) { s.state(); })
-            if (obstacle_.dofs() == 0 && !points().series) return string_->state();
+            if (obstacle_.dofs() == 0 && masses_.empty() && !points().series)
+                return string_->state();
         return {};
     }
     std::vector<Fact> facts() const override {
@@ -151,15 +160,17 @@ private:
 
     void step(bool probed, bool last_of_row) noexcept {
         string_->approach(last_of_row);
+        masses_.approach();
         // the level that the step is centred on, or starts from; its oldest
         const long n = done_ + levels - 1, before = n + 1 - levels;
-        const ReadingsBeforeStep at = with_pluck(string_->readings(), before, n, n + 1);
+        const ReadingsBeforeStep at = at_contacts(string_->readings(), before, n, n + 1);
         if constexpr (stretches) obstacle_.set(string_->theta());
         if (!force_.empty() && !obstacle_.solve(at, force_.data(), impacts_ != nullptr))
             status_ = {Outcome::not_converged, done_};
         if (impacts_) tell_impacts();
         means_.count(force_.data());
         const Spent spent = string_->pass(force_.data(), 0, probed);
+        masses_.pass(force_.data());
         if (probed) {
             supplied_ += spent.supplied - by_way_of_series(before, n + 1);
             dissipated_ += spent.dissipated + dt_ * obstacle_.loss();
@@ -183,16 +194,19 @@ private:
         return points().pluck ? jvari::force(*points().pluck, static_cast<double>(n) * points().dt)
                               : 0;
     }
-    ReadingsBeforeStep with_pluck(const ReadingsBeforeStep& at, long older, long now,
-                                  long newer) noexcept {
-        if (!plucked_in_series_) return at;
+    ReadingsBeforeStep at_contacts(const ReadingsBeforeStep& at, long older, long now,
+                                   long newer) noexcept {
+        if (!plucked_in_series_ && masses_.empty()) return at;
         const double a = pluck_at(older), b = pluck_at(now), c = pluck_at(newer);
         for (int p = 0; p < points().count(); ++p) {
-            const double yield = points().series->pluck[p];
+            const double yield = plucked_in_series_ ? points().series->pluck[p] : 0;
             older_[p] = at.older[p] + yield * a;
             now_[p] = at.now[p] + yield * b;
             free_[p] = at.free[p] + yield * (c - a);
         }
+        masses_.subtract(older_.data(), static_cast<double>(older - now));
+        masses_.subtract(now_.data(), 0);
+        masses_.subtract_way(free_.data(), static_cast<double>(newer - older));
         return {older_.data(), now_.data(), free_.data()};
     }
     // the work that the forces do there [J]
@@ -206,12 +220,13 @@ private:
     }
 
     double stored() noexcept {
-        double sum = string_->stored();
+        double sum = string_->stored() + masses_.stored();
         for (int level = 0; level < levels; ++level) {
             string_->reading(level, now_.data());
             if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
                 for (int p = 0; p < points().count(); ++p)
                     now_[p] += points().series->pluck[p] * F_e;
+            masses_.subtract(now_.data(), level);
             sum += obstacle_.potential(now_.data(), level) / levels;
         }
         return sum;
@@ -219,13 +234,15 @@ private:
 
     void write(const Block& out, int row) noexcept {
         const double* means = means_.take(force_.data(), done_ == 0);
-        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = string_->tap(k, means);
+        const double* heard = masses_.empty() ? means : masses_.unheard(means);
+        for (int k = 0; k < out.taps; ++k) out.tap[k * out.stride + row] = string_->tap(k, heard);
         if (points().series) {
             const double F_e = plucked_in_series_ ? pluck_at(done_) : 0;
             for (int k = 0; k < out.taps; ++k)
                 out.tap[k * out.stride + row] +=
                     points().series->on_tap(k, obstacle_.forces(0), F_e);
         }
+        masses_.write(out, row, means, force_.data());
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }
@@ -235,6 +252,7 @@ private:
     bool plucked_in_series_ = false;
     double dt_ = 0;
     RowForces means_;
+    FreeMasses<levels> masses_;
     Obstacle obstacle_;
     std::optional<Obstacle> start_;  // of three-point schemes
     std::vector<double> older_, free_, now_, force_;

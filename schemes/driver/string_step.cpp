@@ -4,8 +4,11 @@
 
 namespace jvari {
 
-StringPoints points_of(const String& s, double dt) {
+StringPoints points_of(const Scene& scene, double dt) {
+    const String& s = scene.strings.front();
     StringPoints p;
+    p.masses = s.masses;
+    p.taps = scene.taps;
     if (s.thread) p.threads.push_back(*s.thread);
     p.pluck = s.pluck;
     p.mass = s.linear_density * s.length;
@@ -22,7 +25,7 @@ std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals)
         all.push_back(place);
         p.positions.push_back(place.at.position);
         p.contacts.add(law, height, b.contact_loss, b.loss_law,
-                       {0, of, static_cast<int>(s.barriers.size())});
+                       {0, of, static_cast<int>(s.barriers.size() + s.masses.size())});
     };
     for (const Barrier& barrier : s.barriers) {
         ++of;
@@ -41,6 +44,10 @@ std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals)
         for (std::size_t i = 0; i < x.size(); ++i)
             add({{x[i], 0}, first + static_cast<int>(i)}, {b.stiffness.K * dx, b.exponent},
                 height[i], b);
+    }
+    for (const Mass& m : s.masses) {
+        ++of;
+        add({{m.position, m.width}}, {m.stiffness, m.exponent}, 0, m);
     }
     return all;
 }

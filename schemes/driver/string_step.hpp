@@ -34,6 +34,8 @@ struct StringPoints {  // what a string is to whatever solves for its points
     Contacts contacts;
     // one at most, but of strings on a moving body (schemes/body/instrument.hpp)
     std::vector<Thread> threads;
+    std::vector<Mass> masses;  // on the last contacts (free_masses.hpp); of their scene all taps
+    std::vector<Tap> taps;
     std::vector<double> positions;  // x_p of each point [m], contacts first
     // row-major over the points, and then the moving body where there is one: [m/N], with the body
     // [s^2], of the body alone [kg s^2]
@@ -48,17 +50,18 @@ struct StringPoints {  // what a string is to whatever solves for its points
     double dt = 0;                             // [s]
     int count() const { return static_cast<int>(positions.size()); }
 };
-StringPoints points_of(const String&, double dt);  // without positions, contacts and theta
+// of a scene's one string, without positions, contacts and theta
+StringPoints points_of(const Scene&, double dt);
 
 struct Place {  // of a contact: a node of a grid, or a footprint
     Footprint at;
     int node = 0;  // 0: none
 };
-// Adds the string's barriers as contacts; of a profile each node of a grid of so many intervals is
-// one, which stands for a spacing of it.
+// Adds the string's barriers and masses as contacts; of a profile each node of a grid of so many
+// intervals is one, which stands for a spacing of it.
 // Refusal where no node lies on a profile
 std::vector<Place> add_contacts(StringPoints&, const String&, int intervals = 0);
-// its barriers, which all are lumped, and its thread
+// its barriers, which all are lumped, its masses and its thread
 void add_lumped(StringPoints&, const String&);
 
 // What a tap of contact forces hears of their means since the last row [N]; 0 of any other

@@ -276,7 +276,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.start = at_nodes(start.displacement, grid);
     g.start_velocity = at_nodes(start.velocity, grid);
     g.moves = needed_by(scene).has(Feature::initial_velocity);
-    g.points = points_of(s, dt);
+    g.points = points_of(scene, dt);
     const auto lump = [&](const Footprint& f) {
         g.stencils.push_back(footprint_stencil(grid, f.position, f.width));
         g.narrowest =

@@ -57,7 +57,7 @@ public:
         const String s = scene.strings.front() =
             with_profile_points(scene.strings.front(), settings);
         modes_ = modes_of(s, settings);
-        p_ = points_of(s, dt_);
+        p_ = points_of(scene, dt_);
         add_lumped(p_, s);
         for (const Footprint& f : sites_of(scene).forces)
             if (g_.size() < p_.positions.size())

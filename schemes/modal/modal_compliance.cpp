@@ -26,7 +26,7 @@ MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& sc
 }
 
 double relative_compliance(const Modes& modes, const String& s, std::span<const double> own) {
-    const auto& b = std::get<LumpedBarrier>(s.barriers.front());
+    const Footprint b = footprints_of(s).front();
     const auto g = footprint_weights(modes, b.position, b.width);
     double sum = 0;
     for (int i = 0; i < modes.count(); ++i) sum += g[i] * g[i] * own[i];

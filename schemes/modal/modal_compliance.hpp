@@ -18,8 +18,8 @@ inline constexpr Option matched_options[] = {compliance_option, profile_points_o
 MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&, double dt,
                                    std::span<const double> own);
 
-// How much the string's only contact, which is lumped, yields under a steady force, relative to the
-// true string of the same modes.
+// How much the string's only contact, which is no profile's, yields under a steady force, relative
+// to the true string of the same modes.
 double relative_compliance(const Modes&, const String&, std::span<const double> own);
 
 // How a scheme's string yields, with what is in series with its points.

@@ -68,7 +68,7 @@ ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& sc
     p.dt = 1 / settings.sample_rate;
     p.modes = modes_of(p.string(), settings);
     refuse_above_nyquist(descriptor, p.modes, settings.sample_rate);
-    p.points = points_of(p.string(), p.dt);
+    p.points = points_of(p.scene, p.dt);
     p.update.intervals = p.modes.count() + 1;
     for (const Place& place : add_contacts(p.points, p.string()))
         p.update.ports.push_back(

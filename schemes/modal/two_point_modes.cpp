@@ -82,7 +82,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         return w;
     };
 
-    p_ = points_of(s, dt_);
+    p_ = points_of(scene, dt_);
     add_lumped(p_, s);
     if (matched) p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
     const ModalStart start = start_of(modes, s, yield_of(own, p_.series));

@@ -40,7 +40,7 @@ ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& sce
         matched ? modes_for(p.string(), settings) + 1 : intervals_for(p.string(), settings);
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
-    p.points = points_of(p.string(), p.dt);
+    p.points = points_of(p.scene, p.dt);
     place_contacts(p, matched || p.on_body);
     complete(p, descriptor, settings);
     p.facts.insert(p.facts.begin(),
@@ -70,8 +70,8 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
 extern const Descriptor modal_spatial_newton = {
     .name = "modal_spatial_newton",
     .source = "Issanchou et al. 2016, eqs 13-16, 20-21, 24-28",
-    .represents =
-        (modal_features_of_points - Feature::equilibrium) | Feature::moving_body | any_rigid,
+    .represents = (modal_features_of_points - Feature::equilibrium) | Feature::moving_body |
+                  any_rigid | Feature::free_mass,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make<GradientRule>,

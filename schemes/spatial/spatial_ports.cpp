@@ -51,9 +51,8 @@ int intervals_for(const String& s, const Settings& settings) {
                 static_cast<int>(std::min(std::ceil(8 * s.length / (profile->to - profile->from)),
                                           most_modes + 2.0)));
     const auto on_nodes = [&](int n) {
-        return std::all_of(s.barriers.begin(), s.barriers.end(), [&](const Barrier& barrier) {
-            const auto* b = std::get_if<LumpedBarrier>(&barrier);
-            return !b || b->width != 0 || node_at(b->position, s.length, n) != 0;
+        return std::ranges::all_of(footprints_of(s), [&](const Footprint& f) {
+            return f.width != 0 || node_at(f.position, s.length, n) != 0;
         });
     };
     for (int n = intervals; n <= 4 * intervals; ++n)

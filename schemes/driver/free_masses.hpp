@@ -1,0 +1,106 @@
+// Masses that meet a string from below: each is one more mode, of frequency 0 and of weight -1 at
+// its contact, which reads y - z and pushes the mass back by as much as the string.
+//
+//     d = the way of a mass in a step, d <- d - dt^2/m F,   z <- z + d
+//
+// In two-point steps z^{n+1} = z^n + d - dt^2/2m F, with v = d/dt at n; in three-point ones d = z^n
+// - z^{n-1}, and z is one ahead as the string is. Both keep m d^2/(2 dt^2) + the contact's energy:
+// the invariant of string_step.hpp.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "schemes/driver/string_step.hpp"
+
+namespace jvari {
+
+template <int levels>
+class FreeMasses {
+public:
+    explicit FreeMasses(const StringPoints& p)
+        : masses_(p.masses), first_(p.contacts.count() - static_cast<int>(masses_.size())) {
+        for (const Tap& tap : masses_.empty() ? std::vector<Tap>() : p.taps)
+            taps_.push_back({tap.quantity, tap.mass.value_or(-1)});
+        dt_ = p.dt;
+        z_.resize(masses_.size());
+        d_ = z_;
+        heard_.resize(p.count());
+        clear();
+    }
+
+    bool empty() const { return masses_.empty(); }
+    int dofs() const { return 2 * static_cast<int>(masses_.size()); }
+
+    void clear() noexcept {
+        for (std::size_t k = 0; k < masses_.size(); ++k)
+            z_[k] = -masses_[k].gap, d_[k] = dt_ * masses_[k].velocity;
+    }
+    // of a step that spans so many dt, row-major over the points [m/N]
+    std::vector<double> yielding(std::vector<double> theta, int span) const {
+        for (std::size_t k = 0; k < masses_.size(); ++k)
+            theta[(first_ + k) * (heard_.size() + 1)] += span * yields(k);
+        return theta;
+    }
+    // From the string's to those of the contacts: `steps` from the instant of z on. And of the way
+    // in `steps`.
+    void subtract(double* reading, double steps) const noexcept {
+        for (std::size_t k = 0; k < masses_.size(); ++k)
+            reading[first_ + k] -= z_[k] + steps * d_[k];
+    }
+    void subtract_way(double* increment, double steps) const noexcept {
+        for (std::size_t k = 0; k < masses_.size(); ++k) increment[first_ + k] -= steps * d_[k];
+    }
+    void approach() noexcept {  // the string's
+        for (std::size_t k = 0; levels == 2 && k < z_.size(); ++k) z_[k] += d_[k];
+    }
+    void pass(const double* force) noexcept {
+        for (std::size_t k = 0; k < z_.size(); ++k) {
+            if (levels == 1) z_[k] += d_[k] - yields(k) * force[first_ + k];
+            d_[k] -= 2 * yields(k) * force[first_ + k];
+        }
+    }
+    // the first half step of three points
+    void start(const double* force) noexcept {
+        for (std::size_t k = 0; k < z_.size(); ++k) d_[k] -= yields(k) * force[first_ + k];
+    }
+    double stored() const noexcept {
+        double sum = 0;
+        for (std::size_t k = 0; k < z_.size(); ++k)
+            sum += 0.5 * masses_[k].mass * (d_[k] / dt_) * (d_[k] / dt_);
+        return sum;
+    }
+
+    // What the taps hear: `mean` of all points without the masses', whose own taps write over it.
+    const double* unheard(const double* mean) noexcept {
+        std::copy_n(mean, heard_.size(), heard_.begin());
+        std::fill_n(heard_.begin() + first_, masses_.size(), 0.0);
+        return heard_.data();
+    }
+    void write(const Block& out, int row, const double* mean, const double* force) const noexcept {
+        for (std::size_t t = 0; t < taps_.size(); ++t) {
+            const auto [quantity, k] = taps_[t];
+            if (k < 0) continue;
+            // of three points d is that of the half step after the row
+            const double back = levels == 2 ? yields(k) * force[first_ + k] : 0;
+            out.tap[t * out.stride + row] = quantity == Quantity::displacement ? z_[k]
+                                            : quantity == Quantity::velocity ? (d_[k] + back) / dt_
+                                                                             : mean[first_ + k];
+        }
+    }
+
+private:
+    struct Heard {
+        Quantity quantity;
+        int mass;  // -1: the string
+    };
+    double yields(std::size_t k) const { return 0.5 * dt_ * dt_ / masses_[k].mass; }
+
+    std::vector<Mass> masses_;
+    std::vector<Heard> taps_;
+    int first_;  // of their contacts
+    double dt_ = 0;
+    std::vector<double> z_, d_, heard_;  // [m], [m], [N]
+};
+
+}  // namespace jvari
