@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "reference/gauss_legendre.hpp"
@@ -75,6 +76,7 @@ WindowEnergies::WindowEnergies(MacroWindow& w, const Modes& modes, double tolera
     // with something in series two pairs each
     lost_to_.assign(static_cast<std::size_t>(2 * w.contacts + 1) * most_nodes, 0.0);
     gained_by_ = lost_to_;
+    split_.reserve(2 * w.contacts + 1);
 }
 
 Complex WindowEnergies::Pairs::against(const std::vector<double>& row, int pair,
@@ -160,32 +162,34 @@ int WindowEnergies::plan(const Stretch& s) noexcept {
     const double whole = s.to - s.from;
     const double smooth =
         std::max(s.touch ? s.touch->set.growth() : window_->reach, window_->push_growth());
-    double slowest = HUGE_VAL, fastest = smooth;
-    for (int k = 0; s.touch && k < s.touch->set.pairs(); ++k) {
-        const double rate = std::abs(s.touch->pairs.rates[k]);
-        slowest = std::min(slowest, rate);
-        fastest = std::max(fastest, rate);
-    }
+    split_.clear();
+    for (int k = 0; s.touch && k < s.touch->set.pairs(); ++k) split_.push_back(k);
+    const auto rate = [&](int k) { return std::abs(s.touch->pairs.rates[k]); };
+    std::ranges::sort(split_, std::greater{}, rate);
     const auto cut = [&](double growth) {
         return std::max(1, static_cast<int>(std::ceil(whole * growth / longest)));
     };
-    int pieces = cut(smooth);
-    split_ = std::isfinite(slowest) && slowest * whole / pieces > fast;
-    if (!split_) pieces = cut(fastest);
+    // the slowest stay with the string, until all that are split are fast against a piece
+    double growth = smooth;
+    for (; !split_.empty() && !(rate(split_.back()) * whole / cut(growth) > fast);
+         split_.pop_back())
+        growth = std::max(growth, rate(split_.back()));
+    std::ranges::sort(split_);
+    const int pieces = cut(growth);
     length_ = whole / pieces;
     rule_ = &rules_.back();
-    for (auto r = rules_.rbegin(); !split_ && r != rules_.rend() && fastest * length_ < r->growth;
-         ++r)
+    for (auto r = rules_.rbegin();
+         split_.empty() && r != rules_.rend() && growth * length_ < r->growth; ++r)
         rule_ = &*r;
     return pieces;
 }
 
 void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) noexcept {
     MacroWindow& w = *window_;
-    const int M = w.osc.padded, P = split_ ? s.touch->set.pairs() : 0;
+    const int M = w.osc.padded;
     const std::size_t row = moments_.size();
     const double weight = length_ * rule_->weight[q];
-    for (int k = 0; k < P; ++k) {  // what is left of them is slow
+    for (const int k : split_) {  // what is left of them is slow
         const Complex z = s.touch->set.beta(k) * std::exp(s.touch->pairs.rates[k] * (at - s.from));
         const double *re = s.touch->pairs.moments.data() + 2 * k * row, *im = re + row;
         for (std::size_t n = 0; n < row; ++n) moments_[n] -= z.real() * re[n] - z.imag() * im[n];
@@ -205,7 +209,7 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
         weight * (dot(w.osc, lost_.data(), u_.data()) + thread_loss_ * thread * thread);
     if (pluck.force != 0)
         sums.supplied += weight * pluck.force * dot(w.osc, pluck_.data(), u_.data());
-    for (int k = 0; k < P; ++k) {
+    for (const int k : split_) {
         const Pairs& p = s.touch->pairs;
         lost_to_[k * most_nodes + q] =
             2.0 * (p.against(lost_, k, w.osc) + thread_loss_ * thread * p.thread[k]);
@@ -215,14 +219,14 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
         for (int j = 0; j < states; ++j) {
             const double lost = series_loss_[i * states + j] * speed_[i];
             sums.dissipated += weight * lost * speed_[j];
-            for (int k = 0; k < P; ++k)
+            for (const int k : split_)
                 lost_to_[k * most_nodes + q] += 2.0 * lost * s.touch->pairs.series[k * states + j];
         }
     // the points move by C_ae F_e as well
     for (int a = 0; states > 0 && a < w.springs.points; ++a) {
         const double per_force = -w.series()->plucked(a) * pluck.change;
         sums.supplied += weight * per_force * force_[a];
-        for (int k = 0; k < P; ++k)
+        for (const int k : split_)
             gained_by_[k * most_nodes + q] +=
                 per_force * s.touch->pairs.force[k * w.springs.points + a];
     }
@@ -233,7 +237,7 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
 void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexcept {
     const Pairs& p = s.touch->pairs;
     const int P = s.touch->set.pairs();
-    for (int k = 0; k < P; ++k) {
+    for (const int k : split_) {
         const Complex rate = p.rates[k], beta = s.touch->set.beta(k), z = 0.5 * rate * length_;
         const Complex first = std::exp(rate * (start - s.from)),
                       last = std::exp(rate * (start + length_ - s.from));
@@ -255,7 +259,7 @@ void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexc
         }
         sums.dissipated += 0.5 * length_ * (beta * lost).real();
         sums.supplied += 0.5 * length_ * (beta * gained).real();
-        for (int l = 0; l < P; ++l) {
+        for (const int l : split_) {
             const auto integral = [&](Complex a, Complex b) {  // of e^((a + b)(t - from))
                 return std::exp((a + b) * (start - s.from)) * mean_exponential((a + b) * length_) *
                        length_;

@@ -6,9 +6,9 @@
 //
 // with v the velocities of modes, thread and pluck, z and C_ae of what is in series
 // (in_series.hpp). Where stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S as
-// slow as the string, and one fast pair per contact (touching_set.hpp). Slow products are
-// integrated by Gauss-Legendre, S against a pair as a Legendre series against its exponential, two
-// pairs in closed form: so the nodes follow the string, not the contact.
+// slow as the string, and one fast pair per contact (touching_set.hpp); a slow one stays in S. Slow
+// products are integrated by Gauss-Legendre, S against a pair as a Legendre series against its
+// exponential, two pairs in closed form: so the nodes follow the string, not the contact.
 #pragma once
 
 #include <complex>
@@ -69,7 +69,7 @@ public:
                 moments(at, moments_.data(), force_.data());
                 add_node(s, q, at, sums);
             }
-            if (split_) add_pairs(s, start, sums);
+            if (!split_.empty()) add_pairs(s, start, sums);
         }
     }
 
@@ -96,8 +96,8 @@ private:
     // [pair][node]: S against W_k, and F_e
     std::vector<std::complex<double>> lost_to_, gained_by_;
     const Rule* rule_ = nullptr;
-    double length_ = 0;  // of a piece [window]
-    bool split_ = false;
+    double length_ = 0;       // of a piece [window]
+    std::vector<int> split_;  // the pairs that are fast
 };
 
 }  // namespace jvari
