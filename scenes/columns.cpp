@@ -67,14 +67,23 @@ struct ColumnLine {
             (semicolons ? "; expected commas between columns, and points in numbers, as 0.5" : ""));
     }
 
-    double number(const std::vector<std::string_view>& cells, std::size_t i,
-                  const Column& c) const {
+    void read(const std::vector<std::string_view>& cells, std::size_t i, const ColumnTo& c) const {
         const std::string_view cell = i < cells.size() ? cells[i] : "";
+        const auto check = [&](bool holds, const char* expected) {
+            if (!holds)
+                throw SceneFileError(place + ": " + c.column.name + ": found " + found_text(cell) +
+                                     ", expected " + expected);
+        };
+        if (auto* const* words = std::get_if<std::vector<std::string>*>(&c.to)) {
+            check(!cell.empty(), "a word");
+            return (*words)->emplace_back(cell), void();
+        }
+        auto* const* perhaps = std::get_if<std::vector<std::optional<double>>*>(&c.to);
+        if (perhaps && cell.empty()) return (*perhaps)->emplace_back(), void();
         const auto x = number_of(cell);
-        if (!x || !c.range.holds(*x))
-            throw SceneFileError(place + ": " + c.name + ": found " + found_text(cell) +
-                                 ", expected " + c.range.says);
-        return *x;
+        check(x && c.column.range.holds(*x), c.column.range.says);
+        if (perhaps) (*perhaps)->push_back(x);
+        else std::get<std::vector<double>*>(c.to)->push_back(*x);
     }
 };
 }  // namespace
@@ -96,7 +105,7 @@ void read_columns(const std::string& path, const std::string& text,
         for (std::size_t k = 0; k < columns.size(); ++k) {
             const ColumnTo& c = columns[k];
             if (header) places.push_back(at.find(cells, c.column, c.may_lack).value_or(lacking));
-            else if (places[k] != lacking) c.to.push_back(at.number(cells, places[k], c.column));
+            else if (places[k] != lacking) at.read(cells, places[k], c);
         }
     }
     if (!places.empty()) return;
@@ -170,10 +179,10 @@ TableStart start_from(const std::string& path, const std::string& text) {
     TableStart t;
     std::vector<double> x, mode;
     const ColumnTo columns[] = {
-        {{"x_m", "x_m", any}, x, true},
-        {{"mode", "mode", mode_number}, mode, true},
-        {{"displacement_m", "displacement", any}, t.displacement},
-        {{"velocity_m_per_s", "velocity", any}, t.velocity, true},
+        {{"x_m", "x_m", any}, &x, true},
+        {{"mode", "mode", mode_number}, &mode, true},
+        {{"displacement_m", "displacement", any}, &t.displacement},
+        {{"velocity_m_per_s", "velocity", any}, &t.velocity, true},
     };
     read_columns(path, text, columns);
     if (x.empty() == mode.empty())
@@ -188,8 +197,8 @@ TableStart start_from(const std::string& path, const std::string& text) {
 }
 
 void force_from(const std::string& path, const std::string& text, Pluck& p) {
-    const ColumnTo columns[] = {{{"time_s", "time", not_negative}, p.time},
-                                {{"force_N", "newtons", any}, p.share}};
+    const ColumnTo columns[] = {{{"time_s", "time", not_negative}, &p.time},
+                                {{"force_N", "newtons", any}, &p.share}};
     if (path.ends_with(".wav")) samples_of(path, text, p);
     else read_columns(path, text, columns);
     for (const double F : p.share) p.peak = std::max(p.peak, std::abs(F));
@@ -201,6 +210,55 @@ void force_from(const std::string& path, const std::string& text, Pluck& p) {
     p.amplitude = p.peak;
     p.start = p.time.front();
     p.duration = p.time.back() - p.start;
+}
+
+namespace {
+constexpr const char* gauges = "gauges.csv";
+constexpr const char *linear_density = "linear_density_kg_per_m",
+                     *core_diameter = "core_diameter_m";
+constexpr double inch = 0.0254;  // [m]
+}  // namespace
+
+std::vector<SoldString> sold_strings() {
+    std::error_code error;
+    std::vector<std::string> maker, series;
+    std::vector<double> gauge, density;
+    std::vector<std::optional<double>> core;
+    const ColumnTo columns[] = {{{"maker", "maker", any}, &maker},
+                                {{"series", "series", any}, &series},
+                                {{"gauge_in", "gauge_in", positive}, &gauge},
+                                {{linear_density, linear_density, positive}, &density},
+                                {{core_diameter, core_diameter, positive}, &core}};
+    std::string text;
+    if (!std::filesystem::exists(gauges, error)) text = library_text(gauges);
+    else try {
+            text = text_of_file(gauges, 1u << 20);
+        } catch (const std::exception& e) {
+            throw SceneFileError(std::string(gauges) + " " + e.what());
+        }
+    read_columns(gauges, text, columns);
+    std::vector<SoldString> strings;
+    for (std::size_t k = 0; k < maker.size(); ++k)
+        strings.push_back({maker[k], series[k], gauge[k], density[k], core[k]});
+    return strings;
+}
+
+SoldString sold_string(const std::vector<SoldString>& strings, const std::string& series,
+                       double diameter) {
+    const double wanted = diameter / inch;
+    const SoldString *thinner = nullptr, *thicker = nullptr;
+    for (const SoldString& s : strings) {
+        if (s.series != series) continue;
+        if (std::abs(s.gauge - wanted) < 1e-4) return s;
+        const SoldString*& nearest = s.gauge < wanted ? thinner : thicker;
+        if (!nearest || std::abs(s.gauge - wanted) < std::abs(nearest->gauge - wanted))
+            nearest = &s;
+    }
+    std::string near;
+    for (const SoldString* s : {thinner, thicker})
+        if (s) near += (near.empty() ? "" : " and ") + number_text(s->gauge) + " in";
+    throw SceneFileError(std::string(gauges) + ": found no " + quote(series) + " of " +
+                         number_text(std::round(wanted * 1e5) / 1e5) + " in; the nearest: " + near);
 }
 
 }  // namespace jvari

@@ -1,8 +1,11 @@
-// Reads the files of a scene: measured modes, profiles of a bridge, starts and forces.
+// Reads tables: measured modes, profiles of a bridge, starts and forces of a scene, and strings as
+// they are sold.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "scenes/schema.hpp"
@@ -17,7 +20,10 @@ std::string text_of_file(const std::string& path, std::size_t limit);
 // with # are skipped. Throws SceneFileError with the line of the CSV file.
 struct ColumnTo {
     Column column;
-    std::vector<double>& to;
+    // numbers; numbers whose cell may be empty; words, none of them empty
+    std::variant<std::vector<double>*, std::vector<std::optional<double>>*,
+                 std::vector<std::string>*>
+        to;
     bool may_lack = false;  // then `to` stays empty
 };
 void read_columns(const std::string& path, const std::string& text, std::span<const ColumnTo>);
@@ -31,5 +37,21 @@ TableStart start_from(const std::string& path, const std::string& text);
 // CSV: time_s, force_N; or, where the name ends in .wav, a sound of one channel, whose samples are
 // newtons, of whole numbers the full scale 1. Sets time, share, peak, amplitude, start, duration.
 void force_from(const std::string& path, const std::string& text, Pluck&);
+
+// A string as it is sold, a row of gauges.csv: that of the working directory or, where it has none,
+// of the library, with the figures of two makers.
+struct SoldString {
+    std::string maker, series;
+    double gauge;                // [in]
+    double linear_density;       // [kg/m]
+    std::optional<double> core;  // diameter [m]: of a plain string its own; none: not known
+};
+
+// Throws SceneFileError with the line.
+std::vector<SoldString> sold_strings();
+
+// The string of a series that is `diameter` [m] thick, to 1e-4 in. Throws SceneFileError, which
+// names the nearest gauges, where the series lacks it.
+SoldString sold_string(const std::vector<SoldString>&, const std::string& series, double diameter);
 
 }  // namespace jvari

@@ -47,8 +47,8 @@ std::string path_of(const std::string& name) {
 
 std::vector<std::string> library_scenes() { return toml_names(library()); }
 
-std::string library_text(const std::string& name) {
-    const std::string path = (library() / (name + ".toml")).string();
+std::string library_text(const std::string& file) {
+    const std::string path = (library() / file).string();
     try {
         return text_of_file(path, largest_scene);
     } catch (const std::exception& e) { throw SceneFileError(found_text(path) + " " + e.what()); }

@@ -41,7 +41,7 @@ std::string scene_hash(const Scene&);
 // sources, else the installed one.
 std::vector<std::string> library_scenes();
 
-// The text of a library scene's file, with its comments. Throws SceneFileError.
-std::string library_text(const std::string& name);
+// The text of a file of the library, with its comments. Throws SceneFileError.
+std::string library_text(const std::string& file);
 
 }  // namespace jvari

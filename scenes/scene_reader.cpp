@@ -226,7 +226,7 @@ public:
         text(key, file);
         const std::string contents = contents_of(
             key, file, "a CSV file with the columns " + list_of({first.name, second.name}));
-        const ColumnTo both[] = {{first, a}, {second, b}};
+        const ColumnTo both[] = {{first, &a}, {second, &b}};
         read_columns(beside(file), contents, both);
     }
     // The file of an override is found from where the program runs, and its place kept.

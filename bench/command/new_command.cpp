@@ -13,6 +13,7 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/columns.hpp"
 #include "scenes/material.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/scene_file.hpp"
@@ -109,7 +110,32 @@ std::string renamed(std::string text, const std::string& name) {
     return text;
 }
 
-// The same scene with each string a wire of that material and diameter, at the pitch that it had.
+// Mass and stiffness of the string that is asked for, as lines of its table: a plain wire of a
+// material, or one of a series as it is sold, which is as stiff as its core.
+std::string of_that_string(const NewRequest& r) {
+    constexpr const char* instead = "in place of the string that is described above";
+    std::vector<std::string> known(std::begin(material_names), std::end(material_names));
+    if (std::find(known.begin(), known.end(), r.material) != known.end())
+        return fmt::format("material = \"{}\"  # a plain wire, {}\ndiameter = {}  # m", r.material,
+                           instead, r.diameter);
+    const std::vector<SoldString> sold = sold_strings();
+    const auto in_series = [&r](const SoldString& s) { return s.series == r.material; };
+    if (std::none_of(sold.begin(), sold.end(), in_series)) {
+        for (const SoldString& s : sold)
+            if (known.back() != s.series) known.push_back(s.series);
+        throw store::UsageError(store::unknown("material", r.material, known));
+    }
+    const SoldString s = sold_string(sold, r.material, r.diameter);
+    return fmt::format(
+        "# {} {}, {} in, by gauges.csv: {}\nlinear_density = {:.5g}  # kg/m\n"
+        "bending_stiffness = {:.5g}  # N m^2: {}",
+        s.maker, s.series, s.gauge, instead, s.linear_density,
+        s.core ? bending_stiffness_of(materials[0], *s.core) : 0,
+        s.core ? fmt::format("E pi/64 d^4 of its steel core, d = {} m", *s.core)
+               : "none is assumed, for its core is not known. A steel core of d m has 9.82e9 d^4");
+}
+
+// The same scene with each string such a one, at the pitch that it had.
 std::string strung(const std::string& text, const Scene& scene, const NewRequest& r) {
     std::istringstream lines(text);
     std::string strung;
@@ -121,11 +147,7 @@ std::string strung(const std::string& text, const Scene& scene, const NewRequest
         };
         if (line.starts_with("[")) of_string = line.starts_with("[[string]]"), strings += of_string;
         if (is("bending_stiffness")) continue;
-        if (is("linear_density"))
-            line = fmt::format(
-                "material = \"{}\"  # a plain wire, in place of the string that is described "
-                "above\ndiameter = {}  # m",
-                r.material, r.diameter);
+        if (is("linear_density")) line = of_that_string(r);
         if (is("tension"))
             line = fmt::format("frequency = {:.6g}  # Hz, as of that string",
                                pitch_of(scene.strings[strings - 1]));
@@ -181,7 +203,7 @@ int new_command(NewRequest r) {
     must_be_free(file);
     const std::string end =
         replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
-    std::string text = renamed(library_text(chosen->scene), r.name) + end;
+    std::string text = renamed(library_text(chosen->scene + std::string(".toml")), r.name) + end;
     if (r.diameter > 0) text = strung(text, parse_scene(text, file.string()), r);
     const Scene scene = parse_scene(text, file.string());
     store::write_fresh(file, text);
@@ -203,10 +225,11 @@ Act new_verb(CLI::App& program) {
         ->required();
     v.option("name", v.r.name, {"NAME"}, "of the scene and, with .toml, of its file")->required();
     const std::vector<std::string> materials(std::begin(material_names), std::end(material_names));
-    v.option("--material", v.r.material, {"MATERIAL", CLI::IsMember(materials).description("")},
-             fmt::format("its strings are plain wires of it, at the same pitch: {}",
+    v.option("--material", v.r.material, {"MATERIAL"},
+             fmt::format("its strings are plain wires of it, at the same pitch: {}; or as they are "
+                         "sold: a series of gauges.csv, as \"nickel wound\"",
                          fmt::join(materials, ", ")));
-    v.option("--diameter", v.r.diameter, metres, "of these wires, as 0.7mm");
+    v.option("--diameter", v.r.diameter, metres, "of these strings, as 0.7mm or 0.046in");
     return v.does(new_command, "Example: jvari new guitar my_guitar");
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -689,6 +690,65 @@ TEST(NewScene, AWireOfAnotherMaterialKeepsThePitch) {
         EXPECT_EQ(shell(scratch, std::string("$J new guitar other ") + half).code, 2) << half;
     EXPECT_EQ(shell(scratch, "$J new body other --material gut --diameter 1mm").code, 2);
     EXPECT_EQ(scratch.files(), 1);
+}
+
+// NW054: 0.00053838 lb/in x 0.45359237 kg/lb / 0.0254 m/in = 9.6144e-3 kg/m, and for the scene's
+// 82.4116 Hz at 0.648 m T = 9.6144e-3 kg/m (2 x 0.648 m x 82.4116 Hz)^2 = 109.675 N. D'Addario says
+// 24.6 lb, 109.4 N, of E2 at 25.5 in.
+TEST(NewScene, AStringAsItIsSoldHasTheMakersWeightAndTheInstrumentsPitch) {
+    const Scratch scratch;
+    const Outcome o = shell(scratch,
+                            "$J new guitar sold --material 'nickel wound' --diameter 0.054in && $J "
+                            "run sold.toml --scheme modal_two_point --duration 5ms");
+    EXPECT_TRUE(says(o.out, "string: f1 = 82.41 Hz (E2), tension 110 N")) << o.err;
+    const String s = read_scene(scratch / "sold.toml").strings.at(0);
+    EXPECT_NEAR(s.linear_density, 9.6144e-3, 1e-8);
+    EXPECT_NEAR(s.tension, 109.675, 2e-3);
+    EXPECT_EQ(s.bending_stiffness, 0);
+    const std::string text = content(scratch / "sold.toml");
+    EXPECT_TRUE(says(text, "# D'Addario nickel wound, 0.054 in, by gauges.csv")) << text;
+    EXPECT_TRUE(says(text, "its core is not known"));
+    // 41.2 Hz at 0.864 m: XLB105 0.00198395 lb/in = 0.035429 kg/m, 179.6 N
+    EXPECT_TRUE(
+        says(shell(scratch, "$J new bass b --material 'nickel wound bass' --diameter 2.667mm").out,
+             "tension 180 N"));
+    EXPECT_EQ(read_scene(scratch / "b.toml").strings.at(0).linear_density, 0.035429);
+    // an inch is an inch of a plain wire, too: pi/4 (2.54e-4 m)^2 7850 kg/m^3
+    shell(scratch, "$J new guitar wire --material steel --diameter 0.01in");
+    EXPECT_NEAR(read_scene(scratch / "wire.toml").strings.at(0).linear_density, 3.97765e-4, 1e-9);
+}
+
+TEST(NewScene, ATableOfOnesOwnComesBeforeTheMakersAndItsCoreIsTheStiffness) {
+    const Scratch scratch;
+    const auto sold = [&scratch](const char* row, const char* string) {
+        std::ofstream(scratch / "gauges.csv")
+            << "core_diameter_m,maker,series,gauge_in,linear_density_kg_per_m\n"
+            << row << '\n';
+        return shell(scratch, std::string("$J new guitar mine --material ") + string);
+    };
+    const char* row = "4.6e-4,I,own wound,0.046,6.8e-3";
+    EXPECT_EQ(sold(row, "'own wound' --diameter 0.046in").code, 0);
+    const String s = read_scene(scratch / "mine.toml").strings.at(0);
+    // 2e11 Pa pi/64 (4.6e-4 m)^4
+    EXPECT_NEAR(s.bending_stiffness, 4.3957e-4, 1e-8);
+    EXPECT_TRUE(
+        says(content(scratch / "mine.toml"), "E pi/64 d^4 of its steel core, d = 0.00046 m"));
+    std::filesystem::remove(scratch / "mine.toml");
+    EXPECT_TRUE(ends(sold(row, "'nickel wound' --diameter 0.046in"), 2,
+                     "unknown material \"nickel wound\""));
+    EXPECT_TRUE(ends(sold(row, "'own wound' --diameter 0.05in"), 2,
+                     "found no \"own wound\" of 0.05 in; the nearest: 0.046 in"));
+    EXPECT_TRUE(ends(sold("4.6e-4,I,own wound,0.046,heavy", "'own wound' --diameter 0.046in"), 2,
+                     "gauges.csv:2: linear_density_kg_per_m: found \"heavy\", expected a positive "
+                     "number"));
+    EXPECT_TRUE(ends(sold("4.6e-4,I,,0.046,6.8e-3", "'own wound' --diameter 0.046in"), 2,
+                     "gauges.csv:2: series: found \"\", expected a word"));
+    std::filesystem::remove(scratch / "gauges.csv");
+    EXPECT_TRUE(ends(shell(scratch, "$J new guitar m --material 'nickel wound' --diameter 0.055in"),
+                     2, "of 0.055 in; the nearest: 0.054 in and 0.056 in"));
+    EXPECT_TRUE(ends(shell(scratch, "$J new guitar m --material 'nickl wound' --diameter 0.054in"),
+                     2, "did you mean \"nickel wound\"?"));
+    EXPECT_EQ(scratch.files(), 0);
 }
 
 TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {

@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const SceneFileError&) {}
     try {
         std::vector<double> x, y;
-        const ColumnTo both[] = {{{"x_m", "x_m", any}, x}, {{"height_m", "height_m", any}, y}};
+        const ColumnTo both[] = {{{"x_m", "x_m", any}, &x}, {{"height_m", "height_m", any}, &y}};
         read_columns("table.csv", text, both);
     } catch (const SceneFileError&) {}
     try {

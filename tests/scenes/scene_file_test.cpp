@@ -12,7 +12,10 @@
 #include <numbers>
 #include <random>
 
+#include "scenes/columns.hpp"
+#include "scenes/material.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/schema.hpp"
 
 namespace jvari {
 namespace {
@@ -456,6 +459,38 @@ TEST(Material, OfAnOverrideWins) {
     const String nylon =
         read_scene("tanpura_c3", {"string.0.material=nylon", "string.0.diameter=1e-3"}).strings[0];
     EXPECT_NEAR(nylon.linear_density, 8.9535e-4, 1e-8);
+}
+
+// ---- Strings as they are sold
+
+TEST(SoldStrings, WeighWhatTheirMakersSayAndWhatSteelAndTheirNeighboursDo) {
+    std::vector<double> pounds_per_inch;
+    const ColumnTo column[] = {{{"lb_per_in", "lb_per_in", positive}, &pounds_per_inch}};
+    read_columns("gauges.csv", library_text("gauges.csv"), column);
+    const std::vector<SoldString> sold = sold_strings();
+    ASSERT_EQ(sold.size(), pounds_per_inch.size());
+    ASSERT_GT(sold.size(), 40u);
+    // to a solid wire of steel
+    const auto ratio = [&](std::size_t k) {
+        return sold[k].linear_density / linear_density_of(materials[0], 0.0254 * sold[k].gauge);
+    };
+    for (std::size_t k = 0; k < sold.size(); ++k) {
+        const SoldString& s = sold[k];
+        const std::string what = s.series + " " + std::to_string(s.gauge);
+        EXPECT_NEAR(s.linear_density / (pounds_per_inch[k] * 0.45359237 / 0.0254), 1, 5e-5) << what;
+        EXPECT_EQ(s.core.has_value(), s.series == "plain steel") << what;
+        if (s.core) {
+            EXPECT_NEAR(*s.core, 0.0254 * s.gauge, 1e-9) << what;
+            EXPECT_NEAR(ratio(k), 1, 0.02) << what;
+        } else if (s.maker == "GHS") {
+            EXPECT_NEAR(ratio(k), 0.805, 0.05 * 0.805) << what;
+        } else if (sold[k - 1].series == s.series && sold[k + 1].series == s.series) {
+            const double a = sold[k - 1].gauge, b = sold[k + 1].gauge,
+                         trend =
+                             ratio(k - 1) + (ratio(k + 1) - ratio(k - 1)) * (s.gauge - a) / (b - a);
+            EXPECT_NEAR(ratio(k), trend, 0.03 * trend) << what;
+        }
+    }
 }
 
 // ---- Pitch in place of tension
