@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "reference/gauss_legendre.hpp"
@@ -165,7 +164,7 @@ int WindowEnergies::plan(const Stretch& s) noexcept {
     split_.clear();
     for (int k = 0; s.touch && k < s.touch->set.pairs(); ++k) split_.push_back(k);
     const auto rate = [&](int k) { return std::abs(s.touch->pairs.rates[k]); };
-    std::ranges::sort(split_, std::greater{}, rate);
+    std::sort(split_.begin(), split_.end(), [&](int a, int b) { return rate(a) > rate(b); });
     const auto cut = [&](double growth) {
         return std::max(1, static_cast<int>(std::ceil(whole * growth / longest)));
     };
@@ -174,7 +173,7 @@ int WindowEnergies::plan(const Stretch& s) noexcept {
     for (; !split_.empty() && !(rate(split_.back()) * whole / cut(growth) > fast);
          split_.pop_back())
         growth = std::max(growth, rate(split_.back()));
-    std::ranges::sort(split_);
+    std::sort(split_.begin(), split_.end());
     const int pieces = cut(growth);
     length_ = whole / pieces;
     rule_ = &rules_.back();
