@@ -50,8 +50,9 @@ int intervals_for(const String& s, const Settings& settings) {
                 intervals,
                 static_cast<int>(std::min(std::ceil(8 * s.length / (profile->to - profile->from)),
                                           most_modes + 2.0)));
+    const auto footprints = footprints_of(s);
     const auto on_nodes = [&](int n) {
-        return std::ranges::all_of(footprints_of(s), [&](const Footprint& f) {
+        return std::all_of(footprints.begin(), footprints.end(), [&](const Footprint& f) {
             return f.width != 0 || node_at(f.position, s.length, n) != 0;
         });
     };
