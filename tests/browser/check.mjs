@@ -1130,7 +1130,7 @@ try {
   });
   await check(browser, "comparison", join(folders.comparison, "report.html"), 3);
   await check(browser, "suite", join(folders.suite, "report.html"), 4);
-  await check(browser, "made-up", join(folders["made-up"], "report.html"), 7);
+  await check(browser, "made-up", join(folders["made-up"], "report.html"), 6);
   if (demo) await check(browser, "demo", join(demo, "report.html"), 4);
 } catch (error) {
   expect(false, error.stack);
