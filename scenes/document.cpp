@@ -246,23 +246,38 @@ Value& reach(Value& root, const std::vector<std::string>& path, const std::strin
     }
     return *at;
 }
+
+// Scenes from before `start` call it `initial`. Where a string has both, both stay, and the reader
+// refuses them.
+void rename_initial(Value& root) {
+    for (Member& part : std::get<TomlTable>(root.content)) {
+        auto* strings = std::get_if<Array>(&part.value.content);
+        if (part.key != "string" || !strings) continue;
+        for (Value& s : *strings)
+            if (auto* keys = std::get_if<TomlTable>(&s.content); keys && !s.find("start"))
+                for (Member& m : *keys)
+                    if (m.key == "initial") m.key = "start";
+    }
+}
 }  // namespace
 
 Document parse_document(std::string_view text, const std::string& file,
                         const std::vector<std::string>& overrides) {
     Document d{Reading{file, 0}.parse(text), file, overrides};
     d.root.place = 1;
+    rename_initial(d.root);
     for (std::size_t i = 0; i < overrides.size(); ++i) {
         const int place = -1 - static_cast<int>(i);
         const std::string where = d.place(place);
         const std::size_t equals = overrides[i].find('=');
         const std::string key = overrides[i].substr(0, equals);
-        const auto path = parts_of(key.substr(0, key.find_last_not_of(' ') + 1));
+        auto path = parts_of(key.substr(0, key.find_last_not_of(' ') + 1));
         if (equals == std::string::npos || equals == 0)
             throw SceneFileError(where + ": expected key.path=value");
         if (path.size() > deepest)
             throw SceneFileError(where + ": found a key of " + std::to_string(path.size()) +
                                  " parts, expected at most " + std::to_string(deepest));
+        if (path.size() > 2 && path[0] == "string" && path[2] == "initial") path[2] = "start";
         Value value = override_value(std::string_view(overrides[i]).substr(equals + 1),
                                      Reading{where, place});
         reach(d.root, path, where, place) = std::move(value);

@@ -210,6 +210,16 @@ TEST_F(InAFolder, AnOverrideFindsItsFileFromWhereTheProgramRuns) {
         std::holds_alternative<RestStart>(*read(shape, {"string.0.start=rest"}).strings[0].start));
 }
 
+// Scenes that others wrote before `start` was called so.
+TEST_F(InAFolder, TheInitialOfAnOlderSceneIsItsStart) {
+    const std::string shape = "]\nshape = \"mode\"\nnumber = 2\namplitude = 1e-3\n";
+    const Scene now = read("[string.start" + shape);
+    EXPECT_TRUE(now.strings[0].start == Start(ModeShape{2, 1e-3}));
+    EXPECT_TRUE(read("[string.initial" + shape) == now);
+    EXPECT_TRUE(read("[string.initial" + shape, {"string.0.initial.number=1"}) ==
+                read("[string.start" + shape, {"string.0.start.number=1"}));
+}
+
 TEST_F(InAFolder, WhatCannotBeIsRefusedWithItsPlace) {
     put("end.csv", "x_m,displacement_m\n0,1e-3\n");
     put("far.csv", "x_m,displacement_m\n2,0\n");
@@ -237,7 +247,7 @@ TEST_F(InAFolder, WhatCannotBeIsRefusedWithItsPlace) {
                      "file, expected \"rest\", a table with a shape, or a CSV"));
     EXPECT_TRUE(
         says(why([&] { read("start = 3\n"); }), "string.0.start: found 3, expected a table"));
-    EXPECT_TRUE(says(why([&] { read("[string.initial]\nshape = \"mode\"\n"); }),
+    EXPECT_TRUE(says(why([&] { read("start = \"rest\"\n[string.initial]\nshape = \"mode\"\n"); }),
                      "string.0.initial: unknown key; it is called \"start\""));
     EXPECT_TRUE(says(why([&] { read("axial_stiffness = 1e3\nstart = \"rest\"\n"); }),
                      "string.0.start: found \"rest\", expected another start of a string that"));
