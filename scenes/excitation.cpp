@@ -71,37 +71,6 @@ double coefficient(const TriangleShape& t, double length, int mode) {
            std::sin(beta * x0) * hann_smoothing(beta, t.smoothing);
 }
 
-std::optional<double> force_of_a_corner(const Scene& scene, const Tap& tap) {
-    if (tap.quantity != Quantity::nut_force) return {};
-    double force = 0;
-    bool corner = false;
-    for (std::size_t k = 0; k < scene.strings.size(); ++k) {
-        const String& s = scene.strings[k];
-        if (!s.start || (tap.string && static_cast<int>(k) != *tap.string)) continue;
-        bool sharp = false;
-        if (const auto* m = std::get_if<ModeShape>(&*s.start)) {
-            const double beta = m->number * pi / s.length;
-            force += (m->number % 2 == 1 ? 1 : -1) * m->amplitude * beta *
-                     (s.tension + s.bending_stiffness * beta * beta);
-        } else if (const auto* t = std::get_if<TriangleShape>(&*s.start)) {
-            force += s.tension * t->amplitude / (s.length - t->position);
-            sharp = t->smoothing == 0 && t->amplitude != 0;
-        } else if (const auto* rows = std::get_if<TableStart>(&*s.start); rows && !rows->of_modes) {
-            // the last row that is not the end itself
-            std::size_t last = rows->at.size() - 1;
-            if (last > 0 && rows->at[last] >= s.length) --last;
-            const double rest = s.length - rows->at[last];
-            if (rest > 0) force += s.tension * rows->displacement[last] / rest;
-            sharp = true;
-        } else {
-            return {};
-        }
-        if (s.axial_stiffness > 0) return {};
-        corner = corner || (sharp && s.bending_stiffness > 0);
-    }
-    return corner ? std::optional(force) : std::nullopt;
-}
-
 namespace {
 constexpr double unknown = std::numeric_limits<double>::infinity();
 

@@ -25,11 +25,6 @@ double free_from(const Scene&);
 // H(beta)
 double coefficient(const TriangleShape&, double length, int mode);
 
-// The nut force [N] at t = 0 of a stiff string that is let go from a sharp corner: that of the
-// shape, T A/(L - x0). What its modes sum up to then has no limit, for its bending energy has none.
-// Nothing where no string that the tap hears starts so, or where its tension grows.
-std::optional<double> force_of_a_corner(const Scene&, const Tap&);
-
 // H(beta) = [sin(beta s/2)/(beta s/2)]/[1 - (beta s/2 pi)^2]: spectrum of a Hann window of full
 // width s, 1/2 at beta s = 2 pi
 double hann_smoothing(double beta, double s);

@@ -200,6 +200,36 @@ double displacement_at(const TableStart& t, double length, double x) {
     return lines.y[k - 1] + lines.slope(k) * (x - lines.x[k - 1]);
 }
 
+std::optional<double> force_of_a_corner(const Scene& scene, const Tap& tap) {
+    if (tap.quantity != Quantity::nut_force) return {};
+    double force = 0;
+    bool corner = false;
+    for (std::size_t k = 0; k < scene.strings.size(); ++k) {
+        const String& s = scene.strings[k];
+        if (!s.start || (tap.string && static_cast<int>(k) != *tap.string)) continue;
+        bool sharp = false;
+        if (const auto* m = std::get_if<ModeShape>(&*s.start)) {
+            const double beta = m->number * pi / s.length;
+            force += (m->number % 2 == 1 ? 1 : -1) * m->amplitude * beta *
+                     (s.tension + s.bending_stiffness * beta * beta);
+        } else if (const auto* t = std::get_if<TriangleShape>(&*s.start)) {
+            force += s.tension * t->amplitude / (s.length - t->position);
+            sharp = t->smoothing == 0 && t->amplitude != 0;
+        } else if (const auto* rows = std::get_if<TableStart>(&*s.start); rows && !rows->of_modes) {
+            const Lines lines(*rows, rows->displacement, s.length);
+            std::size_t last = lines.x.size() - 1;  // behind it the end itself may be a row
+            while (last > 1 && !(lines.x[last] > lines.x[last - 1])) --last;
+            force -= s.tension * lines.slope(last);
+            sharp = true;
+        } else {
+            return {};
+        }
+        if (s.axial_stiffness > 0) return {};
+        corner = corner || (sharp && s.bending_stiffness > 0);
+    }
+    return corner ? std::optional(force) : std::nullopt;
+}
+
 double largest_displacement(const String& s) {
     double largest = 0;
     const auto* table = s.start ? std::get_if<TableStart>(&*s.start) : nullptr;

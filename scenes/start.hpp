@@ -1,6 +1,7 @@
 // What the modes of a string have at t = 0: of a shape, of a file, or of the static equilibrium.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,11 @@ ModalStart start_of(const Modes&, const String&, const Yield& = {});
 
 // At x [m]: of a table that is no table of modes the straight lines, of modes their sum.
 double displacement_at(const TableStart&, double length, double x);
+
+// The nut force [N] at t = 0 of a stiff string that is let go from a sharp corner: that of the
+// shape, T A/(L - x0). What its modes sum up to then has no limit, for its bending energy has none.
+// Nothing where no string that the tap hears starts so, or where its tension grows.
+std::optional<double> force_of_a_corner(const Scene&, const Tap&);
 
 double largest_displacement(const String&);  // of its start, 0 of an equilibrium [m]
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scenes/excitation.hpp"
+#include "scenes/start.hpp"
 #include "scenes/wording.hpp"
 #include "schemes/looks.hpp"
 #include "schemes/making.hpp"
