@@ -96,11 +96,7 @@ public:
             masses_.start(force_.data());
             obstacle_.follow(*start_);
         } else {
-            string_->reading(0, now_.data());
-            const double F_e = plucked_in_series_ ? pluck_at(0) : 0;
-            for (int p = 0; F_e != 0 && p < points().count(); ++p)
-                now_[p] += points().series->pluck[p] * F_e;
-            masses_.subtract(now_.data(), 0);
+            read(0);
             obstacle_.begin(now_.data(), moving_.data(), resting_.data());
         }
         if constexpr (requires { string_->expect(0.0); }) string_->expect(stored());
@@ -219,14 +215,17 @@ private:
         return work / levels;
     }
 
+    // of the contacts, into now_
+    void read(int level) noexcept {
+        string_->reading(level, now_.data());
+        if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
+            for (int p = 0; p < points().count(); ++p) now_[p] += points().series->pluck[p] * F_e;
+        masses_.subtract(now_.data(), level);
+    }
     double stored() noexcept {
         double sum = string_->stored() + masses_.stored();
         for (int level = 0; level < levels; ++level) {
-            string_->reading(level, now_.data());
-            if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
-                for (int p = 0; p < points().count(); ++p)
-                    now_[p] += points().series->pluck[p] * F_e;
-            masses_.subtract(now_.data(), level);
+            read(level);
             sum += obstacle_.potential(now_.data(), level) / levels;
         }
         return sum;
