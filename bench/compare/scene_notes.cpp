@@ -56,9 +56,7 @@ std::string untouched_text(const Scene& scene, const Figures& run) {
     if (!any || run.largest_contact_force != 0 || run.deepest_penetration > 0) return "";
     return fmt::format(
         "no string of {} touches a barrier or a mass in {:g} s, so no contact is in this run. Are "
-        "height "
-        "[m], position and the side of "
-        "the start as meant?",
+        "height [m], position and the side of the start as meant?",
         scene.name, scene.duration);
 }
 

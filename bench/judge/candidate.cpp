@@ -171,8 +171,7 @@ std::string verdict_of(const compare::Comparison& c) {
         if (cell.status() == "diverged")
             text += fmt::format(
                 "{}{}: it grows: {}: its taps go beyond what ten times the energy of the scene "
-                "could "
-                "make",
+                "could make",
                 text.empty() ? "" : "\n", cells[i].run(), cell.reason);
         else
             text += (text.empty() ? "" : "\n") + sentence_of(cells, cells[i]) +
