@@ -109,8 +109,8 @@ TEST(ModalSpatialNewton, EveryInstructionSetOfThisMachineAgreesWithTheDenseForm)
     };
     const auto targets = hwy::SupportedTargets();
     for (const Case& c :
-         {Case{two_point_bridge(1000 / 256e3), 333}, Case{flat_bridge(1000 / 256e3), 1001},
-          Case{flat_bridge(1000 / 256e3), 1002}, Case{gap, 333}, Case{gap, 667},
+         {Case{two_point_bridge(1000 / 256e3), 333}, Case{flat_bridge(1000 / 256e3), 505},
+          Case{flat_bridge(1000 / 256e3), 506}, Case{gap, 333}, Case{gap, 667},
           Case{tanpura(1000 / 256e3), 128}, Case{tanpura(1000 / 256e3), 133}}) {
         const auto full = dense(c.scene, {256e3, 64e3, c.modes, {}});
         for (auto left = targets; left != 0; left &= left - 1) {
