@@ -170,8 +170,8 @@ std::string verdict_of(const compare::Comparison& c) {
         if (!is_candidate(cell)) continue;
         if (cell.status() == "diverged")
             text += fmt::format(
-                "{}{}: it grows: {}: its taps go beyond what ten times the energy of the scene "
-                "could make",
+                "{}{}: it grows: {}: its taps or its own energies go beyond what ten times the "
+                "energy of the scene could make",
                 text.empty() ? "" : "\n", cells[i].run(), cell.reason);
         else
             text += (text.empty() ? "" : "\n") + sentence_of(cells, cells[i]) +

@@ -144,11 +144,13 @@ std::string cause_of(const Scene& scene, const Trace& run, const Trace& referenc
                            late > 0 ? "late" : "early", 1e6 * std::abs(late) / rate);
     double product = 0;
     for (std::size_t n = 0; n < r.size(); ++n) product += x[n] * r[n];
-    const double factor = product / std::pow(norm(r), 2);
-    if (miss(x, r, 0, factor) < nearly_all * error)
-        return fmt::format("is {:.3g} times too {}", factor > 1 ? factor : 1 / factor,
-                           factor > 1 ? "large" : "small");
-    return "";
+    const double factor = product / std::pow(norm(r), 2), size = std::abs(factor);
+    if (miss(x, r, 0, factor) >= nearly_all * error) return "";
+    if (size == 0) return "is 0 throughout";
+    const std::string sign = factor < 0 ? "has the wrong sign" : "",
+                      by = size > 1 ? fmt::format("is {:.3g} times too large", size)
+                                    : fmt::format("is {:.3g} times too small", 1 / size);
+    return sign.empty() ? by : std::abs(size - 1) < 1e-3 ? sign : sign + " and " + by;
 }
 
 }  // namespace jvari::bench::study

@@ -58,6 +58,18 @@ TEST(Cause, OfADelayIsTheDelayAndOfAGainTheGain) {
                          for (double& v : y) v *= 1.1;
                      }),
                      "it is 1.1 times too large"));
+    EXPECT_TRUE(says(said_of([](std::vector<double>& y) {
+                         for (double& v : y) v *= -1;
+                     }),
+                     "it has the wrong sign"));
+    EXPECT_TRUE(says(said_of([](std::vector<double>& y) {
+                         for (double& v : y) v *= -0.5;
+                     }),
+                     "it has the wrong sign and is 2 times too small"));
+    EXPECT_TRUE(says(said_of([](std::vector<double>& y) {
+                         for (double& v : y) v = 0;
+                     }),
+                     "it is 0 throughout"));
     const std::string of_noise = said_of([](std::vector<double>& y) {
         for (std::size_t n = 0; n < y.size(); ++n) y[n] += n % 7 == 3 ? 2e-4 : 0;
     });
