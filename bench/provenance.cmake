@@ -3,7 +3,7 @@
 #   JVARI_RUN_SOURCES   a hash of all that the numbers of a run depend on: scenes, schemes,
 #                       references
 #   JVARI_CELL_SOURCES  the same with what measures them: analysis, and every room of bench but
-#                       those of text and the benchmarks
+#                       those of text
 set(commit "unknown")
 find_program(git_program git)
 if(git_program)
@@ -32,7 +32,7 @@ endfunction()
 hash_folders(run_sources scenes schemes reference)
 file(GLOB rooms RELATIVE ${SOURCE} ${SOURCE}/bench/*)
 # no number that is kept is made there
-list(FILTER rooms EXCLUDE REGEX "^bench/(report|command|kernels)$")
+list(FILTER rooms EXCLUDE REGEX "^bench/(report|command)$")
 hash_folders(cell_sources scenes schemes reference analysis ${rooms})
 string(CONCAT text "#define JVARI_COMMIT \"${commit}\"\n"
     "#define JVARI_RUN_SOURCES \"${run_sources}\"\n"

@@ -58,7 +58,7 @@ unseen "a comparison does not see how it is written down" 'bench/compare/record/
     bench/compare/*.hpp bench/compare/*.cpp
 forbid "only the command line talks to standard streams: others have a Listener" \
     'std::(cout|cerr)|\bstd(out|err)\b|isatty' \
-    $(files $engine bench | grep -vE '^bench/(command|kernels)/')
+    $(files $engine bench | grep -v '^bench/command/')
 unseen "the page's module sees the core and no room of bench" 'bench/' $(files web)
 unseen "nothing sees the page's module" 'web/' $(files $engine bench python)
 unseen "the Python module sees the engine, not the command line" 'bench/command/' $(files python)
@@ -66,9 +66,9 @@ unseen "the engine sees no Python" 'python/' $(files $engine bench)
 unseen "the store measures nothing" 'analysis/' $(files bench/store)
 unseen "analysis never sees which scheme made a trace" \
     'schemes/[^tr]|schemes/t[^r]|schemes/r[^u]|reference/|bench/' $(files analysis)
-# Libraries, as the table of docs/dependencies.md says. The benchmarks of bench/kernels and the
-# tests compare with any of them.
-product=$(files scenes schemes reference analysis bench python | grep -v '^bench/kernels/')
+# Libraries, as the table of docs/dependencies.md says. The benchmark and the tests
+# compare with any of them.
+product=$(files scenes schemes reference analysis bench python | grep -v '^bench/step_times')
 # only LIBRARY PATTERN PLACES: of the product, files that begin with PLACES alone include it
 only() {
     forbid "$1 belongs to $3" "#include <$2" $(echo "$product" | grep -vE "^($3)")

@@ -41,7 +41,7 @@ for file in schemes/modal/modal_two_point.cpp reference/exact/exact_contact.cpp 
     scenes/damping.cpp; do
     plant $file JVARI_RUN_SOURCES other
 done
-for file in bench/report/page.cpp bench/command/console.cpp bench/kernels/table.cpp \
+for file in bench/report/page.cpp bench/command/console.cpp bench/step_times.cpp \
     bench/README.md; do
     plant $file JVARI_CELL_SOURCES same
 done

@@ -21,7 +21,7 @@ if [ "$1" = rooms ]; then
     # folders whose sources name things alike (analysis, reference/exact, schemes but body),
     # Highway's, and the checks that take long (clang-analyzer) or only hint at speed.
     for room in scenes bench/*/ schemes/body reference; do
-        find "$room" -name '*.cpp' ! -path 'bench/kernels/*' ! -path 'reference/exact/*' | sort |
+        find "$room" -name '*.cpp' ! -path 'reference/exact/*' | sort |
             sed 's|.*|#include "&"|' >"$said/$(echo "$room" | tr -d /).cpp"
     done
     find scenes schemes reference analysis bench -name '*.hpp' ! -name '*-inl.hpp' | sort |

@@ -1,9 +1,8 @@
 // Time of a step, scheme by scene by modes: every scheme of the registry on every scene of the
 // library that it represents, stepped as any caller does, with all taps at 44.1 kHz and the first 5
 // ms again and again. At 705.6 kHz every scheme can take the most modes here; grids and waveguides
-// follow the rate and not the modes. Beside the table three kernels stand by a plain form of each
-// (two_point.cpp, spatial_newton.cpp, five_point.cpp): --benchmark_filter=pair/ picks them,
-// table/modal_two_point/ a scheme.
+// follow the rate and not the modes. --benchmark_filter=modal_two_point/ picks a scheme. A Google
+// Benchmark, run by hand: build/release/step_times.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -39,7 +38,7 @@ int main(int argc, char** argv) {
             const Scene scene = read_scene(name);
             if (!(needed_by(scene) - d.represents).empty()) continue;
             benchmark::RegisterBenchmark(
-                ("table/" + std::string(d.name) + "/" + name).c_str(),
+                (std::string(d.name) + "/" + name).c_str(),
                 [&d, scene](benchmark::State& state) { step(state, d, scene); })
                 ->Arg(40)
                 ->Arg(133)
