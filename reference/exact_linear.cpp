@@ -56,9 +56,44 @@ constexpr long panels_between_questions = 16;  // (Block::stopped)
 
 class ExactLinear final : public Scheme {
 public:
-    ExactLinear(const String&, const Scene&, Modes, double tap_rate);
-    void reset() noexcept override;
-    Status advance(const Block& out) noexcept override;
+    ExactLinear(const String& s, const Scene& scene, Modes modes, double tap_rate)
+        : modes_(std::move(modes)),
+          readout_(scene, modes_),
+          parts_(s.pluck),
+          start_(start_of(modes_, s)),
+          tap_rate_(tap_rate) {
+        for (int i = 0; i < modes_.count(); ++i)
+            rate_ = std::max({rate_, modes_.omega0[i], 2 * modes_.sigma[i]});
+        if (s.pluck) {
+            pluck_.push_back(*s.pluck);
+            excited_ = footprint_weights(modes_, s.pluck->position, s.pluck->width);
+            for (double& g : excited_) g /= modes_.mass;
+            // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
+            const double k = std::abs(s.pluck->skew);
+            if (s.pluck->time.empty())
+                rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
+        }
+        for (State* state : {&anchor_, &state_, &node_state_})
+            state->y = state->v = start_.displacement;
+        gauss_legendre(node_, weight_);
+        reset();
+    }
+    void reset() noexcept override {
+        for (State* state : {&anchor_, &state_}) {
+            std::copy(start_.displacement.begin(), start_.displacement.end(), state->y.begin());
+            std::copy(start_.velocity.begin(), start_.velocity.end(), state->v.begin());
+        }
+        anchor_row_ = row_ = 0;
+        supplied_ = dissipated_ = 0;
+    }
+    Status advance(const Block& out) noexcept override {
+        for (int row = 0; row < out.rows; ++row) {
+            readout_.write(out, row, state_.y.data(), state_.v.data(), 1, 0, 0);
+            if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
+            next_row(out);
+        }
+        return {};
+    }
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override { return {state_.y, state_.v}; }
 
@@ -66,13 +101,86 @@ private:
     struct State {
         std::vector<double> y, v;
     };
-    void next_row(const Block& out) noexcept;
-    void fly(const State& from, long double t, State& to) const noexcept;
+    void next_row(const Block& out) noexcept {
+        const bool probe = out.energy != nullptr;
+        supplied_ = dissipated_ = 0;
+        const double interval = 1 / tap_rate_, now = row_ / tap_rate_;
+        bool plucked = false;
+        parts_.each(now, interval, 1,
+                    [&](double, double, bool acts) { return plucked |= acts, true; });
+        const bool whole = parts_.each(now, interval, 1, [&](double from, double to, bool) {
+            if (!probe && !plucked) return true;
+            const double length = to - from;
+            const long count = panels(length);
+            for (long k = 0; k < count; ++k) {
+                const double a = now + from +
+                                 length * static_cast<double>(k) / static_cast<double>(count),
+                             b = now + from +
+                                 length * static_cast<double>(k + 1) / static_cast<double>(count);
+                if (probe) ledger(a, b);
+                push(state_, a, b);
+                if (out.stopped(k, panels_between_questions)) return false;
+            }
+            return true;
+        });
+        if (!whole) return;
+        ++row_;
+        if (plucked) {
+            anchor_row_ = row_;
+            anchor_.y = state_.y;  // same size: copies in place
+            anchor_.v = state_.v;
+        } else fly(anchor_, static_cast<long double>(row_ - anchor_row_) / tap_rate_, state_);
+    }
+    void fly(const State& from, long double t, State& to) const noexcept {
+        for (int i = 0; i < modes_.count(); ++i) {
+            const Flight f = flight(modes_.omega0[i], modes_.sigma[i], t);
+            const double y = from.y[i], v = from.v[i];
+            to.y[i] = f.yy * y + f.yv * v;
+            to.v[i] = f.vy * y + f.vv * v;
+        }
+    }
     // free flight and the pluck's force, one panel
-    void push(State&, double from, double to) const noexcept;
+    void push(State& state, double from, double to) const noexcept {
+        fly(state, static_cast<long double>(to) - from, state);
+        if (pluck_.empty() || from >= pluck_[0].start + pluck_[0].duration || to <= pluck_[0].start)
+            return;
+        for (int q = 0; q < nodes; ++q) {
+            const double length = to - from,
+                         impulse = weight_[q] * length * force(pluck_[0], from + node_[q] * length);
+            for (int i = 0; i < modes_.count(); ++i) {
+                const Flight f = flight(modes_.omega0[i], modes_.sigma[i], length * (1 - node_[q]));
+                state.y[i] += f.yv * impulse * excited_[i];
+                state.v[i] += f.vv * impulse * excited_[i];
+            }
+        }
+    }
     // from state_, energies of one panel by quadrature
-    void ledger(double from, double to) noexcept;
-    double stored() const noexcept;
+    void ledger(double from, double to) noexcept {
+        std::copy(state_.y.begin(), state_.y.end(), node_state_.y.begin());
+        std::copy(state_.v.begin(), state_.v.end(), node_state_.v.begin());
+        double at = from;
+        for (int q = 0; q < nodes; ++q) {
+            const double next = from + node_[q] * (to - from);
+            push(node_state_, at, next);
+            at = next;
+            double loss = 0, power = 0;
+            for (int i = 0; i < modes_.count(); ++i) {
+                loss += 2 * modes_.mass * modes_.sigma[i] * node_state_.v[i] * node_state_.v[i];
+                if (!pluck_.empty()) power += modes_.mass * excited_[i] * node_state_.v[i];
+            }
+            dissipated_ += weight_[q] * (to - from) * loss;
+            if (!pluck_.empty())
+                supplied_ += weight_[q] * (to - from) * power * force(pluck_[0], next);
+        }
+    }
+    double stored() const noexcept {
+        double sum = 0;
+        for (int i = 0; i < modes_.count(); ++i) {
+            const double p = modes_.omega0[i] * state_.y[i];
+            sum += state_.v[i] * state_.v[i] + p * p;
+        }
+        return 0.5 * modes_.mass * sum;
+    }
     long panels(double length) const noexcept {
         return static_cast<long>(
             std::clamp(std::ceil(length * rate_ / 3), 1.0,
@@ -92,128 +200,6 @@ private:
     std::array<double, nodes> node_{}, weight_{};
 };
 
-ExactLinear::ExactLinear(const String& s, const Scene& scene, Modes modes, double tap_rate)
-    : modes_(std::move(modes)),
-      readout_(scene, modes_),
-      parts_(s.pluck),
-      start_(start_of(modes_, s)),
-      tap_rate_(tap_rate) {
-    for (int i = 0; i < modes_.count(); ++i)
-        rate_ = std::max({rate_, modes_.omega0[i], 2 * modes_.sigma[i]});
-    if (s.pluck) {
-        pluck_.push_back(*s.pluck);
-        excited_ = footprint_weights(modes_, s.pluck->position, s.pluck->width);
-        for (double& g : excited_) g /= modes_.mass;
-        // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
-        const double k = std::abs(s.pluck->skew);
-        if (s.pluck->time.empty())
-            rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
-    }
-    for (State* state : {&anchor_, &state_, &node_state_})
-        state->y = state->v = start_.displacement;
-    gauss_legendre(node_, weight_);
-    reset();
-}
-
-void ExactLinear::reset() noexcept {
-    for (State* state : {&anchor_, &state_}) {
-        std::copy(start_.displacement.begin(), start_.displacement.end(), state->y.begin());
-        std::copy(start_.velocity.begin(), start_.velocity.end(), state->v.begin());
-    }
-    anchor_row_ = row_ = 0;
-    supplied_ = dissipated_ = 0;
-}
-
-Status ExactLinear::advance(const Block& out) noexcept {
-    for (int row = 0; row < out.rows; ++row) {
-        readout_.write(out, row, state_.y.data(), state_.v.data(), 1, 0, 0);
-        if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
-        next_row(out);
-    }
-    return {};
-}
-
-void ExactLinear::next_row(const Block& out) noexcept {
-    const bool probe = out.energy != nullptr;
-    supplied_ = dissipated_ = 0;
-    const double interval = 1 / tap_rate_, now = row_ / tap_rate_;
-    bool plucked = false;
-    parts_.each(now, interval, 1, [&](double, double, bool acts) { return plucked |= acts, true; });
-    const bool whole = parts_.each(now, interval, 1, [&](double from, double to, bool) {
-        if (!probe && !plucked) return true;
-        const double length = to - from;
-        const long count = panels(length);
-        for (long k = 0; k < count; ++k) {
-            const double a = now + from +
-                             length * static_cast<double>(k) / static_cast<double>(count),
-                         b = now + from +
-                             length * static_cast<double>(k + 1) / static_cast<double>(count);
-            if (probe) ledger(a, b);
-            push(state_, a, b);
-            if (out.stopped(k, panels_between_questions)) return false;
-        }
-        return true;
-    });
-    if (!whole) return;
-    ++row_;
-    if (plucked) {
-        anchor_row_ = row_;
-        anchor_.y = state_.y;  // same size: copies in place
-        anchor_.v = state_.v;
-    } else fly(anchor_, static_cast<long double>(row_ - anchor_row_) / tap_rate_, state_);
-}
-
-void ExactLinear::fly(const State& from, long double t, State& to) const noexcept {
-    for (int i = 0; i < modes_.count(); ++i) {
-        const Flight f = flight(modes_.omega0[i], modes_.sigma[i], t);
-        const double y = from.y[i], v = from.v[i];
-        to.y[i] = f.yy * y + f.yv * v;
-        to.v[i] = f.vy * y + f.vv * v;
-    }
-}
-
-void ExactLinear::push(State& state, double from, double to) const noexcept {
-    fly(state, static_cast<long double>(to) - from, state);
-    if (pluck_.empty() || from >= pluck_[0].start + pluck_[0].duration || to <= pluck_[0].start)
-        return;
-    for (int q = 0; q < nodes; ++q) {
-        const double length = to - from,
-                     impulse = weight_[q] * length * force(pluck_[0], from + node_[q] * length);
-        for (int i = 0; i < modes_.count(); ++i) {
-            const Flight f = flight(modes_.omega0[i], modes_.sigma[i], length * (1 - node_[q]));
-            state.y[i] += f.yv * impulse * excited_[i];
-            state.v[i] += f.vv * impulse * excited_[i];
-        }
-    }
-}
-
-void ExactLinear::ledger(double from, double to) noexcept {
-    std::copy(state_.y.begin(), state_.y.end(), node_state_.y.begin());
-    std::copy(state_.v.begin(), state_.v.end(), node_state_.v.begin());
-    double at = from;
-    for (int q = 0; q < nodes; ++q) {
-        const double next = from + node_[q] * (to - from);
-        push(node_state_, at, next);
-        at = next;
-        double loss = 0, power = 0;
-        for (int i = 0; i < modes_.count(); ++i) {
-            loss += 2 * modes_.mass * modes_.sigma[i] * node_state_.v[i] * node_state_.v[i];
-            if (!pluck_.empty()) power += modes_.mass * excited_[i] * node_state_.v[i];
-        }
-        dissipated_ += weight_[q] * (to - from) * loss;
-        if (!pluck_.empty()) supplied_ += weight_[q] * (to - from) * power * force(pluck_[0], next);
-    }
-}
-
-double ExactLinear::stored() const noexcept {
-    double sum = 0;
-    for (int i = 0; i < modes_.count(); ++i) {
-        const double p = modes_.omega0[i] * state_.y[i];
-        sum += state_.v[i] * state_.v[i] + p * p;
-    }
-    return 0.5 * modes_.mass * sum;
-}
-
 std::unique_ptr<Scheme> make(const Descriptor&, const Scene& scene, const Settings& settings) {
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
@@ -225,10 +211,9 @@ std::unique_ptr<Scheme> make(const Descriptor&, const Scene& scene, const Settin
 const Descriptor exact_linear = {.name = "exact_linear",
                                  .source = "closed form of van Walstijn et al. 2016, eqs 16-21",
                                  .represents = Feature::bending_stiffness | Feature::damping |
-                                               Features(Feature::frequency_dependent_damping) |
-                                               Features(Feature::measured_modes) |
-                                               Features(Feature::initial_shape) |
-                                               Features(Feature::pluck) | Feature::initial_velocity,
+                                               Feature::frequency_dependent_damping |
+                                               Feature::measured_modes | Feature::initial_shape |
+                                               Feature::pluck | Feature::initial_velocity,
                                  .balance = Balance::to_tolerance,
                                  .clock = Clock::continuous,
                                  .make = make};

@@ -37,7 +37,6 @@ public:
         : modes_(std::move(modes)),
           equations_(strings, modes_, scene.body->modes),
           integrator_(equations_, integrator),
-          tolerance_(integrator.tolerance),
           tap_rate_(tap_rate) {
         std::vector<bool> heard(scene.taps.size(), false);
         std::size_t most_taps = 0, most_modes = 0;
@@ -83,18 +82,7 @@ public:
     }
 
     int dofs() const override { return 2 * equations_.padded; }
-    std::vector<Fact> facts() const override {
-        const auto effort = integrator_.effort();
-        return {{facts::events, events_},
-                {facts::contact_points, static_cast<double>(equations_.contacts)},
-                {facts::integrator_steps, effort.steps},
-                {facts::slope_evaluations, effort.slopes},
-                {facts::integrator_tolerance, tolerance_},
-                {facts::smallest_contact_force,
-                 effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
-                {facts::largest_contact_force, effort.largest_force},
-                {facts::deepest_penetration, effort.deepest}};
-    }
+    std::vector<Fact> facts() const override { return integrator_.facts(events_, false); }
 
 private:
     void restart(double time) noexcept {  // from the state there is
@@ -169,7 +157,7 @@ private:
     std::vector<double> start_, tap_, y_;
     // of the integrator's sums: taken already; since the last row
     std::vector<double> seen_, sums_;
-    double tolerance_, tap_rate_;
+    double tap_rate_;
     double begun_ = 0;  // t = 0 of the integrator [s]
     long row_ = 0;
     double events_ = 0;

@@ -64,11 +64,8 @@ public:
     Stop advance(double to, const Block& out) noexcept;
     int crossed() const noexcept;  // the contact
 
-    struct Effort {  // and what the steps met
-        double steps = 0, slopes = 0, solves = 0;
-        double deepest = 0, smallest_force = HUGE_VAL, largest_force = 0;  // [m], [N]
-    };
-    Effort effort() const noexcept;
+    // what it took, with its linear solves or without, and what the steps met
+    std::vector<Fact> facts(double events, bool solves) const;
     void reset() noexcept;  // as it was made: a state of zeros, no effort
 
 private:

@@ -24,8 +24,41 @@ constexpr int most_splits = 40;
 }  // namespace
 
 struct Integrator::Library {
-    Library(Equations&, const Settings&);
-    ~Library();
+    Library(Equations& e, const Settings& s) : equations(e), settings(s) {
+        const int size = e.size();
+        const auto need = [](bool ok) {
+            if (!ok) throw std::bad_alloc();
+        };
+        need(SUNContext_Create(nullptr, &context) == 0);
+        need((z = N_VNew_Serial(size, context)) != nullptr);
+        N_VConst(0, z);
+        before.assign(size, 0.0);
+        dz.assign(size, 0.0);
+        found.assign(e.contacts + 1, 0);
+        direction.assign(e.contacts + 1, 0);
+        depth.assign(e.contacts + 1, {});
+        depth_before = depth;
+        need((solver = SUNLinSolNewEmpty(context)) != nullptr);
+        solver->ops->gettype = type;
+        solver->ops->solve = solve;
+        solver->content = this;
+        need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) !=
+             nullptr);
+        need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS &&
+             CVodeSetUserData(memory, this) == CV_SUCCESS);
+        need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS &&
+             CVodeWFtolerances(memory, weights) == CV_SUCCESS);
+        need(CVodeSetLinearSolver(memory, solver, nullptr) == CV_SUCCESS);
+        if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
+        need(begin());
+    }
+    ~Library() {
+        if (memory) CVodeFree(&memory);
+        if (solver) solver->content = nullptr;  // it is this object
+        if (solver) SUNLinSolFree(solver);
+        if (z) N_VDestroy(z);
+        if (context) SUNContext_Free(&context);
+    }
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 
@@ -34,19 +67,106 @@ struct Integrator::Library {
     };
 
     double* state() noexcept { return N_VGetArrayPointer(z); }
-    bool begin() noexcept;
-    bool reinit(double t) noexcept;
-    int step(double to) noexcept;  // one step of the library's own
-    void look(std::vector<Depth>&) noexcept;
-    double last_step() const noexcept;
-    double turns_beyond() const noexcept;
-    void onto_surface(double to) noexcept;  // the crossing at `time`, no later than `to`
+    // A step from rest, out of contact: what the library allocates late, it allocates now. And what
+    // lay on a surface it does not look at until it has left, which outlives CVodeReInit.
+    bool begin() noexcept {
+        floor = 1;
+        longest_step = 1e-9;
+        apart = true;
+        N_VConst(0, z);
+        const bool stepped = reinit(0) && step(1e-9) >= 0;
+        apart = false;
+        N_VConst(0, z);
+        effort = {};
+        return stepped;
+    }
+    bool reinit(double t) noexcept {
+        time = t;
+        return CVodeReInit(memory, t, z) == CV_SUCCESS &&
+               CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
+               (equations.contacts == 0 ||
+                CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
+    }
+    // one step of the library's own
+    int step(double to) noexcept {
+        ++effort.steps;
+        if (CVodeSetStopTime(memory, to) != CV_SUCCESS) return -1;
+        return CVode(memory, to, z, &time, CV_ONE_STEP);
+    }
+    void look(std::vector<Depth>& at) noexcept {
+        for (int a = 0; a < equations.contacts; ++a)
+            at[a] = {equations.penetration(a, state()), equations.penetration_speed(a, state())};
+    }
+    double last_step() const noexcept {
+        double h = 0;
+        CVodeGetLastStep(memory, &h);
+        return h;
+    }
+    // When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot.
+    // Between its turning point's two tangents a convex penetration stays on its side of the
+    // surface if their intersection does.
+    double turns_beyond() const noexcept {
+        for (int a = 0; a < equations.contacts; ++a) {
+            const double side = equations.touched[a] ? 1 : -1, h = time - time_before;
+            const Depth from{side * depth_before[a].eta, side * depth_before[a].speed},
+                to{side * depth[a].eta, side * depth[a].speed};
+            if (!(from.speed < 0 && to.speed > 0)) continue;
+            const double since = (to.eta - from.eta - to.speed * h) / (from.speed - to.speed);
+            if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h)
+                return time_before + since;
+        }
+        return -1;
+    }
+    // the crossing at `time`, no later than `to`
+    void onto_surface(double to) noexcept {
+        const double speed = equations.penetration_speed(contact, state());
+        const double room = time - time_before;
+        if (speed == 0) return;
+        const double shift = std::clamp(-equations.penetration(contact, state()) / speed,
+                                        -0.5 * room, std::min(0.5 * room, to - time));
+        equations.slope(time, state(), dz.data());
+        for (int i = 0; i < equations.size(); ++i) state()[i] += shift * dz[i];
+        time += shift;
+    }
 
-    static int slope(realtype t, N_Vector z, N_Vector dz, void* user);
-    static int penetrations(realtype t, N_Vector z, realtype* out, void* user);
-    static int weights(N_Vector z, N_Vector w, void* user);
+    static int slope(realtype t, N_Vector z, N_Vector dz, void* user) {
+        auto& l = *static_cast<Library*>(user);
+        ++l.effort.slopes;
+        l.equations.slope(t, N_VGetArrayPointer(z), N_VGetArrayPointer(dz));
+        return 0;
+    }
+    static int penetrations(realtype, N_Vector z, realtype* out, void* user) {
+        auto& l = *static_cast<Library*>(user);
+        for (int a = 0; a < l.equations.contacts; ++a)
+            out[a] = l.apart ? -1 : l.equations.penetration(a, N_VGetArrayPointer(z));
+        return 0;
+    }
+    static int weights(N_Vector z, N_Vector w, void* user) {
+        auto& l = *static_cast<Library*>(user);
+        const double* x = N_VGetArrayPointer(z);
+        double* weight = N_VGetArrayPointer(w);
+        const int controlled = 2 * l.equations.padded;
+        for (int i = 0; i < controlled; ++i)
+            weight[i] = 1 / (l.settings.tolerance * (std::abs(x[i]) + l.floor));
+        std::fill(weight + controlled, weight + l.equations.size(), unweighted);
+        return 0;
+    }
     static SUNLinearSolver_Type type(SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; }
-    static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype);
+    // A matrix-free direct solver: the Newton matrix I - gamma J at the iterate itself, so Newton's
+    // own order of convergence holds.
+    static int solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+        auto& l = *static_cast<Library*>(s->content);
+        double t = 0, gamma = 0, rl1 = 0;
+        N_Vector predicted = nullptr, current = nullptr, f = nullptr, other = nullptr;
+        void* user = nullptr;
+        if (const int failed = CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f,
+                                                           &gamma, &rl1, &other, &user))
+            return failed;
+        ++l.effort.solves;
+        l.equations.solve(t, gamma, N_VGetArrayPointer(current), N_VGetArrayPointer(b),
+                          N_VGetArrayPointer(x));
+        return 0;
+    }
     static void quiet(int, const char*, const char*, char*, void*) {}
 
     Equations& equations;
@@ -62,151 +182,11 @@ struct Integrator::Library {
     bool apart = false;  // whatever the state
     std::vector<Depth> depth, depth_before;
     std::vector<int> found, direction;
-    Effort effort;
+    struct Effort {
+        double steps = 0, slopes = 0, solves = 0;
+        double deepest = 0, smallest_force = HUGE_VAL, largest_force = 0;  // [m], [N]
+    } effort;
 };
-
-int Integrator::Library::slope(realtype t, N_Vector z, N_Vector dz, void* user) {
-    auto& l = *static_cast<Library*>(user);
-    ++l.effort.slopes;
-    l.equations.slope(t, N_VGetArrayPointer(z), N_VGetArrayPointer(dz));
-    return 0;
-}
-
-int Integrator::Library::penetrations(realtype, N_Vector z, realtype* out, void* user) {
-    auto& l = *static_cast<Library*>(user);
-    for (int a = 0; a < l.equations.contacts; ++a)
-        out[a] = l.apart ? -1 : l.equations.penetration(a, N_VGetArrayPointer(z));
-    return 0;
-}
-
-int Integrator::Library::weights(N_Vector z, N_Vector w, void* user) {
-    auto& l = *static_cast<Library*>(user);
-    const double* x = N_VGetArrayPointer(z);
-    double* weight = N_VGetArrayPointer(w);
-    const int controlled = 2 * l.equations.padded;
-    for (int i = 0; i < controlled; ++i)
-        weight[i] = 1 / (l.settings.tolerance * (std::abs(x[i]) + l.floor));
-    std::fill(weight + controlled, weight + l.equations.size(), unweighted);
-    return 0;
-}
-
-// A matrix-free direct solver: the Newton matrix I - gamma J at the iterate itself, so Newton's own
-// order of convergence holds.
-int Integrator::Library::solve(SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
-    auto& l = *static_cast<Library*>(s->content);
-    double t = 0, gamma = 0, rl1 = 0;
-    N_Vector predicted = nullptr, current = nullptr, f = nullptr, other = nullptr;
-    void* user = nullptr;
-    if (const int failed = CVodeGetNonlinearSystemData(l.memory, &t, &predicted, &current, &f,
-                                                       &gamma, &rl1, &other, &user))
-        return failed;
-    ++l.effort.solves;
-    l.equations.solve(t, gamma, N_VGetArrayPointer(current), N_VGetArrayPointer(b),
-                      N_VGetArrayPointer(x));
-    return 0;
-}
-
-Integrator::Library::Library(Equations& e, const Settings& s) : equations(e), settings(s) {
-    const int size = e.size();
-    const auto need = [](bool ok) {
-        if (!ok) throw std::bad_alloc();
-    };
-    need(SUNContext_Create(nullptr, &context) == 0);
-    need((z = N_VNew_Serial(size, context)) != nullptr);
-    N_VConst(0, z);
-    before.assign(size, 0.0);
-    dz.assign(size, 0.0);
-    found.assign(e.contacts + 1, 0);
-    direction.assign(e.contacts + 1, 0);
-    depth.assign(e.contacts + 1, {});
-    depth_before = depth;
-    need((solver = SUNLinSolNewEmpty(context)) != nullptr);
-    solver->ops->gettype = type;
-    solver->ops->solve = solve;
-    solver->content = this;
-    need((memory = CVodeCreate(s.method == Method::bdf ? CV_BDF : CV_ADAMS, context)) != nullptr);
-    need(CVodeInit(memory, slope, 0, z) == CV_SUCCESS &&
-         CVodeSetUserData(memory, this) == CV_SUCCESS);
-    need(CVodeSetErrHandlerFn(memory, quiet, nullptr) == CV_SUCCESS &&
-         CVodeWFtolerances(memory, weights) == CV_SUCCESS);
-    need(CVodeSetLinearSolver(memory, solver, nullptr) == CV_SUCCESS);
-    if (e.contacts > 0) need(CVodeRootInit(memory, e.contacts, penetrations) == CV_SUCCESS);
-    need(begin());
-}
-
-Integrator::Library::~Library() {
-    if (memory) CVodeFree(&memory);
-    if (solver) solver->content = nullptr;  // it is this object
-    if (solver) SUNLinSolFree(solver);
-    if (z) N_VDestroy(z);
-    if (context) SUNContext_Free(&context);
-}
-
-// A step from rest, out of contact: what the library allocates late, it allocates now. And what lay
-// on a surface it does not look at until it has left, which outlives CVodeReInit.
-bool Integrator::Library::begin() noexcept {
-    floor = 1;
-    longest_step = 1e-9;
-    apart = true;
-    N_VConst(0, z);
-    const bool stepped = reinit(0) && step(1e-9) >= 0;
-    apart = false;
-    N_VConst(0, z);
-    effort = {};
-    return stepped;
-}
-
-bool Integrator::Library::reinit(double t) noexcept {
-    time = t;
-    return CVodeReInit(memory, t, z) == CV_SUCCESS &&
-           CVodeSetMaxStep(memory, longest_step) == CV_SUCCESS &&
-           (equations.contacts == 0 ||
-            CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
-}
-
-int Integrator::Library::step(double to) noexcept {
-    ++effort.steps;
-    if (CVodeSetStopTime(memory, to) != CV_SUCCESS) return -1;
-    return CVode(memory, to, z, &time, CV_ONE_STEP);
-}
-
-void Integrator::Library::look(std::vector<Depth>& at) noexcept {
-    for (int a = 0; a < equations.contacts; ++a)
-        at[a] = {equations.penetration(a, state()), equations.penetration_speed(a, state())};
-}
-
-// When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot.
-// Between its turning point's two tangents a convex penetration stays on its side of the surface if
-// their intersection does.
-double Integrator::Library::turns_beyond() const noexcept {
-    for (int a = 0; a < equations.contacts; ++a) {
-        const double side = equations.touched[a] ? 1 : -1, h = time - time_before;
-        const Depth from{side * depth_before[a].eta, side * depth_before[a].speed},
-            to{side * depth[a].eta, side * depth[a].speed};
-        if (!(from.speed < 0 && to.speed > 0)) continue;
-        const double since = (to.eta - from.eta - to.speed * h) / (from.speed - to.speed);
-        if (from.eta + from.speed * since < 0 && since > 0.01 * h && since < 0.99 * h)
-            return time_before + since;
-    }
-    return -1;
-}
-
-double Integrator::Library::last_step() const noexcept {
-    double h = 0;
-    CVodeGetLastStep(memory, &h);
-    return h;
-}
-
-void Integrator::Library::onto_surface(double to) noexcept {
-    const double speed = equations.penetration_speed(contact, state());
-    const double room = time - time_before;
-    if (speed == 0) return;
-    const double shift = std::clamp(-equations.penetration(contact, state()) / speed, -0.5 * room,
-                                    std::min(0.5 * room, to - time));
-    equations.slope(time, state(), dz.data());
-    for (int i = 0; i < equations.size(); ++i) state()[i] += shift * dz[i];
-    time += shift;
-}
 
 Integrator::Integrator(Equations& e, const Settings& s)
     : library_(std::make_unique<Library>(e, s)) {}
@@ -214,7 +194,20 @@ Integrator::~Integrator() = default;
 double* Integrator::state() noexcept { return library_->state(); }
 double Integrator::time() const noexcept { return library_->time; }
 int Integrator::crossed() const noexcept { return library_->contact; }
-Integrator::Effort Integrator::effort() const noexcept { return library_->effort; }
+std::vector<Fact> Integrator::facts(double events, bool solves) const {
+    const Library& l = *library_;
+    std::vector<Fact> all = {{facts::events, events},
+                             {facts::contact_points, double(l.equations.contacts)},
+                             {facts::integrator_steps, l.effort.steps},
+                             {facts::slope_evaluations, l.effort.slopes}};
+    if (solves) all.push_back({facts::linear_solves, l.effort.solves});
+    const double smallest = l.effort.smallest_force;
+    all.insert(all.end(), {{facts::integrator_tolerance, l.settings.tolerance},
+                           {facts::smallest_contact_force, smallest == HUGE_VAL ? 0 : smallest},
+                           {facts::largest_contact_force, l.effort.largest_force},
+                           {facts::deepest_penetration, l.effort.deepest}});
+    return all;
+}
 void Integrator::reset() noexcept { library_->begin(); }
 
 void Integrator::restart(double longest_step) noexcept {

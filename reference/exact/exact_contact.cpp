@@ -110,38 +110,458 @@ String with_springs(String s, const Descriptor& descriptor, const std::optional<
 
 class ExactContact final : public Scheme {
 public:
-    ExactContact(const String&, const Scene&, const Modes&, double tap_rate, double tolerance,
-                 const std::optional<InSeries>&, std::vector<int> barrier_of_each);
-    void reset() noexcept override;
-    Status advance(const Block& out) noexcept override;
+    ExactContact(const String& s, const Scene& scene, const Modes& modes, double tap_rate,
+                 double tolerance, const std::optional<InSeries>& series,
+                 std::vector<int> barrier_of_each)
+        : modes_(with_masses(modes, s)),
+          window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
+          law_(laws_of(modes_, s)),
+          collocation_(window_, law_),
+          spending_(window_, modes_, share_of(tolerance, window_share)),
+          readout_(scene, modes_),
+          parts_(s.pluck),
+          tap_rate_(tap_rate),
+          tolerance_(share_of(tolerance, window_share)),
+          interval_(window_.per_row),
+          steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)),
+          barrier_(std::move(barrier_of_each)) {
+        if (s.pluck) pluck_.push_back(*s.pluck);
+        ModalStart start = with_masses(
+            start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes,
+            s);
+        for (double& v : start.velocity) v *= window_.seconds();
+        start_ = window_.osc.pad(start.displacement);
+        start_u_ = window_.osc.pad(start.velocity);
+        if (series) start_z_ = series->resting(start.force);
+        std::vector<double> stiffness;
+        for (int i = 0; i < modes_.count(); ++i)
+            stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
+        stiffness_ = window_.osc.pad(stiffness);
+        y_ = u_ = start_;
+        z_ = start_z_;
+        const int contacts = window_.contacts;
+        touching_.resize(contacts + 1);
+        known_zero_.resize(contacts + 1);
+        touched_.reserve(contacts);
+        for (auto* v : {&r_, &path_, &moments_, &moment_})
+            v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
+        amplitude_.assign(2 * contacts * contacts + 1, 0.0);
+        if (needed_by(scene).has(Feature::rigid_barrier))
+            for (const BarrierLaw& l : law_) rigid_stiffness_ = std::max(rigid_stiffness_, l.law.k);
+        const bool springs =
+            std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
+        if (springs && contacts <= most_sets_of) {
+            sets_.resize(1u << contacts);
+            for (unsigned bits = 1; bits < sets_.size(); ++bits) {
+                std::vector<int> points;
+                std::vector<double> k;
+                for (int a = 0; a < contacts; ++a)
+                    if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].law.k);
+                TouchingSet set(window_, points, k);
+                if (set.solves()) sets_[bits] = {set, spending_.pairs_of(set)};
+            }
+        }
+        reset();
+    }
+    void reset() noexcept override {
+        std::copy(start_.begin(), start_.end(), y_.begin());
+        std::copy(start_u_.begin(), start_u_.end(), u_.begin());
+        std::copy(start_z_.begin(), start_z_.end(), z_.begin());
+        readout_.begin(u_.data(), 1 / window_.seconds(), tap_rate_);
+        std::fill(touching_.begin(), touching_.end(), 0);
+        std::fill(known_zero_.begin(), known_zero_.end(), 0);
+        row_ = idle_ = 0;
+        steps_.reset();
+        leaves_ = HUGE_VAL;
+        onward_ = false;
+        bridge_impulse_ = thread_impulse_ = 0;
+        energies_ = {};
+        extremes_ = {};
+    }
+    Status advance(const Block& out) noexcept override {
+        impacts_ = out.impacts;
+        if (impacts_) impacts_->told = true;
+        for (int row = 0; row < out.rows; ++row) {
+            write(out, row);
+            if (!interval(out))
+                return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
+            ++row_;
+        }
+        return {};
+    }
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override {
         return window_.series() || readout_.masses() > 0
                    ? ModalState{}
                    : state_of(y_, u_, modes_.count(), 1 / window_.seconds());
     }
-    std::vector<Fact> facts() const override;
+    std::vector<Fact> facts() const override {
+        // a smaller force may be none
+        const double least_certain = tolerance_ / window_share * extremes_.largest_force;
+        const double smallest = extremes_.smallest_force == HUGE_VAL ||
+                                        std::abs(extremes_.smallest_force) < least_certain
+                                    ? 0
+                                    : extremes_.smallest_force;
+        std::vector<Fact> f = {{facts::events, extremes_.events},
+                               {facts::contact_points, double(window_.contacts)},
+                               {facts::coupled_contact_points, double(window_.contacts)},
+                               {facts::windows, extremes_.windows},
+                               {facts::window_terms, double(window_.terms)},
+                               {facts::contact_steps, extremes_.steps},
+                               {facts::smallest_contact_force, smallest},
+                               {facts::largest_contact_force, extremes_.largest_force},
+                               {facts::deepest_penetration, extremes_.deepest},
+                               {facts::detection_tolerance, extremes_.tolerance}};
+        if (rigid_stiffness_ > 0) f.push_back({facts::rigid_stiffness, rigid_stiffness_});
+        return f;
+    }
 
 private:
     // to the next row
-    bool interval(const Block& out) noexcept;
+    bool interval(const Block& out) noexcept {
+        bridge_impulse_ = thread_impulse_ = 0;
+        energies_ = {};
+        return parts_.each(
+            row_ / tap_rate_, interval_, window_.seconds(),
+            [&](double from, double to, bool plucked) { return stretch(from, to, plucked, out); });
+    }
     // within one interval
-    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;
-    bool window(double end, bool plucked, double since_pluck, const Block& out) noexcept;
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept {
+        if (!(to > from)) return true;
+        const double longest =
+            plucked ? std::min(1.0, pluck_window(pluck_[0]) / window_.seconds()) : 1;
+        const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
+        for (long i = 0; i < count; ++i) {
+            const double at = from + (to - from) * i / count;
+            clock_ = row_ / tap_rate_ + at * window_.seconds();
+            const double since_pluck =
+                plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds())
+                        : 0;
+            if (!window((to - from) / count, plucked, since_pluck, out) || out.stopped())
+                return false;
+        }
+        return true;
+    }
+    bool window(double end, bool plucked, double since_pluck, const Block& out) noexcept {
+        MacroWindow& w = window_;
+        w.open(y_.data(), u_.data(), plucked, since_pluck, z_.data());
+        ++extremes_.windows;
+        for (int a = 0; a < w.contacts; ++a) {
+            std::copy_n(w.free_motion(a), w.size, at(r_, a));
+            if (known_zero_[a]) at(r_, a)[0] = 0;
+        }
+        extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
+        // nothing is ever written behind them
+        for (int a = 0; a < w.contacts; ++a) std::fill_n(at(moments_, a), w.size, 0.0);
+        long phases = 0;
+        for (double now = 0; now < end;) {
+            const double left = end - now, step = phase(now, left, out.energy != nullptr);
+            if (!(step >= 0) || out.stopped(phases++, phases_between_questions)) return false;
+            idle_ = step > 1e-15 ? 0 : idle_ + 1;
+            if (idle_ > 1000) return false;
+            now = step == left ? end : now + step;
+        }
+        w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
+        for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
+        thread_impulse_ += w.thread_impulse();
+        if (w.series()) std::copy_n(w.series_state(), z_.size(), z_.begin());
+        return std::isfinite(y_[0]);
+    }
     // to the next event, or as far as this way of going on reaches
-    double phase(double at, double end, bool probe) noexcept;
-    double collocated(double left, int& crossed) noexcept;
-    double leaving(double d, int but) const noexcept;
+    double phase(double now, double left, bool probe) noexcept {
+        MacroWindow& w = window_;
+        settle();
+        collocated_ = !touched_.empty() && !touch_;
+        std::fill(known_zero_.begin(), known_zero_.end(), 0);
+        double end = left;
+        int crossed = -1;
+        if (touched_.empty()) {
+            std::copy(r_.begin(), r_.end(), path_.begin());
+            crossed = next_crossing(end, w.size);
+        } else if (touch_) {
+            touch_->set.solve(r_.data(), path_.data(), amplitude_.data());
+            end = std::min(left, touch_->set.span());
+            crossed = next_crossing(end, w.size);
+        } else {
+            end = collocated(left, crossed);
+            if (!(end >= 0)) return -1;
+        }
+        if (!collocated_ && crossed >= 0 && !touching_[crossed])
+            steps_.set_in(), leaves_ = HUGE_VAL;
+        onward_ = collocated_;
+        for (int a : touched_) measure(a, end, a == crossed);
+        for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
+            if (law_[touched_[i]].beta != 0) measure_force(i, end);
+
+        if (end != counted_until_) {
+            count_ = 2, counted_until_ = end;
+            for (double x = w.reach * end; count_ < w.terms && x > negligible;
+                 x *= w.reach * end / count_)
+                ++count_;
+        }
+        const auto moments_until = [&](double until, int count) {
+            for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
+                if (touch_)
+                    touch_->set.moments(i, path_.data(), amplitude_.data(), until, count,
+                                        at(moment_, i));
+                else collocation_.moments(i, until, count, at(moment_, i));
+        };
+        if (probe && end > 0) {
+            // of the phases before, seen from an earlier instant, and of this
+            const auto all_moments = [&](double when, double* M, double* F) {
+                double earlier[3 * most_terms];
+                std::fill_n(earlier, w.size, 0.0);
+                powers(when - now - left, w.size, earlier + w.size);
+                std::fill_n(M, static_cast<long>(w.contacts) * w.stride, 0.0);
+                for (int a = 0; a < w.contacts; ++a)
+                    w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms,
+                                      earlier + w.size, -1);
+                moments_until(when - now, w.terms);
+                std::fill_n(F, w.contacts, 0.0);
+                for (int i = 0; i < static_cast<int>(touched_.size()); ++i) {
+                    F[touched_[i]] =
+                        touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), when - now)
+                               : collocation_.force(i, when - now);
+                    for (int n = 0; n < w.terms; ++n)
+                        M[touched_[i] * w.stride + n] += at(moment_, i)[n];
+                }
+            };
+            spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
+            for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
+                energies_.dissipated += collocation_.dissipated(i);
+        }
+        moments_until(end, count_);
+        if (impacts_) tell_impacts(now, end);
+        move_on(end, left);
+        if (crossed >= 0) {
+            touching_[crossed] = !touching_[crossed];
+            at(r_, crossed)[0] = 0;
+            known_zero_[crossed] = 1;
+            ++extremes_.events;
+        }
+        return end;
+    }
+    // One collocation step, no longer than `left` and than the first crossing.
+    double collocated(double left, int& crossed) noexcept {
+        const MacroWindow& w = window_;
+        using From = CollocatedContact::From;
+        double d = steps_.next(left, leaves_), error;
+        for (int tries = 0;; ++tries) {
+            if (tries > 60) return -1;
+            error = collocation_.step(r_.data(), touched_, d,
+                                      tries > 0 ? From::same_start
+                                      : onward_ ? From::last_end
+                                                : From::elsewhere);
+            ++extremes_.steps;
+            if (steps_.fits(error)) break;
+            leaves_ = HUGE_VAL;
+            if (error < 1e-2) {  // else the path says nothing
+                collocation_.path(r_.data(), path_.data());
+                double end = d;
+                const int first = next_crossing(end, w.size);
+                leaves_ = first < 0 ? d + leaving(d, -1) : touching_[first] ? end : HUGE_VAL;
+            }
+            steps_.rejected(error, leaves_);
+            d = steps_.next(left, leaves_);
+        }
+        for (int i = 0; i < 6; ++i) {
+            collocation_.path(r_.data(), path_.data());
+            double end = d;
+            const int first = next_crossing(end, w.size);
+            if (first < 0) break;
+            crossed = first;
+            if (std::abs(end - d) <= std::max(4e-16, 1e-3 * tolerance_ * d)) break;
+            d = end;
+            if (!(d > negligible)) {
+                d = 0;
+                break;
+            }
+            if (collocation_.step(r_.data(), touched_, d, From::same_start) == HUGE_VAL) return -1;
+            ++extremes_.steps;
+        }
+        steps_.accepted(error, d);
+        if (crossed >= 0 && !touching_[crossed]) steps_.set_in();
+        leaves_ = leaving(d, crossed);
+        return d;
+    }
+    // When the first of the points that touch lets go, from the end of a step d on, by its
+    // acceleration there.
+    double leaving(double d, int but) const noexcept {
+        double first = HUGE_VAL;
+        for (int a : touched_) {
+            if (a == but) continue;
+            double now[3];
+            window_.sweep().evaluate(path_.data() + static_cast<long>(a) * window_.stride,
+                                     window_.size, d, now);
+            // depth - now1 t - now2 t^2/2 = 0
+            const double depth = -now[0], root = now[1] * now[1] + 2 * now[2] * depth;
+            if (depth > 0 && root >= 0 && now[1] + std::sqrt(root) > 0)
+                first = std::min(first, 2 * depth / (now[1] + std::sqrt(root)));
+        }
+        return first;
+    }
     // the side the point is on now: positive until the next event
-    Gap gap(int contact, int terms) const noexcept;
-    int next_crossing(double& end, int terms) noexcept;
-    void settle() noexcept;  // which points touch, by where they are and where they go
-    void move_on(double by, double left) noexcept;
-    void measure(int touching, double end, bool leaves) noexcept;
-    void measure_force(int which, double end) noexcept;
-    void tell_impacts(double now, double end) noexcept;  // of the phase in hand
-    double stored(double F_e) const noexcept;
-    void write(const Block& out, int row) const noexcept;
+    Gap gap(int a, int terms) const noexcept {
+        const int pairs = touch_ ? touch_->set.pairs() : 0;
+        return {touching_[a] ? -1.0 : 1.0,
+                path_.data() + static_cast<long>(a) * window_.stride,
+                terms,
+                collocated_ ? HUGE_VAL  // a collocated path is as fast as the contact
+                : touch_    ? touch_->set.growth()
+                            : window_.reach,
+                amplitude_.data() + a * pairs,
+                touch_ ? touch_->set.rates() : nullptr,
+                pairs};
+    }
+    int next_crossing(double& end, int terms) noexcept {
+        int first = -1;
+        for (int a = 0; a < window_.contacts; ++a) {
+            const double crossing = first_crossing(gap(a, terms), end, window_.rounding());
+            if (crossing <= end) end = crossing, first = a;
+        }
+        return first;
+    }
+    // which points touch, by where they are and where they go
+    void settle() noexcept {
+        const MacroWindow& w = window_;
+        for (int a = 0; a < w.contacts; ++a) {
+            const double* r = at(r_, a);
+            const double* leading = std::find_if(r, r + 2, [](double c) { return c != 0; });
+            double sign = leading == r + 2 ? 0 : *leading;
+            if (sign == 0) {  // it lies on the surface, at rest: what pulls there
+                sign = r[2];
+                for (int b = 0; b < w.contacts; ++b)
+                    if (at(r_, b)[0] < 0)
+                        sign += w.kernel(a, b)[1] *
+                                law_[b].force(-at(r_, b)[0], at(r_, b)[1] / w.seconds());
+            }
+            if (sign == 0) continue;
+            if (touching_[a] == (sign < 0)) continue;
+            touching_[a] = sign < 0;
+            ++extremes_.events;
+        }
+        touched_.clear();
+        unsigned bits = 0;
+        for (int a = 0; a < w.contacts; ++a)
+            if (touching_[a]) touched_.push_back(a), bits |= a < most_sets_of ? 1u << a : 0;
+        touch_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
+    }
+    // The points' free motion and the moments, from the instant of this phase's start to `by`
+    // later, `left` before the window's end.
+    void move_on(double by, double left) noexcept {
+        const MacroWindow& w = window_;
+        const auto combine = w.sweep().combine;
+        double e[3 * most_terms], later[3 * most_terms], shifted[most_terms];
+        const bool last = by == left;  // of the window: nobody asks for the free motion beyond it
+        if (!last) powers(by, w.size, e);
+        for (int a = 0; !last && a < w.contacts; ++a) {
+            double* r = at(r_, a);
+            w.sweep().combined(shifted, w.size, e, count_, r, 1);
+            std::copy_n(shifted, w.size, r);
+        }
+        if (touched_.empty()) return;
+        std::fill_n(later, w.size, 0.0);  // a convolution reads the zeros before
+        powers(left - by, w.size, later + w.size);
+        for (std::size_t i = 0; i < touched_.size(); ++i) {
+            const double* m = at(moment_, static_cast<int>(i));
+            extremes_.tolerance =
+                std::max(extremes_.tolerance, w.kernel_truncation() * std::abs(m[0]));
+            for (int a = 0; !last && a < w.contacts; ++a)
+                combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
+            combine(at(moments_, touched_[i]), w.size, m, count_, later + w.size, -1);
+        }
+    }
+    void measure(int a, double end, bool leaves) noexcept {
+        // touching: the gap's sign is turned, so this is the penetration
+        const Gap g = gap(a, window_.size);
+        const double bound = g.depth_bound(end);
+        const bool elastic = law_[a].beta == 0;
+        const bool nothing_new =
+            bound <= extremes_.deepest && (window_.contacts == 1 || !elastic ||
+                                           law_[a].elastic(bound) <= extremes_.largest_force);
+        if (leaves && nothing_new) return;  // contact forces are not negative in between
+        const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
+        double deepest = std::max(start.g, last.g);
+        if (elastic)
+            extremes_.smallest_force = std::min(
+                extremes_.smallest_force,
+                law_[a].elastic(std::max(0.0, leaves ? start.g : std::min(start.g, last.g))));
+        if (start.slope > 0 && last.slope < 0 && !nothing_new) {
+            // Newton's iteration for the turning point, kept inside
+            double low = 0, high = end, x = 0.5 * end;
+            for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
+                const auto now = g.at(x);
+                (now.slope > 0 ? low : high) = x;
+                deepest = std::max(deepest, now.g);
+                const double next = x - now.slope / now.curvature;
+                if (std::abs(next - x) < 1e-9 * end) break;
+                x = next > low && next < high ? next : 0.5 * (low + high);
+            }
+        }
+        extremes_.deepest = std::max(extremes_.deepest, deepest);
+        if (elastic)
+            extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
+    }
+    void measure_force(int which, double end) noexcept {
+        const auto force = [&](double at) { return collocation_.force(which, at); };
+        extremes_.largest_force = std::max(extremes_.largest_force, most_in(end, force));
+        double least = -most_in(end, [&](double at) { return -force(at); });
+        // where it lets go a polynomial dips by what the step errs
+        if (law_[touched_[which]].clipped) least = std::max(0.0, least);
+        extremes_.smallest_force = std::min(extremes_.smallest_force, least);
+    }
+    // of the phase in hand
+    void tell_impacts(double now, double end) noexcept {
+        const double second = window_.seconds();
+        const int touched = static_cast<int>(touched_.size());
+        for (int first = 0, behind = 0; first < touched; first = behind) {
+            Impact part{barrier_[touched_[first]], clock_ + now * second,
+                        clock_ + (now + end) * second};
+            part.speed_in = part.speed_out = -HUGE_VAL;
+            for (; behind < touched && barrier_[touched_[behind]] == part.barrier; ++behind) {
+                const Gap g = gap(touched_[behind], window_.size);
+                part.speed_in = std::max(part.speed_in, g.at_start().slope / second);
+                part.speed_out = std::max(part.speed_out, -g.at(end).slope / second);
+                part.impulse += at(moment_, behind)[0] * second;
+                if (collocated_) part.energy_lost += collocation_.dissipated(behind);
+            }
+            part.largest_force = most_in(end, [&](double at) {
+                double sum = 0;
+                for (int i = first; i < behind; ++i)
+                    sum += touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), at)
+                                  : collocation_.force(i, at);
+                return sum;
+            });
+            impacts_->add(part);
+        }
+    }
+    double stored(double F_e) const noexcept {
+        const Springs& s = window_.springs;
+        double kinetic = 0, potential = 0;
+        for (int i = 0; i < window_.osc.padded; ++i) {
+            kinetic += u_[i] * u_[i];
+            potential += stiffness_[i] * y_[i] * y_[i];
+        }
+        double energy =
+            0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
+        const auto& series = window_.series();
+        if (series) energy += series->stored(z_.data());
+        for (int a = 0; a < s.points; ++a) {
+            const double* g = s.weights.data() + static_cast<long>(a) * window_.osc.padded;
+            double eta = s.height[a] - (series ? z_[a] + series->plucked(a) * F_e : 0);
+            for (int i = 0; i < window_.osc.padded; ++i) eta -= g[i] * y_[i];
+            energy += a < s.contacts ? law_[a].law.potential(eta) : 0.5 * s.k[a] * eta * eta;
+        }
+        return energy;
+    }
+    void write(const Block& out, int row) const noexcept {
+        readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(),
+                       bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
+        const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
+        if (window_.series()) add_series(out, row, *window_.series(), z_.data(), F_e);
+        if (out.energy)
+            write_energy(out, row, stored(F_e), energies_.supplied, energies_.dissipated);
+    }
     double* at(std::vector<double>& rows, int a) const noexcept {
         return rows.data() + static_cast<long>(a) * window_.stride;
     }
@@ -189,458 +609,6 @@ private:
     double counted_until_ = -1;  // by a step of that length
 };
 
-ExactContact::ExactContact(const String& s, const Scene& scene, const Modes& modes, double tap_rate,
-                           double tolerance, const std::optional<InSeries>& series,
-                           std::vector<int> barrier_of_each)
-    : modes_(with_masses(modes, s)),
-      window_(modes_, s, 1 / tap_rate, share_of(tolerance, window_share), series),
-      law_(laws_of(modes_, s)),
-      collocation_(window_, law_),
-      spending_(window_, modes_, share_of(tolerance, window_share)),
-      readout_(scene, modes_),
-      parts_(s.pluck),
-      tap_rate_(tap_rate),
-      tolerance_(share_of(tolerance, window_share)),
-      interval_(window_.per_row),
-      steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)),
-      barrier_(std::move(barrier_of_each)) {
-    if (s.pluck) pluck_.push_back(*s.pluck);
-    ModalStart start = with_masses(
-        start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes, s);
-    for (double& v : start.velocity) v *= window_.seconds();
-    start_ = window_.osc.pad(start.displacement);
-    start_u_ = window_.osc.pad(start.velocity);
-    if (series) start_z_ = series->resting(start.force);
-    std::vector<double> stiffness;
-    for (int i = 0; i < modes_.count(); ++i)
-        stiffness.push_back(modes_.mass * modes_.omega0[i] * modes_.omega0[i]);
-    stiffness_ = window_.osc.pad(stiffness);
-    y_ = u_ = start_;
-    z_ = start_z_;
-    const int contacts = window_.contacts;
-    touching_.resize(contacts + 1);
-    known_zero_.resize(contacts + 1);
-    touched_.reserve(contacts);
-    for (auto* v : {&r_, &path_, &moments_, &moment_})
-        v->assign(static_cast<long>(contacts + 1) * window_.stride, 0.0);
-    amplitude_.assign(2 * contacts * contacts + 1, 0.0);
-    if (needed_by(scene).has(Feature::rigid_barrier))
-        for (const BarrierLaw& l : law_) rigid_stiffness_ = std::max(rigid_stiffness_, l.law.k);
-    const bool springs =
-        std::all_of(law_.begin(), law_.end(), [](const BarrierLaw& l) { return l.spring(); });
-    if (springs && contacts <= most_sets_of) {
-        sets_.resize(1u << contacts);
-        for (unsigned bits = 1; bits < sets_.size(); ++bits) {
-            std::vector<int> points;
-            std::vector<double> k;
-            for (int a = 0; a < contacts; ++a)
-                if (bits >> a & 1u) points.push_back(a), k.push_back(law_[a].law.k);
-            TouchingSet set(window_, points, k);
-            if (set.solves()) sets_[bits] = {set, spending_.pairs_of(set)};
-        }
-    }
-    reset();
-}
-
-void ExactContact::reset() noexcept {
-    std::copy(start_.begin(), start_.end(), y_.begin());
-    std::copy(start_u_.begin(), start_u_.end(), u_.begin());
-    std::copy(start_z_.begin(), start_z_.end(), z_.begin());
-    readout_.begin(u_.data(), 1 / window_.seconds(), tap_rate_);
-    std::fill(touching_.begin(), touching_.end(), 0);
-    std::fill(known_zero_.begin(), known_zero_.end(), 0);
-    row_ = idle_ = 0;
-    steps_.reset();
-    leaves_ = HUGE_VAL;
-    onward_ = false;
-    bridge_impulse_ = thread_impulse_ = 0;
-    energies_ = {};
-    extremes_ = {};
-}
-
-Status ExactContact::advance(const Block& out) noexcept {
-    impacts_ = out.impacts;
-    if (impacts_) impacts_->told = true;
-    for (int row = 0; row < out.rows; ++row) {
-        write(out, row);
-        if (!interval(out)) return {idle_ > 0 ? Outcome::not_converged : Outcome::diverged, row_};
-        ++row_;
-    }
-    return {};
-}
-
-void ExactContact::write(const Block& out, int row) const noexcept {
-    readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(),
-                   bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
-    const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
-    if (window_.series()) add_series(out, row, *window_.series(), z_.data(), F_e);
-    if (out.energy) write_energy(out, row, stored(F_e), energies_.supplied, energies_.dissipated);
-}
-
-bool ExactContact::interval(const Block& out) noexcept {
-    bridge_impulse_ = thread_impulse_ = 0;
-    energies_ = {};
-    return parts_.each(
-        row_ / tap_rate_, interval_, window_.seconds(),
-        [&](double from, double to, bool plucked) { return stretch(from, to, plucked, out); });
-}
-
-bool ExactContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
-    if (!(to > from)) return true;
-    const double longest = plucked ? std::min(1.0, pluck_window(pluck_[0]) / window_.seconds()) : 1;
-    const long count = static_cast<long>(std::ceil((to - from) / longest - 1e-12));
-    for (long i = 0; i < count; ++i) {
-        const double at = from + (to - from) * i / count;
-        clock_ = row_ / tap_rate_ + at * window_.seconds();
-        const double since_pluck =
-            plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at * window_.seconds())
-                    : 0;
-        if (!window((to - from) / count, plucked, since_pluck, out) || out.stopped()) return false;
-    }
-    return true;
-}
-
-bool ExactContact::window(double end, bool plucked, double since_pluck, const Block& out) noexcept {
-    MacroWindow& w = window_;
-    w.open(y_.data(), u_.data(), plucked, since_pluck, z_.data());
-    ++extremes_.windows;
-    for (int a = 0; a < w.contacts; ++a) {
-        std::copy_n(w.free_motion(a), w.size, at(r_, a));
-        if (known_zero_[a]) at(r_, a)[0] = 0;
-    }
-    extremes_.tolerance = std::max(extremes_.tolerance, 2 * (w.truncation() + w.rounding()));
-    // nothing is ever written behind them
-    for (int a = 0; a < w.contacts; ++a) std::fill_n(at(moments_, a), w.size, 0.0);
-    long phases = 0;
-    for (double now = 0; now < end;) {
-        const double left = end - now, step = phase(now, left, out.energy != nullptr);
-        if (!(step >= 0) || out.stopped(phases++, phases_between_questions)) return false;
-        idle_ = step > 1e-15 ? 0 : idle_ + 1;
-        if (idle_ > 1000) return false;
-        now = step == left ? end : now + step;
-    }
-    w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
-    for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
-    thread_impulse_ += w.thread_impulse();
-    if (w.series()) std::copy_n(w.series_state(), z_.size(), z_.begin());
-    return std::isfinite(y_[0]);
-}
-
-void ExactContact::settle() noexcept {
-    const MacroWindow& w = window_;
-    for (int a = 0; a < w.contacts; ++a) {
-        const double* r = at(r_, a);
-        const double* leading = std::find_if(r, r + 2, [](double c) { return c != 0; });
-        double sign = leading == r + 2 ? 0 : *leading;
-        if (sign == 0) {  // it lies on the surface, at rest: what pulls there
-            sign = r[2];
-            for (int b = 0; b < w.contacts; ++b)
-                if (at(r_, b)[0] < 0)
-                    sign += w.kernel(a, b)[1] *
-                            law_[b].force(-at(r_, b)[0], at(r_, b)[1] / w.seconds());
-        }
-        if (sign == 0) continue;
-        if (touching_[a] == (sign < 0)) continue;
-        touching_[a] = sign < 0;
-        ++extremes_.events;
-    }
-    touched_.clear();
-    unsigned bits = 0;
-    for (int a = 0; a < w.contacts; ++a)
-        if (touching_[a]) touched_.push_back(a), bits |= a < most_sets_of ? 1u << a : 0;
-    touch_ = !touched_.empty() && !sets_.empty() && sets_[bits] ? &*sets_[bits] : nullptr;
-}
-
-Gap ExactContact::gap(int a, int terms) const noexcept {
-    const int pairs = touch_ ? touch_->set.pairs() : 0;
-    return {touching_[a] ? -1.0 : 1.0,
-            path_.data() + static_cast<long>(a) * window_.stride,
-            terms,
-            collocated_ ? HUGE_VAL  // a collocated path is as fast as the contact
-            : touch_    ? touch_->set.growth()
-                        : window_.reach,
-            amplitude_.data() + a * pairs,
-            touch_ ? touch_->set.rates() : nullptr,
-            pairs};
-}
-
-int ExactContact::next_crossing(double& end, int terms) noexcept {
-    int first = -1;
-    for (int a = 0; a < window_.contacts; ++a) {
-        const double crossing = first_crossing(gap(a, terms), end, window_.rounding());
-        if (crossing <= end) end = crossing, first = a;
-    }
-    return first;
-}
-
-double ExactContact::phase(double now, double left, bool probe) noexcept {
-    MacroWindow& w = window_;
-    settle();
-    collocated_ = !touched_.empty() && !touch_;
-    std::fill(known_zero_.begin(), known_zero_.end(), 0);
-    double end = left;
-    int crossed = -1;
-    if (touched_.empty()) {
-        std::copy(r_.begin(), r_.end(), path_.begin());
-        crossed = next_crossing(end, w.size);
-    } else if (touch_) {
-        touch_->set.solve(r_.data(), path_.data(), amplitude_.data());
-        end = std::min(left, touch_->set.span());
-        crossed = next_crossing(end, w.size);
-    } else {
-        end = collocated(left, crossed);
-        if (!(end >= 0)) return -1;
-    }
-    if (!collocated_ && crossed >= 0 && !touching_[crossed]) steps_.set_in(), leaves_ = HUGE_VAL;
-    onward_ = collocated_;
-    for (int a : touched_) measure(a, end, a == crossed);
-    for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
-        if (law_[touched_[i]].beta != 0) measure_force(i, end);
-
-    if (end != counted_until_) {
-        count_ = 2, counted_until_ = end;
-        for (double x = w.reach * end; count_ < w.terms && x > negligible;
-             x *= w.reach * end / count_)
-            ++count_;
-    }
-    const auto moments_until = [&](double until, int count) {
-        for (int i = 0; i < static_cast<int>(touched_.size()); ++i)
-            if (touch_)
-                touch_->set.moments(i, path_.data(), amplitude_.data(), until, count,
-                                    at(moment_, i));
-            else collocation_.moments(i, until, count, at(moment_, i));
-    };
-    if (probe && end > 0) {
-        const auto all_moments = [&](double when, double* M,
-                                     // of the phases before, seen from an earlier instant, and of
-                                     // this
-                                     double* F) {
-            double earlier[3 * most_terms];
-            std::fill_n(earlier, w.size, 0.0);
-            powers(when - now - left, w.size, earlier + w.size);
-            std::fill_n(M, static_cast<long>(w.contacts) * w.stride, 0.0);
-            for (int a = 0; a < w.contacts; ++a)
-                w.sweep().combine(M + a * w.stride, w.size, at(moments_, a), w.terms,
-                                  earlier + w.size, -1);
-            moments_until(when - now, w.terms);
-            std::fill_n(F, w.contacts, 0.0);
-            for (int i = 0; i < static_cast<int>(touched_.size()); ++i) {
-                F[touched_[i]] =
-                    touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), when - now)
-                           : collocation_.force(i, when - now);
-                for (int n = 0; n < w.terms; ++n)
-                    M[touched_[i] * w.stride + n] += at(moment_, i)[n];
-            }
-        };
-        spending_.spend({now, now + end, y_.data(), u_.data(), touch_}, all_moments, energies_);
-        for (int i = 0; collocated_ && i < static_cast<int>(touched_.size()); ++i)
-            energies_.dissipated += collocation_.dissipated(i);
-    }
-    moments_until(end, count_);
-    if (impacts_) tell_impacts(now, end);
-    move_on(end, left);
-    if (crossed >= 0) {
-        touching_[crossed] = !touching_[crossed];
-        at(r_, crossed)[0] = 0;
-        known_zero_[crossed] = 1;
-        ++extremes_.events;
-    }
-    return end;
-}
-
-// One collocation step, no longer than `left` and than the first crossing.
-double ExactContact::collocated(double left, int& crossed) noexcept {
-    const MacroWindow& w = window_;
-    using From = CollocatedContact::From;
-    double d = steps_.next(left, leaves_), error;
-    for (int tries = 0;; ++tries) {
-        if (tries > 60) return -1;
-        error = collocation_.step(r_.data(), touched_, d,
-                                  tries > 0 ? From::same_start
-                                  : onward_ ? From::last_end
-                                            : From::elsewhere);
-        ++extremes_.steps;
-        if (steps_.fits(error)) break;
-        leaves_ = HUGE_VAL;
-        if (error < 1e-2) {  // else the path says nothing
-            collocation_.path(r_.data(), path_.data());
-            double end = d;
-            const int first = next_crossing(end, w.size);
-            leaves_ = first < 0 ? d + leaving(d, -1) : touching_[first] ? end : HUGE_VAL;
-        }
-        steps_.rejected(error, leaves_);
-        d = steps_.next(left, leaves_);
-    }
-    for (int i = 0; i < 6; ++i) {
-        collocation_.path(r_.data(), path_.data());
-        double end = d;
-        const int first = next_crossing(end, w.size);
-        if (first < 0) break;
-        crossed = first;
-        if (std::abs(end - d) <= std::max(4e-16, 1e-3 * tolerance_ * d)) break;
-        d = end;
-        if (!(d > negligible)) {
-            d = 0;
-            break;
-        }
-        if (collocation_.step(r_.data(), touched_, d, From::same_start) == HUGE_VAL) return -1;
-        ++extremes_.steps;
-    }
-    steps_.accepted(error, d);
-    if (crossed >= 0 && !touching_[crossed]) steps_.set_in();
-    leaves_ = leaving(d, crossed);
-    return d;
-}
-
-// When the first of the points that touch lets go, from the end of a step d on, by its acceleration
-// there.
-double ExactContact::leaving(double d, int but) const noexcept {
-    double first = HUGE_VAL;
-    for (int a : touched_) {
-        if (a == but) continue;
-        double now[3];
-        window_.sweep().evaluate(path_.data() + static_cast<long>(a) * window_.stride, window_.size,
-                                 d, now);
-        // depth - now1 t - now2 t^2/2 = 0
-        const double depth = -now[0], root = now[1] * now[1] + 2 * now[2] * depth;
-        if (depth > 0 && root >= 0 && now[1] + std::sqrt(root) > 0)
-            first = std::min(first, 2 * depth / (now[1] + std::sqrt(root)));
-    }
-    return first;
-}
-
-// The points' free motion and the moments, from the instant of this phase's start to `by` later,
-// `left` before the window's end.
-void ExactContact::move_on(double by, double left) noexcept {
-    const MacroWindow& w = window_;
-    const auto combine = w.sweep().combine;
-    double e[3 * most_terms], later[3 * most_terms], shifted[most_terms];
-    const bool last = by == left;  // of the window: nobody asks for the free motion beyond it
-    if (!last) powers(by, w.size, e);
-    for (int a = 0; !last && a < w.contacts; ++a) {
-        double* r = at(r_, a);
-        w.sweep().combined(shifted, w.size, e, count_, r, 1);
-        std::copy_n(shifted, w.size, r);
-    }
-    if (touched_.empty()) return;
-    std::fill_n(later, w.size, 0.0);  // a convolution reads the zeros before
-    powers(left - by, w.size, later + w.size);
-    for (std::size_t i = 0; i < touched_.size(); ++i) {
-        const double* m = at(moment_, static_cast<int>(i));
-        extremes_.tolerance = std::max(extremes_.tolerance, w.kernel_truncation() * std::abs(m[0]));
-        for (int a = 0; !last && a < w.contacts; ++a)
-            combine(at(r_, a), w.size, m, count_, w.kernel(a, touched_[i]), 1);
-        combine(at(moments_, touched_[i]), w.size, m, count_, later + w.size, -1);
-    }
-}
-
-void ExactContact::measure(int a, double end, bool leaves) noexcept {
-    // touching: the gap's sign is turned, so this is the penetration
-    const Gap g = gap(a, window_.size);
-    const double bound = g.depth_bound(end);
-    const bool elastic = law_[a].beta == 0;
-    const bool nothing_new =
-        bound <= extremes_.deepest &&
-        (window_.contacts == 1 || !elastic || law_[a].elastic(bound) <= extremes_.largest_force);
-    if (leaves && nothing_new) return;  // contact forces are not negative in between
-    const auto start = g.at_start(), last = g.at(end, g.terms_until(end));
-    double deepest = std::max(start.g, last.g);
-    if (elastic)
-        extremes_.smallest_force =
-            std::min(extremes_.smallest_force,
-                     law_[a].elastic(std::max(0.0, leaves ? start.g : std::min(start.g, last.g))));
-    if (start.slope > 0 && last.slope < 0 && !nothing_new) {
-        // Newton's iteration for the turning point, kept inside
-        double low = 0, high = end, x = 0.5 * end;
-        for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
-            const auto now = g.at(x);
-            (now.slope > 0 ? low : high) = x;
-            deepest = std::max(deepest, now.g);
-            const double next = x - now.slope / now.curvature;
-            if (std::abs(next - x) < 1e-9 * end) break;
-            x = next > low && next < high ? next : 0.5 * (low + high);
-        }
-    }
-    extremes_.deepest = std::max(extremes_.deepest, deepest);
-    if (elastic)
-        extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
-}
-
-void ExactContact::measure_force(int which, double end) noexcept {
-    const auto force = [&](double at) { return collocation_.force(which, at); };
-    extremes_.largest_force = std::max(extremes_.largest_force, most_in(end, force));
-    double least = -most_in(end, [&](double at) { return -force(at); });
-    // where it lets go a polynomial dips by what the step errs
-    if (law_[touched_[which]].clipped) least = std::max(0.0, least);
-    extremes_.smallest_force = std::min(extremes_.smallest_force, least);
-}
-
-void ExactContact::tell_impacts(double now, double end) noexcept {
-    const double second = window_.seconds();
-    const int touched = static_cast<int>(touched_.size());
-    for (int first = 0, behind = 0; first < touched; first = behind) {
-        Impact part{barrier_[touched_[first]], clock_ + now * second,
-                    clock_ + (now + end) * second};
-        part.speed_in = part.speed_out = -HUGE_VAL;
-        for (; behind < touched && barrier_[touched_[behind]] == part.barrier; ++behind) {
-            const Gap g = gap(touched_[behind], window_.size);
-            part.speed_in = std::max(part.speed_in, g.at_start().slope / second);
-            part.speed_out = std::max(part.speed_out, -g.at(end).slope / second);
-            part.impulse += at(moment_, behind)[0] * second;
-            if (collocated_) part.energy_lost += collocation_.dissipated(behind);
-        }
-        part.largest_force = most_in(end, [&](double at) {
-            double sum = 0;
-            for (int i = first; i < behind; ++i)
-                sum += touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), at)
-                              : collocation_.force(i, at);
-            return sum;
-        });
-        impacts_->add(part);
-    }
-}
-
-double ExactContact::stored(double F_e) const noexcept {
-    const Springs& s = window_.springs;
-    double kinetic = 0, potential = 0;
-    for (int i = 0; i < window_.osc.padded; ++i) {
-        kinetic += u_[i] * u_[i];
-        potential += stiffness_[i] * y_[i] * y_[i];
-    }
-    double energy =
-        0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
-    const auto& series = window_.series();
-    if (series) energy += series->stored(z_.data());
-    for (int a = 0; a < s.points; ++a) {
-        const double* g = s.weights.data() + static_cast<long>(a) * window_.osc.padded;
-        double eta = s.height[a] - (series ? z_[a] + series->plucked(a) * F_e : 0);
-        for (int i = 0; i < window_.osc.padded; ++i) eta -= g[i] * y_[i];
-        energy += a < s.contacts ? law_[a].law.potential(eta) : 0.5 * s.k[a] * eta * eta;
-    }
-    return energy;
-}
-
-std::vector<Fact> ExactContact::facts() const {
-    // a smaller force may be none
-    const double least_certain = tolerance_ / window_share * extremes_.largest_force;
-    const double smallest =
-        extremes_.smallest_force == HUGE_VAL || std::abs(extremes_.smallest_force) < least_certain
-            ? 0
-            : extremes_.smallest_force;
-    std::vector<Fact> f = {{facts::events, extremes_.events},
-                           {facts::contact_points, double(window_.contacts)},
-                           {facts::coupled_contact_points, double(window_.contacts)},
-                           {facts::windows, extremes_.windows},
-                           {facts::window_terms, double(window_.terms)},
-                           {facts::contact_steps, extremes_.steps},
-                           {facts::smallest_contact_force, smallest},
-                           {facts::largest_contact_force, extremes_.largest_force},
-                           {facts::deepest_penetration, extremes_.deepest},
-                           {facts::detection_tolerance, extremes_.tolerance}};
-    if (rigid_stiffness_ > 0) f.push_back({facts::rigid_stiffness, rigid_stiffness_});
-    return f;
-}
-
 constexpr Option tolerance_option{"tolerance", "1e-10",
                                   "relative error of the taps that cutting off series and steps "
                                   "may cause, forces included, between 0 and 1"};
@@ -684,12 +652,10 @@ const Descriptor exact_contact = {
         "van Walstijn et al. 2016, eqs 1-22, and Issanchou et al. 2016, eq 24, exact between "
         "events",
     .represents = Feature::bending_stiffness | Feature::damping |
-                  Features(Feature::frequency_dependent_damping) |
-                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                  Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                  Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) |
-                  Features(Feature::pluck) | Features(Feature::rigid_barrier) |
+                  Feature::frequency_dependent_damping | Feature::measured_modes |
+                  Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
+                  Feature::power_law_contact | Feature::contact_loss | Feature::thread |
+                  Feature::initial_shape | Feature::pluck | Feature::rigid_barrier |
                   Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss |
                   Feature::free_mass,
     .balance = Balance::to_tolerance,

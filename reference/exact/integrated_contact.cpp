@@ -36,31 +36,180 @@ struct Choice {
 
 class IntegratedContact final : public Scheme {
 public:
-    IntegratedContact(const String&, const Scene&, const Modes&, double tap_rate, const Choice&,
-                      const std::optional<InSeries>&);
-    void reset() noexcept override;
-    Status advance(const Block& out) noexcept override;
+    IntegratedContact(const String& s, const Scene& scene, const Modes& modes, double tap_rate,
+                      const Choice& choice, const std::optional<InSeries>& series)
+        : modes_(with_masses(modes, s)),
+          equations_(modes_, s, series),
+          flight_(modes_, s, 1 / tap_rate, series),
+          integrator_(equations_, choice.integrator),
+          readout_(scene, modes_),
+          choice_(choice),
+          parts_(s.pluck),
+          tap_rate_(tap_rate),
+          interval_(flight_.window.osc.rate / tap_rate) {
+        if (s.pluck) pluck_.push_back(*s.pluck);
+        ModalStart start = with_masses(
+            start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes,
+            s);
+        for (double& v : start.velocity) v /= flight_.window.osc.rate;
+        start_ = flight_.window.osc.pad(start.displacement);
+        start_u_ = flight_.window.osc.pad(start.velocity);
+        if (series) start_z_ = series->resting(start.force);
+        untouched_.assign(equations_.contacts + 1, 0);
+        y_ = u_ = start_;
+        reset();
+    }
+    void reset() noexcept override {
+        std::copy(start_.begin(), start_.end(), y_.begin());
+        std::copy(start_u_.begin(), start_u_.end(), u_.begin());
+        std::fill(equations_.touched.begin(), equations_.touched.end(), 0);
+        flight_.reset();
+        std::copy(start_z_.begin(), start_z_.end(), flight_.z.begin());
+        integrator_.reset();
+        readout_.begin(u_.data(), flight_.window.osc.rate, tap_rate_);
+        row_ = idle_ = 0;
+        leaving_ = -1;
+        running_ = false;
+        sums_ = {};
+        events_ = 0;
+        if (choice_.exact_flight) return;  // it finds what is touched from the start
+        start(false, 0);
+        for (int a = 0; a < equations_.contacts; ++a)
+            equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
+        running_ = false;
+    }
+    Status advance(const Block& out) noexcept override {
+        for (int row = 0; row < out.rows; ++row) {
+            readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate,
+                           sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
+            if (series()) add_series(out, row, *series(), flight_.z.data(), 0);
+            if (out.energy)
+                write_energy(out, row, stored(), sums_.energies.supplied,
+                             sums_.energies.dissipated);
+            if (!interval(out)) return {Outcome::not_converged, row_};
+            ++row_;
+        }
+        return {};
+    }
     int dofs() const override { return 2 * modes_.count(); }
     ModalState state() const override {
         return series() || readout_.masses() > 0
                    ? ModalState{}
                    : state_of(y_, u_, modes_.count(), flight_.window.osc.rate);
     }
-    std::vector<Fact> facts() const override;
+    std::vector<Fact> facts() const override {
+        std::vector<Fact> all = integrator_.facts(events_, true);
+        if (choice_.exact_flight) all.push_back({facts::detection_tolerance, flight_.tolerance()});
+        return all;
+    }
 
 private:
     // to the next row
-    bool interval(const Block& out) noexcept;
+    bool interval(const Block& out) noexcept {
+        sums_ = {};
+        return parts_.each(row_ / tap_rate_, interval_, 1 / flight_.window.osc.rate,
+                           [&](double from, double to, bool plucked) {
+                               // lines of a file meet at an angle
+                               if (plucked && !pluck_[0].time.empty()) running_ = false;
+                               return stretch(from, to, plucked, out);
+                           });
+    }
     // within one interval
-    bool stretch(double from, double to, bool plucked, const Block& out) noexcept;
-    double integrate(double left, bool plucked, double since_pluck,
-                     // no further than the next crossing; how far [1/rate]
-                     const Block& out) noexcept;
-    void start(bool plucked, double since_pluck) noexcept;  // y, u -> the integrator's state
-    void toggle(int contact) noexcept;
+    bool stretch(double from, double to, bool plucked, const Block& out) noexcept {
+        const double nothing = 1e-15 * interval_;  // the library cannot step so little
+        for (double at = from; to - at > nothing;) {
+            const double left = to - at;
+            const double since_pluck = plucked ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start +
+                                                                   at / flight_.window.osc.rate)
+                                               : 0;
+            double step;
+            if (exact_flight()) {
+                const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(),
+                                                 u_.data(), sums_, out.energy != nullptr);
+                step = landing.length;
+                leaving_ = -1;
+                if (landing.contact >= 0) toggle(landing.contact);
+            } else step = integrate(left, plucked, since_pluck, out);
+            if (!(step >= 0) || out.stopped()) return false;
+            idle_ = step > nothing ? 0 : idle_ + 1;
+            if (idle_ > 1000) return false;
+            at = step == left ? to : at + step;
+        }
+        return true;
+    }
+    // no further than the next crossing; how far [1/rate]
+    double integrate(double left, bool plucked, double since_pluck, const Block& out) noexcept {
+        if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
+        const double before = integrator_.time();
+        const auto stop = integrator_.advance(before + left / flight_.window.osc.rate, out);
+        if (stop == Integrator::Stop::failed) return -1;
+        const double* z = integrator_.state();
+        for (int i = 0; i < modes_.count(); ++i) {
+            y_[i] = z[i] / equations_.scale(i);
+            u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
+        }
+        equations_.read_series(z, flight_.z.data());
+        const double* sum = z + 2 * equations_.padded;
+        double since[StringEquations::sums];
+        for (int k = 0; k < StringEquations::sums; ++k) {
+            since[k] = sum[k] - seen_[k];
+            seen_[k] = sum[k];
+        }
+        sums_.bridge += since[StringEquations::bridge_impulse];
+        sums_.thread += since[StringEquations::thread_impulse];
+        sums_.energies.supplied += since[StringEquations::supplied];
+        sums_.energies.dissipated += since[StringEquations::dissipated];
+        if (stop == Integrator::Stop::reached) return left;
+        toggle(integrator_.crossed());
+        return std::min((integrator_.time() - before) * flight_.window.osc.rate, left);
+    }
+    // y, u -> the integrator's state
+    void start(bool plucked, double since_pluck) noexcept {
+        double* z = integrator_.state();
+        std::fill_n(z, equations_.size(), 0.0);
+        for (int i = 0; i < modes_.count(); ++i) {
+            z[i] = equations_.scale(i) * y_[i];
+            z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
+        }
+        equations_.put_series(flight_.z.data(), z);
+        std::fill(std::begin(seen_), std::end(seen_), 0.0);
+        equations_.plucked = plucked;
+        equations_.pluck_time = since_pluck;
+        const double longest_step = choice_.exact_flight ? 3 : 1;
+        // BDF takes stiff decays in long steps
+        integrator_.restart(longest_step / pace(choice_.integrator.method == Method::adams));
+        running_ = true;
+    }
+    void toggle(int contact) noexcept {
+        char& touched = equations_.touched[contact];
+        touched = !touched;
+        leaving_ = touched ? -1 : contact;
+        running_ = false;
+        ++events_;
+    }
     // of the fastest motion [1/s]; decays: of a contact in series as well
-    double pace(bool decays) noexcept;
-    double stored() const noexcept;
+    double pace(bool decays) noexcept {
+        return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate,
+                        equations_.pace(integrator_.state(), decays));
+    }
+    double stored() const noexcept {
+        double kinetic = 0, energy = 0, reach = 0;
+        for (int i = 0; i < modes_.count(); ++i) {
+            const double v = flight_.window.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
+            kinetic += v * v + p * p;
+            reach += equations_.reach(i) * p * p;
+        }
+        energy = 0.5 * modes_.mass * kinetic + equations_.stretching(reach);
+        if (series()) energy += series()->stored(flight_.z.data());
+        for (int a = 0; a < equations_.points; ++a) {
+            const double* g = flight_.window.springs.weights.data() +
+                              static_cast<long>(a) * flight_.window.osc.padded;
+            double y = series() ? flight_.z[a] : 0;
+            for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
+            energy += equations_.potential(a, y);
+        }
+        return energy;
+    }
     const std::optional<InSeries>& series() const noexcept { return flight_.window.series(); }
     bool exact_flight() const noexcept {
         return choice_.exact_flight &&
@@ -89,189 +238,6 @@ private:
     double seen_[StringEquations::sums] = {};  // of its sums, by sums_
     double events_ = 0;
 };
-
-IntegratedContact::IntegratedContact(const String& s, const Scene& scene, const Modes& modes,
-                                     double tap_rate, const Choice& choice,
-                                     const std::optional<InSeries>& series)
-    : modes_(with_masses(modes, s)),
-      equations_(modes_, s, series),
-      flight_(modes_, s, 1 / tap_rate, series),
-      integrator_(equations_, choice.integrator),
-      readout_(scene, modes_),
-      choice_(choice),
-      parts_(s.pluck),
-      tap_rate_(tap_rate),
-      interval_(flight_.window.osc.rate / tap_rate) {
-    if (s.pluck) pluck_.push_back(*s.pluck);
-    ModalStart start = with_masses(
-        start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes, s);
-    for (double& v : start.velocity) v /= flight_.window.osc.rate;
-    start_ = flight_.window.osc.pad(start.displacement);
-    start_u_ = flight_.window.osc.pad(start.velocity);
-    if (series) start_z_ = series->resting(start.force);
-    untouched_.assign(equations_.contacts + 1, 0);
-    y_ = u_ = start_;
-    reset();
-}
-
-void IntegratedContact::reset() noexcept {
-    std::copy(start_.begin(), start_.end(), y_.begin());
-    std::copy(start_u_.begin(), start_u_.end(), u_.begin());
-    std::fill(equations_.touched.begin(), equations_.touched.end(), 0);
-    flight_.reset();
-    std::copy(start_z_.begin(), start_z_.end(), flight_.z.begin());
-    integrator_.reset();
-    readout_.begin(u_.data(), flight_.window.osc.rate, tap_rate_);
-    row_ = idle_ = 0;
-    leaving_ = -1;
-    running_ = false;
-    sums_ = {};
-    events_ = 0;
-    if (choice_.exact_flight) return;  // it finds what is touched from the start
-    start(false, 0);
-    for (int a = 0; a < equations_.contacts; ++a)
-        equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
-    running_ = false;
-}
-
-Status IntegratedContact::advance(const Block& out) noexcept {
-    for (int row = 0; row < out.rows; ++row) {
-        readout_.write(out, row, y_.data(), u_.data(), flight_.window.osc.rate,
-                       sums_.bridge * tap_rate_, sums_.thread * tap_rate_);
-        if (series()) add_series(out, row, *series(), flight_.z.data(), 0);
-        if (out.energy)
-            write_energy(out, row, stored(), sums_.energies.supplied, sums_.energies.dissipated);
-        if (!interval(out)) return {Outcome::not_converged, row_};
-        ++row_;
-    }
-    return {};
-}
-
-bool IntegratedContact::interval(const Block& out) noexcept {
-    sums_ = {};
-    return parts_.each(row_ / tap_rate_, interval_, 1 / flight_.window.osc.rate,
-                       [&](double from, double to, bool plucked) {
-                           // lines of a file meet at an angle
-                           if (plucked && !pluck_[0].time.empty()) running_ = false;
-                           return stretch(from, to, plucked, out);
-                       });
-}
-
-bool IntegratedContact::stretch(double from, double to, bool plucked, const Block& out) noexcept {
-    const double nothing = 1e-15 * interval_;  // the library cannot step so little
-    for (double at = from; to - at > nothing;) {
-        const double left = to - at;
-        const double since_pluck =
-            plucked
-                ? std::max(0.0, row_ / tap_rate_ - pluck_[0].start + at / flight_.window.osc.rate)
-                : 0;
-        double step;
-        if (exact_flight()) {
-            const auto landing = flight_.fly(left, plucked, since_pluck, leaving_, y_.data(),
-                                             u_.data(), sums_, out.energy != nullptr);
-            step = landing.length;
-            leaving_ = -1;
-            if (landing.contact >= 0) toggle(landing.contact);
-        } else step = integrate(left, plucked, since_pluck, out);
-        if (!(step >= 0) || out.stopped()) return false;
-        idle_ = step > nothing ? 0 : idle_ + 1;
-        if (idle_ > 1000) return false;
-        at = step == left ? to : at + step;
-    }
-    return true;
-}
-
-double IntegratedContact::integrate(double left, bool plucked, double since_pluck,
-                                    const Block& out) noexcept {
-    if (!running_ || plucked != equations_.plucked) start(plucked, since_pluck);
-    const double before = integrator_.time();
-    const auto stop = integrator_.advance(before + left / flight_.window.osc.rate, out);
-    if (stop == Integrator::Stop::failed) return -1;
-    const double* z = integrator_.state();
-    for (int i = 0; i < modes_.count(); ++i) {
-        y_[i] = z[i] / equations_.scale(i);
-        u_[i] = z[equations_.padded + i] / flight_.window.osc.rate;
-    }
-    equations_.read_series(z, flight_.z.data());
-    const double* sum = z + 2 * equations_.padded;
-    double since[StringEquations::sums];
-    for (int k = 0; k < StringEquations::sums; ++k) {
-        since[k] = sum[k] - seen_[k];
-        seen_[k] = sum[k];
-    }
-    sums_.bridge += since[StringEquations::bridge_impulse];
-    sums_.thread += since[StringEquations::thread_impulse];
-    sums_.energies.supplied += since[StringEquations::supplied];
-    sums_.energies.dissipated += since[StringEquations::dissipated];
-    if (stop == Integrator::Stop::reached) return left;
-    toggle(integrator_.crossed());
-    return std::min((integrator_.time() - before) * flight_.window.osc.rate, left);
-}
-
-void IntegratedContact::toggle(int contact) noexcept {
-    char& touched = equations_.touched[contact];
-    touched = !touched;
-    leaving_ = touched ? -1 : contact;
-    running_ = false;
-    ++events_;
-}
-
-void IntegratedContact::start(bool plucked, double since_pluck) noexcept {
-    double* z = integrator_.state();
-    std::fill_n(z, equations_.size(), 0.0);
-    for (int i = 0; i < modes_.count(); ++i) {
-        z[i] = equations_.scale(i) * y_[i];
-        z[equations_.padded + i] = flight_.window.osc.rate * u_[i];
-    }
-    equations_.put_series(flight_.z.data(), z);
-    std::fill(std::begin(seen_), std::end(seen_), 0.0);
-    equations_.plucked = plucked;
-    equations_.pluck_time = since_pluck;
-    const double longest_step = choice_.exact_flight ? 3 : 1;
-    // BDF takes stiff decays in long steps
-    integrator_.restart(longest_step / pace(choice_.integrator.method == Method::adams));
-    running_ = true;
-}
-
-double IntegratedContact::pace(bool decays) noexcept {
-    return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate,
-                    equations_.pace(integrator_.state(), decays));
-}
-
-double IntegratedContact::stored() const noexcept {
-    double kinetic = 0, energy = 0, reach = 0;
-    for (int i = 0; i < modes_.count(); ++i) {
-        const double v = flight_.window.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
-        kinetic += v * v + p * p;
-        reach += equations_.reach(i) * p * p;
-    }
-    energy = 0.5 * modes_.mass * kinetic + equations_.stretching(reach);
-    if (series()) energy += series()->stored(flight_.z.data());
-    for (int a = 0; a < equations_.points; ++a) {
-        const double* g = flight_.window.springs.weights.data() +
-                          static_cast<long>(a) * flight_.window.osc.padded;
-        double y = series() ? flight_.z[a] : 0;
-        for (int i = 0; i < modes_.count(); ++i) y += g[i] * y_[i];
-        energy += equations_.potential(a, y);
-    }
-    return energy;
-}
-
-std::vector<Fact> IntegratedContact::facts() const {
-    const auto effort = integrator_.effort();
-    std::vector<Fact> facts = {{facts::events, events_},
-                               {facts::contact_points, double(equations_.contacts)},
-                               {facts::integrator_steps, effort.steps},
-                               {facts::slope_evaluations, effort.slopes},
-                               {facts::linear_solves, effort.solves},
-                               {facts::integrator_tolerance, choice_.integrator.tolerance},
-                               {facts::smallest_contact_force,
-                                effort.smallest_force == HUGE_VAL ? 0 : effort.smallest_force},
-                               {facts::largest_contact_force, effort.largest_force},
-                               {facts::deepest_penetration, effort.deepest}};
-    if (choice_.exact_flight) facts.push_back({facts::detection_tolerance, flight_.tolerance()});
-    return facts;
-}
 
 constexpr Option method_option{
     "method", "adams", "multistep method of the integrator", {"bdf", "adams"}};
@@ -317,14 +283,12 @@ const Descriptor sundials = {
     .source =
         "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
     .represents = Feature::bending_stiffness | Feature::damping |
-                  Features(Feature::frequency_dependent_damping) |
-                  Features(Feature::measured_modes) | Features(Feature::lumped_barrier) |
-                  Features(Feature::profile_barrier) | Features(Feature::several_barriers) |
-                  Features(Feature::power_law_contact) | Features(Feature::contact_loss) |
-                  Features(Feature::thread) | Features(Feature::initial_shape) |
-                  Features(Feature::pluck) | Features(Feature::moving_body) |
-                  Features(Feature::tension_modulation) | Feature::initial_velocity |
-                  Feature::equilibrium | Feature::clipped_loss | Feature::free_mass,
+                  Feature::frequency_dependent_damping | Feature::measured_modes |
+                  Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
+                  Feature::power_law_contact | Feature::contact_loss | Feature::thread |
+                  Feature::initial_shape | Feature::pluck | Feature::moving_body |
+                  Feature::tension_modulation | Feature::initial_velocity | Feature::equilibrium |
+                  Feature::clipped_loss | Feature::free_mass,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,
