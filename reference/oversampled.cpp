@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scenes/excitation.hpp"
 #include "schemes/making.hpp"
@@ -40,10 +39,9 @@ Oversampled oversampled(const Descriptor& scheme, const Scene& scene, const Sett
             const double last =
                 relative_difference(free(b), free(c), c.tap_rate, agreement_windows[w]);
             const bool rounding = !(last > 1e-13);
-            const double order =
-                rounding ? std::numeric_limits<double>::quiet_NaN() : std::log2(first / last);
-            const double p = rounding ? trusted_order : std::clamp(order, 0.25, trusted_order);
-            tap[w] = {last, order, caution * last / (std::exp2(p) - 1)};
+            const double p =
+                rounding ? trusted_order : std::clamp(std::log2(first / last), 0.25, trusted_order);
+            tap[w] = caution * last / (std::exp2(p) - 1);
         }
     }
     return result;
@@ -67,7 +65,7 @@ double estimate_of(const Descriptor& scheme, const Scene& scene, const Settings&
     try {
         const Oversampled o = oversampled(scheme, start, settings, multiple, options);
         if (o.estimates.empty()) return HUGE_VAL;
-        for (const auto& tap : o.estimates) worst = std::max(worst, tap.back().error);
+        for (const auto& tap : o.estimates) worst = std::max(worst, tap.back());
     } catch (const Refusal&) { return HUGE_VAL; }
     return worst;
 }

@@ -21,15 +21,11 @@ constexpr double trusted_order = 1;
 constexpr double caution = 2;
 
 struct Oversampled {
-    struct Estimate {       // relative L2 of one tap over one window
-        double difference;  // of the last doubling of the rate
-        double order;       // observed, as it came out; NaN where the runs agree to rounding
-        double error;       // of the finest run
-    };
-    Run run;                                                                // the finest
-    double rate = 0;                                                        // its sample rate [Hz]
-    double wall_seconds = 0;                                                // of all three
-    std::vector<std::array<Estimate, agreement_windows.size()>> estimates;  // [tap][window]
+    Run run;                  // the finest
+    double rate = 0;          // its sample rate [Hz]
+    double wall_seconds = 0;  // of all three
+    // of its error, relative L2 [tap][window]
+    std::vector<std::array<double, agreement_windows.size()>> estimates;
 };
 
 // settings.sample_rate is the candidate's; `multiple` is a multiple of 4 (Refusal otherwise).

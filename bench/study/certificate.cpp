@@ -86,10 +86,7 @@ Trace run_entry(Entry& e, const Certificate& c, const Scene& scene, const RunOpt
     if (is_oversampled(e)) {
         own.sample_rate /= multiple;
         Oversampled o = oversampled(*e.scheme, scene, own, multiple, options);
-        for (const auto& tap : o.estimates) {
-            auto& by_window = e.estimate.emplace_back();
-            for (std::size_t w = 0; w < by_window.size(); ++w) by_window[w] = tap[w].error;
-        }
+        e.estimate = o.estimates;
         e.sample_rate = o.rate;
         e.wall_seconds = o.wall_seconds;
         r = std::move(o.run);

@@ -208,10 +208,8 @@ Trust trust_of(const Oversampled& o, double until) {
     }
     const auto ends = window_ends(until);
     for (const auto& tap : o.estimates) {
-        Certificate::ByWindow errors;
-        for (std::size_t w = 0; w < errors.size(); ++w) errors[w] = tap[w].error;
         auto& figure = t.figure.emplace_back();
-        for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(errors, ends[w], until);
+        for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(tap, ends[w], until);
     }
     t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4,
                             o.rate / 2, o.rate);
