@@ -6,6 +6,7 @@
 
 #include "scenes/barrier.hpp"
 #include "scenes/start.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari {
 
@@ -16,6 +17,8 @@ SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Set
     validate(scene);
     const String& string = scene.strings.front();
     SitarString s;
+    s.shape = string;
+    s.steps_per_row = steps_per_row(settings);
     s.length = string.length;
     s.tension = string.tension;
     s.dt = 1 / settings.sample_rate;
@@ -66,9 +69,9 @@ void set_integer_length(SitarString& s) {
     s.facts.push_back({facts::period_error_cents, 1200 * std::log2(0.5 / (s.dt * s.cells) / s.f0)});
 }
 
-void lay_bridge(SitarString& s, const String& string, double plucked) {
-    if (string.barriers.empty()) return;
-    const auto& barrier = std::get<ProfileBarrier>(string.barriers.front());
+void lay_bridge(SitarString& s, double plucked) {
+    if (s.shape.barriers.empty()) return;
+    const auto& barrier = std::get<ProfileBarrier>(s.shape.barriers.front());
     if (barrier.from != 0)
         throw Refusal(
             "the bridge rule sets the wave that leaves the bridge end: the profile has to start at "
@@ -83,7 +86,7 @@ void lay_bridge(SitarString& s, const String& string, double plucked) {
     for (int m = 1; m <= nodes; ++m) x.push_back(m * s.dx);
     s.profile = heights(barrier.curve, x);  // (10), (11)
     for (int m = 0; m < nodes; ++m)
-        if (plucked * initial_shape(string, x[m]) < s.profile[m])
+        if (plucked * initial_shape(s.shape, x[m]) < s.profile[m])
             throw Refusal("the initial shape lies below the bridge");
     // stiffness and exponent of the contact law play no part
     s.facts.push_back({facts::rigid_barrier, 1});
@@ -124,8 +127,7 @@ double initial_shape(const String& string, double x) {
                   : -std::visit(ShapeAt{L, 2 * L - z}, *string.start);
 }
 
-std::vector<SitarTap> sitar_taps(const Scene& scene, SitarString& s) {
-    std::vector<SitarTap> taps;
+void set_taps(SitarString& s, const Scene& scene) {
     int between = 0;
     for (const Tap& tap : scene.taps) {
         SitarTap t{tap.quantity};
@@ -143,11 +145,10 @@ std::vector<SitarTap> sitar_taps(const Scene& scene, SitarString& s) {
             throw Refusal("tap " + tap.name +
                           " lies in the part of the string that the filter at the peg stands for");
         if (on_string && t.weight != 0 && t.weight != 1) ++between;
-        taps.push_back(t);
+        s.taps.push_back(t);
     }
     // read by linear interpolation
     if (between > 0) s.facts.push_back({facts::taps_between_nodes, static_cast<double>(between)});
-    return taps;
 }
 
 void BridgeLedger::report(std::vector<Fact>& facts) const {

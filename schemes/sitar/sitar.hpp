@@ -31,6 +31,13 @@
 
 namespace jvari {
 
+// Where a tap reads: (1 - weight) of `node` and weight of the next.
+struct SitarTap {
+    Quantity quantity;
+    int node = 0;
+    double weight = 0;
+};
+
 struct SitarString {
     double length = 0;            // L [m]
     double tension = 0;           // T [N]
@@ -42,6 +49,9 @@ struct SitarString {
     double step_loss = 1;         // exp(-sigma dt)
     std::vector<double> profile;  // its height at nodes 1, 2, ... [m]
     std::vector<Fact> facts;      // what is approximated knowingly
+    std::vector<SitarTap> taps;
+    int steps_per_row = 1;
+    String shape;  // of the scene: initial_shape() at t = 0
 
     // Of the string on the grid: node to node in one step, so its modes are those of the ideal
     // string of this many cells.
@@ -70,7 +80,7 @@ void refuse_too_many_cells(double cells);  // of any length: more than memory or
 // The profile at the nodes, once the grid is known. Refuses a bridge away from x = 0, shorter than
 // a cell, or above the string at t = 0 (`plucked`: the share of the initial shape that lies in the
 // plane of the bridge).
-void lay_bridge(SitarString&, const String&, double plucked);
+void lay_bridge(SitarString&, double plucked);
 
 // The shape at t = 0 [m], continued beyond both ends as the waves need it: odd about x = 0 and x =
 // L.
@@ -79,13 +89,7 @@ double initial_shape(const String&, double x);
 // The lattice of sitar_fdm by the rule of the reference (sitar_fdm.cpp).
 std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor&, const Scene&, const Settings&);
 
-// Where a tap reads: (1 - weight) of `node` and weight of the next.
-struct SitarTap {
-    Quantity quantity;
-    int node = 0;
-    double weight = 0;
-};
-std::vector<SitarTap> sitar_taps(const Scene&, SitarString&);
+void set_taps(SitarString&, const Scene&);
 template <class AtNode>  // at(m): what node m reads
 double between_nodes(const SitarTap& t, AtNode at) {
     const double here = at(t.node);
@@ -105,6 +109,10 @@ struct BridgeLedger {
         dissipated -= joules;
     }
     void next_row() { impulse = dissipated = 0; }
+    double mean(Quantity q, const SitarString& s) const {  // contact force over the last row [N]
+        const double sign = q == Quantity::bridge_force ? 1 : q == Quantity::driving_force ? -1 : 0;
+        return sign * impulse / (s.dt * s.steps_per_row);
+    }
     void report(std::vector<Fact>&) const;
 };
 

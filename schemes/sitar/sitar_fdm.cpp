@@ -30,18 +30,10 @@ namespace {
 
 enum class BridgeRule { clamping, characteristic };  // of a node that would pass the profile
 
-struct Grid {
-    SitarString string;
-    std::vector<SitarTap> taps;
-    int steps_per_row = 1;
-    String scene_string;
-};
-
 template <BridgeRule rule>
 class SitarFdm final : public Scheme {
 public:
-    explicit SitarFdm(Grid g)
-        : g_(std::move(g)), s_(g_.string), now_(s_.cells + 1), before_(s_.cells + 1) {
+    explicit SitarFdm(SitarString s) : s_(std::move(s)), now_(s_.cells + 1), before_(s_.cells + 1) {
         reset();
     }
     void reset() noexcept override {
@@ -49,7 +41,7 @@ public:
         ledger_ = {};
         slopes_dissipated_ = 0;
         for (int m = 0; m <= s_.cells; ++m)
-            now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(g_.scene_string, m * s_.dx);
+            now_[m] = m == 0 || m == s_.cells ? 0 : initial_shape(s_.shape, m * s_.dx);
         before_.front() = before_.back() = 0;
         // y_r = y_l = y/2
         for (int m = 1; m < s_.cells; ++m)
@@ -61,14 +53,14 @@ public:
         for (int row = 0; row < out.rows; ++row) {
             double finite = 0;
             for (int k = 0; k < out.taps; ++k)
-                finite += out.tap[k * out.stride + row] = read(g_.taps[k]);
+                finite += out.tap[k * out.stride + row] = read(s_.taps[k]);
             if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
             if (out.energy)
                 write_energy(out, row, s_.wave_energy(slopes()), 0,
                              s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
             slopes_dissipated_ = 0;
             ledger_.next_row();
-            for (int k = 0; k < g_.steps_per_row; ++k) {
+            for (int k = 0; k < s_.steps_per_row; ++k) {
                 step();
                 if (bridge) meet_bridge();
                 if (out.stopped(k, steps_between_questions)) return {};
@@ -138,15 +130,11 @@ private:
             case Quantity::velocity: return between_nodes(t, [this](int m) { return velocity(m); });
             // -T y' at the peg
             case Quantity::nut_force: return s_.tension / s_.dx * now_[s_.cells - 1];
-            case Quantity::bridge_force: return ledger_.impulse / (s_.dt * g_.steps_per_row);
-            case Quantity::driving_force: return -ledger_.impulse / (s_.dt * g_.steps_per_row);
-            case Quantity::thread_force: return 0;
+            default: return ledger_.mean(t.quantity, s_);
         }
-        return 0;
     }
 
-    Grid g_;
-    const SitarString& s_;
+    const SitarString s_;
     std::vector<double> now_, before_;  // y at the nodes [m]
     double slopes_ = 0;                 // slopes() as it should be
     double slopes_dissipated_ = 0;      // since the last row [m^2]
@@ -163,14 +151,12 @@ constexpr Approximation approximates[] = {sitar_damping, sitar_ignored_stiffness
 template <BridgeRule rule>
 std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
                              const Settings& settings) {
-    Grid g;
-    g.steps_per_row = steps_per_row(settings);
-    g.string = sitar_string(descriptor, scene, settings, choice_option(settings, stiffness_option));
-    g.scene_string = scene.strings.front();
-    set_integer_length(g.string);
-    lay_bridge(g.string, g.scene_string, 1);
-    g.taps = sitar_taps(scene, g.string);
-    return std::make_unique<SitarFdm<rule>>(std::move(g));
+    SitarString s =
+        sitar_string(descriptor, scene, settings, choice_option(settings, stiffness_option));
+    set_integer_length(s);
+    lay_bridge(s, 1);
+    set_taps(s, scene);
+    return std::make_unique<SitarFdm<rule>>(std::move(s));
 }
 
 }  // namespace
@@ -183,9 +169,8 @@ std::unique_ptr<Scheme> characteristic_lattice_of(const Descriptor& descriptor, 
 extern const Descriptor sitar_fdm = {
     .name = "sitar_fdm",
     .source = "Deshmukh & Rayavarapu, eqs 6-12",
-    .represents = Feature::damping | Feature::bending_stiffness |
-                  Features(Feature::profile_barrier) | Feature::power_law_contact |
-                  Features(Feature::initial_shape) | Feature::rigid_profile,
+    .represents = Feature::damping | Feature::bending_stiffness | Feature::profile_barrier |
+                  Feature::power_law_contact | Feature::initial_shape | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
     .make = make<BridgeRule::clamping>,

@@ -35,10 +35,7 @@ struct Waves {
     PegTuning peg;                // no sections: an inversion
     double cosine = 1, sine = 0;  // of the rotation per reflection  (14)
     double share[2] = {1, 0};     // of the initial shape in either plane
-    std::vector<SitarTap> taps;
     int tap_plane = 0;
-    int steps_per_row = 1;
-    String scene_string;
 };
 
 template <int planes>
@@ -66,7 +63,7 @@ public:
         for (int p = 0; p < planes; ++p)
             for (int m = 0; m <= M; ++m) {
                 // y_r = y_l = y/2
-                const double half = 0.5 * w_.share[p] * initial_shape(w_.scene_string, m * s_.dx);
+                const double half = 0.5 * w_.share[p] * initial_shape(s_.shape, m * s_.dx);
                 right(p)[m] = gain_[m] * half;
                 left(p)[M - m] = gain_[M - m] * half;
             }
@@ -75,7 +72,7 @@ public:
             peg_[p].clear();
             for (int k = 8 * M; k >= 0; --k) {
                 const double past = 0.5 * w_.share[p] * std::exp(s_.sigma * s_.dt * k) *
-                                    initial_shape(w_.scene_string, (M + k) * s_.dx);
+                                    initial_shape(s_.shape, (M + k) * s_.dx);
                 peg_[p].pass(past);
             }
             left(p)[0] = -peg_[p].gain * peg_[p].out.now;
@@ -87,22 +84,22 @@ public:
         for (int row = 0; row < out.rows; ++row) {
             double finite = 0;
             for (int k = 0; k < out.taps; ++k)
-                finite += out.tap[k * out.stride + row] = read(w_.taps[k]);
+                finite += out.tap[k * out.stride + row] = read(s_.taps[k]);
             if (!std::isfinite(finite)) return {Outcome::diverged, steps_};
             if (out.energy)
                 write_energy(out, row, s_.wave_energy(rail_slopes() + peg_slopes()), 0,
                              s_.wave_energy(slopes_dissipated_) + ledger_.dissipated);
             slopes_dissipated_ = 0;
             ledger_.next_row();
-            if (pending_.empty() && peg_.empty()) coast(w_.steps_per_row, out);
+            if (pending_.empty() && peg_.empty()) coast(s_.steps_per_row, out);
             else
-                for (int k = 0; k < w_.steps_per_row; ++k) {
+                for (int k = 0; k < s_.steps_per_row; ++k) {
                     step();
                     if (!pending_.empty()) meet_bridge();
                     if (out.stopped(k, steps_between_questions)) return {};
                 }
             settle();
-            steps_ += w_.steps_per_row;
+            steps_ += s_.steps_per_row;
         }
         return {};
     }
@@ -161,13 +158,8 @@ private:
                 // y' = 2 y_r' there
                 return 2 * s_.tension / s_.dx *
                        (peg_[p].peg.now - s_.step_loss * peg_[p].peg.before);
-            case Quantity::bridge_force:
-                return p == 0 ? ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-            case Quantity::driving_force:
-                return p == 0 ? -ledger_.impulse / (s_.dt * w_.steps_per_row) : 0;
-            case Quantity::thread_force: return 0;
+            default: return p == 0 ? ledger_.mean(t.quantity, s_) : 0;
         }
-        return 0;
     }
     double rail_slopes() {
         double sum = 0;
@@ -358,7 +350,6 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
     const std::string stiffness = choice_option(settings, stiffness_option);
     const std::string plane = choice_option(settings, taps_option);
     Waves w;
-    w.steps_per_row = steps_per_row(settings);
     w.string = sitar_string(descriptor, scene, settings, stiffness);
     const String& string = scene.strings.front();
     const bool stiff = string.bending_stiffness != 0 && stiffness == "dispersion";
@@ -379,11 +370,10 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
             throw Refusal("taps=horizontal: the string moves in the vertical plane only");
         w.tap_plane = 1;
     }
-    lay_bridge(w.string, string, w.share[0]);
+    lay_bridge(w.string, w.share[0]);
     if (static_cast<int>(w.string.profile.size()) > w.string.cells - 2)
         throw Refusal("the bridge leaves no free string before the peg");
-    w.taps = sitar_taps(scene, w.string);
-    w.scene_string = string;
+    set_taps(w.string, scene);
     if (string.polarisation) return std::make_unique<SitarWaveguide<2>>(std::move(w));
     return std::make_unique<SitarWaveguide<1>>(std::move(w));
 }
@@ -392,9 +382,9 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
 extern const Descriptor sitar_waveguide = {
     .name = "sitar_waveguide",
     .source = "Deshmukh & Rayavarapu, eqs 3-5 and 10-14",
-    .represents = Feature::damping | Feature::bending_stiffness |
-                  Features(Feature::profile_barrier) | Feature::power_law_contact |
-                  Features(Feature::initial_shape) | Feature::polarisation | Feature::rigid_profile,
+    .represents = Feature::damping | Feature::bending_stiffness | Feature::profile_barrier |
+                  Feature::power_law_contact | Feature::initial_shape | Feature::polarisation |
+                  Feature::rigid_profile,
     .balance = Balance::to_tolerance,
     .clock = Clock::stepped,
     .make = make,
