@@ -18,28 +18,20 @@ ProfilePoints profile_points(const Settings& settings) {
 }
 
 String with_points(String s, int modes, ProfilePoints points) {
-    std::vector<Barrier> barriers;
     bool profiles = false;
-    for (const Barrier& barrier : s.barriers) {
-        const auto* b = std::get_if<ProfileBarrier>(&barrier);
-        if (!b) {
-            barriers.push_back(barrier);
-            continue;
-        }
+    s.barriers = without_profiles(s, [&](const ProfileBarrier& b) {
         profiles = true;
-        const bool grid = points.count == 0;
-        const double spacing = grid ? s.length / (modes + 1) : (b->to - b->from) / points.count;
-        const auto x = grid ? nodes_on(*b, s.length, modes + 1).x : middles(*b, points.count);
+        if (points.count > 0) return lumped(b, points.count);
+        const auto x = nodes_on(b, s.length, modes + 1).x;
         if (x.empty())
             throw Refusal("no node of a grid of " + std::to_string(modes) +
                           " lies on a profile barrier; ask for more modes, or for nodes");
-        for (const LumpedBarrier& point : lumped(*b, x, spacing)) barriers.push_back(point);
-    }
-    if (profiles && barriers.size() > most_points)
-        throw Refusal("the profiles come to " + std::to_string(barriers.size()) +
+        return lumped(b, x, s.length / (modes + 1));
+    });
+    if (profiles && s.barriers.size() > most_points)
+        throw Refusal("the profiles come to " + std::to_string(s.barriers.size()) +
                       " points of contact; the references take " + std::to_string(most_points) +
                       " at most");
-    s.barriers = std::move(barriers);
     return s;
 }
 

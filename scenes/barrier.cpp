@@ -83,13 +83,6 @@ ProfileNodes nodes_on(const ProfileBarrier& b, double length, int intervals) {
     return nodes;
 }
 
-std::vector<double> middles(const ProfileBarrier& b, int count) {
-    std::vector<double> x;
-    const double spacing = (b.to - b.from) / count;
-    for (int q = 0; q < count; ++q) x.push_back(b.from + (q + 0.5) * spacing);
-    return x;
-}
-
 std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, const std::vector<double>& x,
                                   double spacing) {
     std::vector<LumpedBarrier> points;
@@ -98,6 +91,24 @@ std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, const std::vector<dou
         points.push_back(
             {x[q], 0, g[q], {b.stiffness.K * spacing}, b.exponent, b.contact_loss, b.loss_law});
     return points;
+}
+
+std::vector<LumpedBarrier> lumped(const ProfileBarrier& b, int parts) {
+    std::vector<double> middles;
+    const double spacing = (b.to - b.from) / parts;
+    for (int q = 0; q < parts; ++q) middles.push_back(b.from + (q + 0.5) * spacing);
+    return lumped(b, middles, spacing);
+}
+
+std::vector<Barrier> without_profiles(const String& s, const PointsOf& points_of) {
+    std::vector<Barrier> all;
+    for (const Barrier& barrier : s.barriers) {
+        const auto* profile = std::get_if<ProfileBarrier>(&barrier);
+        if (!profile) all.push_back(barrier);
+        else
+            for (const LumpedBarrier& point : points_of(*profile)) all.push_back(point);
+    }
+    return all;
 }
 
 double contact_modulus(double young1, double poisson1, double young2, double poisson2) {

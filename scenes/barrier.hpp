@@ -2,6 +2,8 @@
 // force on the string is V'(eta) >= 0.
 #pragma once
 
+#include <functional>
+
 #include "scenes/scene.hpp"
 
 namespace jvari {
@@ -23,13 +25,15 @@ struct ProfileNodes {
 };
 ProfileNodes nodes_on(const ProfileBarrier&, double length, int intervals);
 
-// The profile is cut into `count` equal parts; returns their middles [m].
-std::vector<double> middles(const ProfileBarrier&, int count);
-
 // Replaces a profile by point contacts at each x [m], each with the stiffness of the profile over
-// `spacing` [m].
+// `spacing` [m]; or in the middles of so many equal parts.
 std::vector<LumpedBarrier> lumped(const ProfileBarrier&, const std::vector<double>& x,
                                   double spacing);
+std::vector<LumpedBarrier> lumped(const ProfileBarrier&, int parts);
+
+// The barriers of the string, with the points that stand for each profile in its place.
+using PointsOf = std::function<std::vector<LumpedBarrier>(const ProfileBarrier&)>;
+std::vector<Barrier> without_profiles(const String&, const PointsOf&);
 
 // Contact modulus E* [Pa] from Young's moduli [Pa] and Poisson's ratios   (van Walstijn et al.
 // 2016, eq 55)

@@ -82,21 +82,15 @@ double at_start(const std::vector<double>& weights, const std::vector<double>& y
     return std::inner_product(weights.begin(), weights.end(), y.begin(), 0.0);
 }
 
-double pressed(double eta, double k, double exponent) {
-    return eta > 0 ? k * std::pow(eta, exponent + 1) / (exponent + 1) : 0;
-}
-
 double stored(const Modes& modes, const std::vector<double>& y, const LumpedBarrier& b) {
-    return pressed(b.height - at_start(footprint_weights(modes, b.position, b.width), y),
-                   b.stiffness.k, b.exponent);
+    const double eta = b.height - at_start(footprint_weights(modes, b.position, b.width), y);
+    return eta > 0 ? b.stiffness.k * std::pow(eta, b.exponent + 1) / (b.exponent + 1) : 0;
 }
 
 double stored(const Modes& modes, const std::vector<double>& y, const ProfileBarrier& b) {
     constexpr int parts = 256;
     double energy = 0;
-    for (const LumpedBarrier& part : lumped(b, middles(b, parts), (b.to - b.from) / parts))
-        energy += pressed(part.height - at_start(displacement_weights(modes, part.position), y),
-                          part.stiffness.k, part.exponent);
+    for (const LumpedBarrier& part : lumped(b, parts)) energy += stored(modes, y, part);
     return energy;
 }
 

@@ -90,15 +90,9 @@ void rest(const Modes& modes, const String& s, const Yield& yield, ModalStart& s
         points.push_back({b.stiffness.k, b.exponent, b.height});
         g.push_back(footprint_weights(modes, b.position, b.width));
     };
-    for (const Barrier& barrier : s.barriers) {
-        if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) add(*b);
-        else {
-            const auto& profile = std::get<ProfileBarrier>(barrier);
-            for (const LumpedBarrier& part :
-                 lumped(profile, middles(profile, parts), (profile.to - profile.from) / parts))
-                add(part);
-        }
-    }
+    for (const Barrier& b :
+         without_profiles(s, [](const ProfileBarrier& p) { return lumped(p, parts); }))
+        add(std::get<LumpedBarrier>(b));
     for (const Mass& m : s.masses) add({m.position, m.width, 0, {}});  // free: they give way
     if (const auto& t = s.thread) {
         points.push_back({t->stiffness, 1, t->height, true});

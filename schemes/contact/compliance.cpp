@@ -416,18 +416,8 @@ String with_profile_points(String s, const Settings& settings) {
     if (!(count >= 1 && count <= most_profile_points) || count != std::floor(count))
         throw Refusal("option points: found " + std::to_string(count) +
                       ", expected a whole number from 1 to " + std::to_string(most_profile_points));
-    std::vector<Barrier> barriers;
-    for (const Barrier& barrier : s.barriers) {
-        const auto* b = std::get_if<ProfileBarrier>(&barrier);
-        if (!b) {
-            barriers.push_back(barrier);
-            continue;
-        }
-        for (const LumpedBarrier& point :
-             lumped(*b, middles(*b, static_cast<int>(count)), (b->to - b->from) / count))
-            barriers.push_back(point);
-    }
-    s.barriers = std::move(barriers);
+    s.barriers = without_profiles(
+        s, [=](const ProfileBarrier& b) { return lumped(b, static_cast<int>(count)); });
     return s;
 }
 
