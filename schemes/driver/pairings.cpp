@@ -7,10 +7,6 @@
 
 namespace jvari {
 
-#define JVARI_STRING(name) extern const StringRow name;
-#include "schemes/driver/strings.def"
-#undef JVARI_STRING
-
 namespace {
 struct Column {
     const char *name, *source;

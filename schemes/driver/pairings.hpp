@@ -30,6 +30,9 @@ struct StringRow {
     Known known[rule_count] = {};  // cells that have a name already
 };
 #define JVARI_MAKER(name, Rule, source) make<Rule>,
+#define JVARI_STRING(name) extern const StringRow name;
+#include "schemes/driver/strings.def"
+#undef JVARI_STRING
 
 struct Pairing {
     std::string string, rule, scheme, options;  // options: by which the scheme is this pairing

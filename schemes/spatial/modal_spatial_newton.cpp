@@ -81,7 +81,6 @@ extern const Descriptor modal_spatial_newton = {
         "thread only with one contact point.",
     .stand_in_rank = 3};
 
-extern const StringRow modal_spatial_newton_row;
 const StringRow modal_spatial_newton_row = {&modal_spatial_newton, {JVARI_RULES(JVARI_MAKER)}};
 
 }  // namespace jvari
