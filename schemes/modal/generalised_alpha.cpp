@@ -140,7 +140,7 @@ public:
         return spent;
     }
     void reading(int, double* out) const noexcept {
-        for (std::size_t p = 0; p < g_.size(); ++p) out[p] = modal_sum(g_[p], q_);
+        for (std::size_t p = 0; p < g_.size(); ++p) out[p] = modal_dot(g_[p], q_);
     }
     double stored() const noexcept {
         double H = 0;
@@ -154,7 +154,7 @@ public:
     double tap(int k, const double* mean) const noexcept {
         const auto& [quantity, w] = taps_[k];
         return w.empty() ? heard_force(quantity, p_, mean)
-                         : modal_sum(w, quantity == Quantity::velocity ? v_ : q_);
+                         : modal_dot(w, quantity == Quantity::velocity ? v_ : q_);
     }
     int dofs() const { return 3 * count(); }
     std::vector<Fact> facts() const { return {}; }
@@ -169,11 +169,6 @@ private:
     }
     double pluck_at(long n) const {
         return p_.pluck ? jvari::force(*p_.pluck, static_cast<double>(n) * dt_) : 0;
-    }
-    static double modal_sum(const std::vector<double>& w, const std::vector<double>& x) {
-        double sum = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) sum += w[i] * x[i];
-        return sum;
     }
 
     Weights w_;

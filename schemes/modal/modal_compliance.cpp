@@ -2,7 +2,7 @@
 // them one by one.
 #include "schemes/modal/modal_compliance.hpp"
 
-#include <numeric>
+#include "schemes/modal/modal_string.hpp"
 
 namespace jvari {
 
@@ -43,8 +43,7 @@ void put_start(StringPoints& p, const String& s, const Modes& modes, const Modal
     if (s.thread) points.push_back({s.thread->position, s.thread->width});
     for (const Footprint& f : points) {
         const auto g = footprint_weights(modes, f.position, f.width);
-        p.start_velocity.push_back(
-            std::inner_product(g.begin(), g.end(), start.velocity.begin(), 0.0));
+        p.start_velocity.push_back(modal_dot(g, start.velocity));
     }
 }
 

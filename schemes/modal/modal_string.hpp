@@ -2,6 +2,7 @@
 // to whole vectors.
 #pragma once
 
+#include <numeric>
 #include <vector>
 
 #include "scenes/modes.hpp"
@@ -15,14 +16,13 @@ constexpr double modal_overflow = 1e140;
 constexpr int modal_padding = 16;  // whole vectors of any machine, in pairs
 
 // What a scheme of one string in its modes represents.
-constexpr Features modal_features = Features(Feature::bending_stiffness) | Feature::damping |
+constexpr Features modal_features = Feature::bending_stiffness | Feature::damping |
                                     Feature::frequency_dependent_damping | Feature::measured_modes |
                                     Feature::lumped_barrier | Feature::power_law_contact |
                                     Feature::thread | Feature::initial_shape | Feature::pluck |
                                     Feature::initial_velocity | Feature::equilibrium;
-constexpr Features modal_features_of_points = modal_features | Features(Feature::profile_barrier) |
-                                              Features(Feature::several_barriers) |
-                                              Features(Feature::contact_loss);
+constexpr Features modal_features_of_points =
+    modal_features | Feature::profile_barrier | Feature::several_barriers | Feature::contact_loss;
 inline constexpr Approximation modal_approximates[] = {
     {Feature::profile_barrier, facts::contact_points},
     {Feature::rigid_profile, facts::contact_points}};
@@ -44,5 +44,9 @@ void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 
 // sum w x of padded arrays (kernels/modal_two_point_kernel.cpp)
 double modal_dot(const AlignedVector& w, const AlignedVector& x);
+// of plain ones, in order
+inline double modal_dot(const std::vector<double>& w, const std::vector<double>& x) {
+    return std::inner_product(w.begin(), w.end(), x.begin(), 0.0);
+}
 
 }  // namespace jvari

@@ -118,41 +118,29 @@ public:
     bool failed() const { return !(std::abs(sum_) < modal_overflow); }
     void reading(int level, double* out) const noexcept {
         for (int p = 0; p < p_.points.count(); ++p)
-            out[p] = dot(port(p), y_) + (level == 1 ? dot(port(p), coming_) : 0);
+            out[p] = modal_dot(port(p), y_) + (level == 1 ? modal_dot(port(p), coming_) : 0);
     }
     double stored() const noexcept {
-        double H = 0, s = 0;
-        for (std::size_t i = 0; i < y_.size(); ++i) {
-            const double y = y_[i], d = coming_[i];
-            H += p_.W[i] * (0.5 * (1 + p_.update.Ct[i]) * d * d + p_.update.kappa[i] * y * (y + d));
-            s += square_of_beta(static_cast<int>(i), p_.points.length) * y * (y + d);
-        }
-        return 0.5 * H / (p_.dt * p_.dt) + 0.5 * kappa_ * s * s;
+        double s = 0;
+        for (std::size_t i = 0; i < y_.size(); ++i)
+            s += square_of_beta(static_cast<int>(i), p_.points.length) * y_[i] *
+                 (y_[i] + coming_[i]);
+        return p_.stored(y_, coming_) + 0.5 * kappa_ * s * s;
     }
     double tap(int k, const double* mean) const noexcept {
         const auto& [quantity, w] = taps_[k];
         if (w.empty()) return heard_force(quantity, p_.points, mean);
-        if (quantity != Quantity::velocity) return dot(w, y_);
-        return step_ == 0 ? dot(w, p_.start.velocity)
-                          : 0.5 / p_.dt * (dot(w, coming_) + dot(w, last_));
+        if (quantity != Quantity::velocity) return modal_dot(w, y_);
+        return step_ == 0 ? modal_dot(w, p_.start.velocity)
+                          : 0.5 / p_.dt * (modal_dot(w, coming_) + modal_dot(w, last_));
     }
     int dofs() const { return 2 * p_.update.modes(); }
     std::vector<Fact> facts() const { return p_.facts; }
-    std::vector<FreeMode> free_modes() const {
-        std::vector<FreeMode> all;
-        for (int j = 0; j < p_.modes.count(); ++j)
-            all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
-        return all;
-    }
+    std::vector<FreeMode> free_modes() const { return p_.free_modes(); }
 
 private:
     const std::vector<double>& port(std::size_t p) const { return p_.update.ports[p].weights; }
     double gain(std::size_t i) const { return p_.update.gain_of(static_cast<int>(i)); }
-    static double dot(const std::vector<double>& a, const std::vector<double>& b) {
-        double sum = 0;
-        for (std::size_t i = 0; i < b.size(); ++i) sum += a[i] * b[i];
-        return sum;
-    }
     // The direction at y, and what it and the points do without their forces. share: of its force
     // that the step applies.
     void prepare(double share) noexcept {
@@ -164,18 +152,18 @@ private:
             d_[i] = square_of_beta(static_cast<int>(i), p_.points.length) * y_[i];
             e_[i] = share * gain(i) * d_[i];
         }
-        one_.A = 2 * kappa_ * (dot(d_, y_) - dot(d_, last_));
+        one_.A = 2 * kappa_ * (modal_dot(d_, y_) - modal_dot(d_, last_));
         one_.kappa = kappa_;
-        one_.free = dot(d_, coming_) + dot(d_, last_);
-        one_.own = dot(d_, e_);
-        for (int p = 0; p < p_.points.count(); ++p) one_.on[p] = dot(port(p), e_);
+        one_.free = modal_dot(d_, coming_) + modal_dot(d_, last_);
+        one_.own = modal_dot(d_, e_);
+        for (int p = 0; p < p_.points.count(); ++p) one_.on[p] = modal_dot(port(p), e_);
     }
     void settle(double share) noexcept {
         sum_ = 0;
         for (int p = 0; p < p_.points.count(); ++p) {
-            now_[p] = dot(port(p), y_);
-            older_[p] = now_[p] - dot(port(p), last_);
-            free_[p] = dot(port(p), coming_) + dot(port(p), last_);
+            now_[p] = modal_dot(port(p), y_);
+            older_[p] = now_[p] - modal_dot(port(p), last_);
+            free_[p] = modal_dot(port(p), coming_) + modal_dot(port(p), last_);
         }
         for (const double y : y_) sum_ += y;
         one_.apply(p_.points.theta, share, free_.data());
@@ -211,7 +199,7 @@ extern const Descriptor modal_tension = {
     .name = "modal_tension",
     .source = "Bilbao 2009, ch. 8: linear in each step, with the impulse gain of each mode",
     .represents = (modal_features - (Feature::thread | Feature::equilibrium)) |
-                  Features(Feature::several_barriers) | Feature::tension_modulation,
+                  Feature::several_barriers | Feature::tension_modulation,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make,

@@ -32,7 +32,6 @@ const Descriptor modal_three_point = {
     .approximates = modal_approximates,
     .stand_in_rank = 0};
 
-extern const StringRow modal_three_point_row;
 const StringRow modal_three_point_row = {
     &modal_three_point,
     {JVARI_RULES(JVARI_MAKER)},

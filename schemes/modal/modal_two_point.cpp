@@ -66,7 +66,6 @@ extern const Descriptor modal_two_point_trapezoidal = {
     .approximates = modal_approximates};
 
 extern const Descriptor modal_quadratised;
-extern const StringRow modal_two_point_row;
 const StringRow modal_two_point_row = {
     &modal_two_point, {JVARI_RULES(JVARI_MAKER)}, {{"quadratised", &modal_quadratised}}};
 

@@ -55,6 +55,20 @@ struct ThreePointProblem {
     std::vector<Fact> facts;                 // beside those of the string
     bool on_body = false;
     const String& string() const { return scene.strings.front(); }
+    // H^{n+1/2} of y = y^n and d = y^{n+1} - y^n  (21) [J]
+    double stored(const std::vector<double>& y, const std::vector<double>& d) const {
+        double H = 0;
+        for (int j = 0; j < modes.count(); ++j)
+            H += W[j] *
+                 (0.5 * (1 + update.Ct[j]) * d[j] * d[j] + update.kappa[j] * y[j] * (y[j] + d[j]));
+        return 0.5 * H / (dt * dt);
+    }
+    std::vector<FreeMode> free_modes() const {
+        std::vector<FreeMode> all;
+        for (int j = 0; j < modes.count(); ++j)
+            all.push_back(three_point_mode(three_point.kappa[j], three_point.loss[j], dt));
+        return all;
+    }
 };
 // The modes as they are, their points by the weights of their footprints, a profile by points of
 // its own. Refuses modes above half the rate.
@@ -80,7 +94,7 @@ public:
             v->assign(p_.modes.count(), 0.0);
         if (p_.on_body)
             drift_of_body_ =
-                p_.dt * inner(p_.update.ports[p_.points.count()].weights, p_.start.velocity);
+                p_.dt * modal_dot(p_.update.ports[p_.points.count()].weights, p_.start.velocity);
         pluck_port_ = p_.points.pluck ? static_cast<int>(reads) : -1;
         for (std::size_t z = 0; z < reads; ++z)
             for (std::size_t c = 0; c < reads; ++c)
@@ -100,7 +114,7 @@ public:
         form_.start(modal_now_.data(), modal_coming_.data());
         form_.read(read_.data());
         for (int z = 0; z < p_.update.reads; ++z)
-            now_[z] = older_[z] = inner(p_.update.ports[z].weights, modal_now_);
+            now_[z] = older_[z] = modal_dot(p_.update.ports[z].weights, modal_now_);
         step_ = 0;
         std::fill(force_.begin(), force_.end(), 0.0);
         if (pluck_port_ >= 0) push_by_pluck();
@@ -133,12 +147,7 @@ public:
     double stored() noexcept {  // H^{n+1/2}  (21)
         form_.to_modal(form_.levels.displacement, modal_now_.data());
         fill_coming();
-        double H = 0;
-        for (int j = 0; j < p_.modes.count(); ++j) {
-            const double y = modal_now_[j], d = modal_coming_[j];
-            H += p_.W[j] * (0.5 * (1 + p_.update.Ct[j]) * d * d + p_.update.kappa[j] * y * (y + d));
-        }
-        return 0.5 * H / (p_.dt * p_.dt);
+        return p_.stored(modal_now_, modal_coming_);
     }
     double tap(int k, const double* mean) const noexcept {
         const TapReading& r = readings_[k];
@@ -156,12 +165,7 @@ public:
 
     int dofs() const { return 2 * p_.update.modes(); }
     std::vector<Fact> facts() const { return p_.facts; }
-    std::vector<FreeMode> free_modes() const {
-        std::vector<FreeMode> all;
-        for (int j = 0; j < p_.modes.count(); ++j)
-            all.push_back(three_point_mode(p_.three_point.kappa[j], p_.three_point.loss[j], p_.dt));
-        return all;
-    }
+    std::vector<FreeMode> free_modes() const { return p_.free_modes(); }
 
     // ---- On a body (schemes/body/instrument.hpp)
 
@@ -178,7 +182,7 @@ public:
     }
     double momentum() noexcept {  // sum mu_j v_j of the half step
         fill_coming();
-        return inner(p_.update.ports[p_.points.count()].weights, modal_coming_) / p_.dt;
+        return modal_dot(p_.update.ports[p_.points.count()].weights, modal_coming_) / p_.dt;
     }
 
 private:
@@ -188,11 +192,6 @@ private:
         std::vector<double> force, earlier_force;     // velocity: weights of F^n and F^{n-1}
         double at_start = 0;                          // velocity at t = 0 [m/s]
     };
-    static double inner(const std::vector<double>& a, const std::vector<double>& b) {
-        double sum = 0;
-        for (std::size_t j = 0; j < a.size(); ++j) sum += a[j] * b[j];
-        return sum;
-    }
     // of its force that a step applies: half in the first half step only
     double applied() const { return step_ == 0 ? 0.5 : 1; }
 
@@ -275,14 +274,14 @@ private:
             earlier[j] = p_.update.gain_of(j) * kept[j];
             differenced_ = differenced_ || G == 0;
         }
-        r.at_start = inner(w, p_.start.velocity);
+        r.at_start = modal_dot(w, p_.start.velocity);
         if (differenced_) form_.levels.listen();
         r.displacement = form_.reading(y);
         r.increment = form_.reading(d);
         r.kept = form_.reading(kept);
         for (const Port& port : p_.update.ports) {
-            r.force.push_back(inner(now, port.weights));
-            r.earlier_force.push_back(inner(earlier, port.weights));
+            r.force.push_back(modal_dot(now, port.weights));
+            r.earlier_force.push_back(modal_dot(earlier, port.weights));
         }
         return r;
     }
