@@ -33,10 +33,10 @@ const Descriptor* best_reference(const Scene& scene) {
 
 std::optional<OptionValues> matched(const Descriptor& reference, const Scene& scene,
                                     OptionValues options) {
-    constexpr Features never =
-        Feature::profile_barrier | Feature::contact_loss | Features(Feature::moving_body) |
-        // rigid: matched unasked
-        Features(Feature::tension_modulation) | Features(Feature::rigid_barrier);
+    constexpr Features never = Feature::profile_barrier | Feature::contact_loss |
+                               Feature::moving_body |
+                               // rigid: matched unasked
+                               Feature::tension_modulation | Feature::rigid_barrier;
     const Features needed = needed_by(scene);
     const auto is_compliance = [](const auto& o) { return o.first == compliance_option.name; };
     if (!declares(reference, compliance_option.name) ||

@@ -3,30 +3,14 @@
 
 #include <algorithm>
 
+#include "scenes/schema.hpp"
+
 namespace jvari {
 
-const char* name_of(Quantity q) {
-    switch (q) {
-        case Quantity::displacement: return "displacement";
-        case Quantity::velocity: return "velocity";
-        case Quantity::nut_force: return "nut_force";
-        case Quantity::bridge_force: return "bridge_force";
-        case Quantity::thread_force: return "thread_force";
-        case Quantity::driving_force: return "driving_force";
-    }
-    return "?";
-}
+const char* name_of(Quantity q) { return quantity_names[static_cast<std::size_t>(q)]; }
 
 const char* unit_of(Quantity q) {
-    switch (q) {
-        case Quantity::displacement: return "m";
-        case Quantity::velocity: return "m/s";
-        case Quantity::nut_force:
-        case Quantity::bridge_force:
-        case Quantity::thread_force:
-        case Quantity::driving_force: return "N";
-    }
-    return "";
+    return q == Quantity::displacement ? "m" : q == Quantity::velocity ? "m/s" : "N";
 }
 
 const char* lacks(const String& s, Quantity q, std::optional<int> mass) {
@@ -115,8 +99,7 @@ struct DampingNeeds {
         return Feature::damping | Feature::frequency_dependent_damping;
     }
     Features operator()(const TableDamping&) const {
-        return Feature::damping | Feature::frequency_dependent_damping |
-               Features(Feature::measured_modes);
+        return Feature::damping | Feature::frequency_dependent_damping | Feature::measured_modes;
     }
     Features operator()(const PerPeriodDamping& d) const {
         return d.factor != 1 ? Features(Feature::damping) : Features();

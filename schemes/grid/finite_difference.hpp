@@ -130,7 +130,7 @@ GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&
 
 // What every scheme on a grid represents.
 constexpr Features grid_features =
-    Features(Feature::bending_stiffness) | Feature::damping | Feature::frequency_dependent_damping |
+    Feature::bending_stiffness | Feature::damping | Feature::frequency_dependent_damping |
     Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
     Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
     Feature::initial_velocity | Feature::pluck | Feature::free_mass | any_rigid;

@@ -67,7 +67,7 @@ double grid_margin(const Scene& scene, const Settings& settings) {
 extern const Descriptor finite_difference_explicit = {
     .name = "finite_difference_explicit",
     .source = "Bilbao, Torin & Chatziioannou 2015",
-    .represents = grid_features | Features(Feature::moving_body),
+    .represents = grid_features | Feature::moving_body,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make<GradientRule>,
@@ -75,7 +75,6 @@ extern const Descriptor finite_difference_explicit = {
     .approximates = grid_approximates,
     .limit = {"grid_limit", grid_margin}};
 
-extern const StringRow finite_difference_explicit_row;
 const StringRow finite_difference_explicit_row = {&finite_difference_explicit,
                                                   {JVARI_RULES(JVARI_MAKER)}};
 

@@ -59,7 +59,6 @@ extern const Descriptor finite_difference_hamiltonian = {
     .options = options,
     .approximates = grid_approximates};
 
-extern const StringRow finite_difference_hamiltonian_row;
 const StringRow finite_difference_hamiltonian_row = {&finite_difference_hamiltonian,
                                                      {JVARI_RULES(JVARI_MAKER)}};
 

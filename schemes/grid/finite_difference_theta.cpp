@@ -86,7 +86,7 @@ double grid_margin(const Scene& scene, const Settings& settings) {
 extern const Descriptor finite_difference_theta = {
     .name = "finite_difference_theta",
     .source = "Bilbao 2009, chapter 7",
-    .represents = grid_features | Features(Feature::moving_body),
+    .represents = grid_features | Feature::moving_body,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make<GradientRule>,
@@ -94,7 +94,6 @@ extern const Descriptor finite_difference_theta = {
     .approximates = grid_approximates,
     .limit = {"grid_limit", grid_margin}};
 
-extern const StringRow finite_difference_theta_row;
 const StringRow finite_difference_theta_row = {&finite_difference_theta,
                                                {JVARI_RULES(JVARI_MAKER)}};
 
