@@ -45,7 +45,7 @@ unseen "grids see contacts and the seam" "$(schemes 'modal|spatial|sitar')" $(fi
 unseen "sitars see contacts and the seam" "$(schemes 'modal|spatial|grid')" $(files schemes/sitar)
 above=
 # each room of bench sees itself and those after it here
-for room in command report trim check suite diff judge compare study store; do
+for room in command report trim check suite judge compare study store; do
     [ -z "$above" ] || unseen "bench/$room sees nothing of the rooms above it" "bench/($above)/" \
         $(files bench/$room)
     above=${above:+$above|}$room

@@ -30,7 +30,7 @@ plant() {  # plant FILE NAME other|same: a line more in FILE makes hash NAME ano
     echo "a line in $1 does not leave $2 as expected: $3" >&2
     status=1
 }
-for file in bench/trim/target.cpp bench/diff/rules.cpp \
+for file in bench/trim/target.cpp bench/suite/difference_rules.cpp \
     bench/check/claims.cpp bench/store/keys.hpp bench/study/errors.cpp bench/suite/trial.cpp \
     bench/suite/facets.cpp bench/study/kept_run.cpp bench/new_room/new.cpp analysis/error.cpp \
     reference/sundials.cpp schemes/modal/modal_two_point.cpp schemes/schemes.def \

@@ -13,7 +13,6 @@
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/findings.hpp"
-#include "bench/diff/difference.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -21,6 +20,7 @@
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/cells.hpp"
+#include "bench/suite/difference.hpp"
 
 namespace jvari::bench::command {
 
@@ -186,10 +186,11 @@ struct DiffRequest : Common {
 
 int diff_command(DiffRequest r) {
     const Console console(r.json, r.quiet);
-    const diff::Folder before = diff::read_folder(r.before), after = diff::read_folder(r.after);
-    const diff::Difference d = diff::difference(before, after);
-    console.print(diff::text_of(d, before, after));
-    console.print_json(diff::json_of(d, before, after));
+    const suite::Results before = suite::read_results(r.before),
+                         after = suite::read_results(r.after);
+    const suite::Difference d = suite::difference(before, after);
+    console.print(suite::text_of(d, before, after));
+    console.print_json(suite::json_of(d, before, after));
     return d.worse() ? exit_code::run_failed : exit_code::done;
 }
 }  // namespace

@@ -99,13 +99,9 @@ nlohmann::ordered_json json_of(const study::Cells& cells) {
         Json& errors = rows[i]["errors"] = Json::object();
         for (const std::string& tap : c.taps)
             for (std::size_t m = 0; m < study::measures().size(); ++m) {
-                const study::Figure& f = c.figure(m, tap);
-                errors[tap][study::measures()[m].column] = {
-                    {"value", f.value},
-                    {"floor", f.floor},
-                    {"certificate", f.certificate},
-                    {"in_model", f.in_model},
-                    {"certificate_in_model", f.certificate_in_model}};
+                Json& of = errors[tap][study::measures()[m].column];
+                for (const auto& [name, part] : study::figure_parts)
+                    of[name] = c.figure(m, tap).*part;
             }
     }
     return rows;

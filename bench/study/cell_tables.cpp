@@ -155,17 +155,14 @@ store::Table table_of(const Cells& cells, Contents contents) {
 }
 
 store::Table errors_table(const Cells& cells) {
-    store::Table t{{"cell", "tap", "measure", "value", "floor", "certificate", "in_model",
-                    "certificate_in_model"},
-                   {}};
+    store::Table t{{"cell", "tap", "measure"}, {}};
+    for (const auto& [name, part] : figure_parts) t.columns.emplace_back(name);
     for (const TabledCell& c : cells)
         for (std::size_t tap = 0; tap < c.taps.size(); ++tap)
             for (std::size_t m = 0; m < measures().size(); ++m) {
-                const Figure& f = c.figures[tap][m];
                 Texts row{c.cell, c.taps[tap], measures()[m].column};
-                for (const double x :
-                     {f.value, f.floor, f.certificate, f.in_model, f.certificate_in_model})
-                    row.push_back(store::text_of(x));
+                for (const auto& [name, part] : figure_parts)
+                    row.push_back(store::text_of(c.figures[tap][m].*part));
                 if (std::any_of(row.begin() + 3, row.end(),
                                 [](const std::string& text) { return !text.empty(); }))
                     t.rows.push_back(std::move(row));
@@ -272,9 +269,8 @@ Cells read_cells(const std::filesystem::path& path, bool whole) {
             c.taps.push_back(errors.at(i, "tap"));
             c.figures.emplace_back(measures().size());
         }
-        c.figures[tap][m] = {errors.number(i, "value"), errors.number(i, "floor"),
-                             errors.number(i, "certificate"), errors.number(i, "in_model"),
-                             errors.number(i, "certificate_in_model")};
+        for (const auto& [name, part] : figure_parts)
+            c.figures[tap][m].*part = errors.number(i, name);
     }
     for (std::size_t i = 0; i < cost.rows.size(); ++i) {
         const auto found = named.find(cost.at(i, "cell"));

@@ -25,6 +25,13 @@ struct Figure {  // an error, and what is known of it
     // against a reference with as many modes as the scheme, and how far that solves its model
     double in_model = store::nan, certificate_in_model = store::nan;
 };
+// as errors.csv calls them
+constexpr std::pair<const char*, double Figure::*> figure_parts[] = {
+    {"value", &Figure::value},
+    {"floor", &Figure::floor},
+    {"certificate", &Figure::certificate},
+    {"in_model", &Figure::in_model},
+    {"certificate_in_model", &Figure::certificate_in_model}};
 
 struct TabledCell {
     std::string cell, scene;
@@ -60,7 +67,7 @@ struct TabledCell {
 };
 using Cells = std::vector<TabledCell>;
 
-// how a number may differ between two programs that are right (bench/diff/rules.cpp)
+// how a number may differ between two programs that are right (bench/suite/difference_rules.cpp)
 enum class Rule {
     name,         // of the cell, in one study alone, or what follows from the rest: not compared
     text,         // the same or not

@@ -1,16 +1,99 @@
-#include "bench/diff/difference.hpp"
+#include "bench/suite/difference.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 
-namespace jvari::bench::diff {
+namespace jvari::bench::suite {
 
 namespace {
+using Json = nlohmann::ordered_json;
+
+// ---- What names a row
+
+// Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too
+// where a table has several at one rate. Where several have the same, the second is "... #2".
+using Named = std::map<std::string, std::size_t>;
+
+std::string counted(std::map<std::string, int>& seen, const std::string& text) {
+    const int n = ++seen[text];
+    return n == 1 ? text : fmt::format("{} #{}", text, n);
+}
+
+std::string cell_text(const study::TabledCell& c) {
+    std::string text = c.scene;
+    for (const auto& [key, value] : c.swept) text += " " + key + "=" + value;
+    text += " " + c.variant();
+    return text + (std::isnan(c.rate) ? "" : " " + store::text_of(c.rate) + " Hz");
+}
+
+// Two cells differ in their modes alone.
+bool modes_name(const study::Cells& cells) {
+    std::map<std::string, int> seen;
+    return std::ranges::any_of(
+        cells, [&seen](const study::TabledCell& c) { return ++seen[cell_text(c)] > 1; });
+}
+
+Named named_cells(const study::Cells& cells, bool with_modes) {
+    Named named;
+    std::map<std::string, int> seen;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const double modes = cells[i].modes;
+        named[counted(seen, cell_text(cells[i]) + (with_modes && !std::isnan(modes)
+                                                       ? fmt::format(", {} modes", modes)
+                                                       : ""))] = i;
+    }
+    return named;
+}
+
+Named named_rows(const store::Table& t, const std::vector<std::string>& columns) {
+    Named named;
+    std::map<std::string, int> seen;
+    for (std::size_t i = 0; i < t.rows.size(); ++i) {
+        std::string text;
+        for (const std::string& name : columns)
+            if (!t.at(i, name).empty()) text += (text.empty() ? "" : " ") + t.at(i, name);
+        named[counted(seen, text)] = i;
+    }
+    return named;
+}
+
+// Where cells.csv does not say what the files say that it follows from: one of them was altered.
+std::vector<Finding> altered(const Results& f) {
+    if (f.shown.columns.empty()) return {};
+    std::vector<Finding> all;
+    const auto add = [&](const std::string& cell, const std::string& column,
+                         const std::string& follows, const std::string& found) {
+        all.push_back({Turn::worse, f.name + "/cells.csv " + cell, column, follows, found,
+                       "altered: it follows from the other files"});
+    };
+    const store::Table follows = study::table_of(f.cells, study::Contents::cells);
+    if (f.shown.rows.size() != follows.rows.size()) {
+        add("", "rows", std::to_string(follows.rows.size()), std::to_string(f.shown.rows.size()));
+        return all;
+    }
+    for (const std::string& column : follows.columns) {
+        if (f.shown.column(column) < 0) {
+            add("", column, "there", "gone");
+            continue;
+        }
+        for (std::size_t i = 0; i < f.cells.size(); ++i)
+            if (const std::string& is = f.shown.at(i, column), &was = follows.at(i, column);
+                is != was && !(store::number_of(is) == store::number_of(was)))
+                add(cell_text(f.cells[i]), column, was, is);
+    }
+    return all;
+}
+
+// ---- What changed
+
 std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     std::vector<Pair> pairs;
     for (const auto& [name, row] : before)
@@ -36,13 +119,6 @@ struct Names {
     }
 };
 
-constexpr std::pair<double study::Figure::*, const char*> parts[] = {
-    {&study::Figure::value, ""},
-    {&study::Figure::floor, "floor of "},
-    {&study::Figure::certificate, "certificate of "},
-    {&study::Figure::in_model, "in_model of "},
-    {&study::Figure::certificate_in_model, "certificate_in_model of "}};
-
 struct CellDifference {
     bool same_digits = true;
     std::vector<std::string> references;  // how the reference is another
@@ -62,12 +138,13 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
             own.references.push_back(fmt::format("{} {} -> {}", column, was, is));
     };
     const auto add_figures = [&](const std::string& tap) {
-        for (const auto& [part, kind] : parts)
+        for (const auto& [name, part] : study::figure_parts)
             for (std::size_t m = 0; m < study::measures().size(); ++m) {
                 const study::Measure& measure = study::measures()[m];
                 if (tap == (measure.bridge ? before.headline_bridge : before.headline_nut))
                     continue;  // as the headline's
-                add(kind + measure.column + (tap.empty() ? "" : " of " + tap),
+                add((part == &study::Figure::value ? "" : std::string(name) + " of ") +
+                        measure.column + (tap.empty() ? "" : " of " + tap),
                     turn_of(part, m, tap, before, after),
                     store::text_of(before.figure(m, tap).*part),
                     store::text_of(after.figure(m, tap).*part));
@@ -85,7 +162,7 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
     return own;
 }
 
-void compare_cells(const Folder& a, const Folder& b, Difference& d) {
+void compare_cells(const Results& a, const Results& b, Difference& d) {
     const bool with_modes = modes_name(a.cells) || modes_name(b.cells);
     const auto pairs =
         in_both(named_cells(a.cells, with_modes), named_cells(b.cells, with_modes), d.cells);
@@ -121,7 +198,7 @@ void compare_cells(const Folder& a, const Folder& b, Difference& d) {
     compare_costs(a, b, pairs, d);
 }
 
-void compare_maps(const Folder& a, const Folder& b, Difference& d) {
+void compare_maps(const Results& a, const Results& b, Difference& d) {
     const std::vector<std::string> names{"map", "scene", "scheme", "x_key", "x", "y_key", "y"};
     for (const Pair& p : in_both(named_rows(a.maps, names), named_rows(b.maps, names), d.points)) {
         ++d.compared;
@@ -153,6 +230,37 @@ void compare_maps(const Folder& a, const Folder& b, Difference& d) {
 }
 }  // namespace
 
+std::string Provenance::machine() const {
+    return fmt::format("{}, {} cores, {}, {}", cpu, cores, vectors, system);
+}
+
+namespace {
+Provenance provenance_of(const store::Folder& folder) {
+    const Json m = folder.manifest();
+    const auto text = [&](const char* key) {
+        const auto found = m.find(key);
+        return found == m.end()     ? "unknown"
+               : found->is_string() ? found->get<std::string>()
+                                    : found->dump();
+    };
+    return {text("commit"), text("date"),  text("compiler"), text("flags"), text("build"),
+            text("cpu"),    text("cores"), text("vectors"),  text("system")};
+}
+}  // namespace
+
+Results read_results(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error))
+        throw store::UsageError(fmt::format("{}: no such folder", path.string()));
+    const store::Folder folder{path};
+    const Results f{
+        path.string(),        provenance_of(folder),      study::read_cells(path, false),
+        folder.table("maps"), folder.table("boundaries"), folder.table("cells")};
+    if (f.cells.empty() && f.maps.columns.empty())
+        throw store::UsageError(fmt::format("{}: neither facts.csv nor maps.csv", f.name));
+    return f;
+}
+
 int Difference::count(Turn t) const {
     return static_cast<int>(std::count_if(findings.begin(), findings.end(),
                                           [t](const Finding& f) { return f.turn == t; }));
@@ -168,11 +276,11 @@ bool Difference::nothing() const {
     return findings.empty();
 }
 
-Difference difference(const Folder& before, const Folder& after) {
+Difference difference(const Results& before, const Results& after) {
     Difference d;
     compare_cells(before, after, d);
     compare_maps(before, after, d);
-    for (const Folder* folder : {&before, &after})
+    for (const Results* folder : {&before, &after})
         for (Finding& f : altered(*folder)) d.findings.push_back(std::move(f));
     if (d.compared == 0)
         throw store::UsageError(
@@ -182,4 +290,4 @@ Difference difference(const Folder& before, const Folder& after) {
     return d;
 }
 
-}  // namespace jvari::bench::diff
+}  // namespace jvari::bench::suite

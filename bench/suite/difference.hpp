@@ -1,16 +1,15 @@
-// Two folders of results: what changed from one to the other, number by number (rules.cpp) and by
-// the clock (costs.cpp).
+// Two folders of results: what changed from one to the other, number by number (difference_rules.cpp) and by
+// the clock (difference_costs.cpp).
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/study/cells.hpp"
 
-namespace jvari::bench::diff {
+namespace jvari::bench::suite {
 
 // ---- What lies in a folder of compare or suite, as far as two such folders can be compared
 
@@ -25,7 +24,7 @@ struct Provenance {                           // by what, as manifest.json has i
     }
 };
 
-struct Folder {
+struct Results {
     std::string name;
     Provenance provenance;
     study::Cells cells;
@@ -34,17 +33,7 @@ struct Folder {
 };
 
 // Throws UsageError where there is no manifest.json, no cells or maps, or a file cannot be read.
-Folder read_folder(const std::filesystem::path&);
-
-// Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too
-// where a table has several at one rate.
-using Named = std::map<std::string, std::size_t>;
-Named named_cells(const study::Cells&, bool with_modes);
-bool modes_name(const study::Cells&);  // two cells differ in their modes alone
-
-// Rows by the values of these columns, "x=1 y=2"; where several have the same, the second is "...
-// #2".
-Named named_rows(const store::Table&, const std::vector<std::string>& columns);
+Results read_results(const std::filesystem::path&);
 
 // ---- The rules
 
@@ -69,9 +58,6 @@ struct Finding {
     // what the numbers do not say; of a cost: how many times, and of how many cells
     std::string detail;
 };
-
-// Where cells.csv does not say what the files say that it follows from: one of them was altered.
-std::vector<Finding> altered(const Folder&);
 
 struct Only {  // what one of the folders has alone
     std::vector<std::string> before, after;
@@ -100,19 +86,19 @@ struct Difference {
 };
 
 // Throws UsageError where no row is in both.
-Difference difference(const Folder& before, const Folder& after);
+Difference difference(const Results& before, const Results& after);
 
 // of each kind
-std::string text_of(const Difference&, const Folder& before, const Folder& after,
+std::string text_of(const Difference&, const Results& before, const Results& after,
                     std::size_t most_lines = 20);
-std::string json_of(const Difference&, const Folder& before, const Folder& after);
+std::string json_of(const Difference&, const Results& before, const Results& after);
 
 // For difference.cpp alone.
 struct Pair {  // what both have
     std::string name;
     std::size_t before, after;  // rows of the two tables
 };
-void compare_costs(const Folder& before, const Folder& after, const std::vector<Pair>&,
+void compare_costs(const Results& before, const Results& after, const std::vector<Pair>&,
                    Difference&);
 
-}  // namespace jvari::bench::diff
+}  // namespace jvari::bench::suite

@@ -14,7 +14,7 @@
 // disturbances of such a median (sqrt(pi/2n) of those of n cells), and in most of its cells the
 // quartiles stay apart after the drift is taken off. With fewer than three series the drift cannot
 // be told from them: what is apart has moved. Costs of two machines are not compared.
-#include "bench/diff/difference.hpp"
+#include "bench/suite/difference.hpp"
 
 #include <fmt/core.h>
 
@@ -26,7 +26,7 @@
 
 #include "analysis/statistics.hpp"
 
-namespace jvari::bench::diff {
+namespace jvari::bench::suite {
 
 namespace {
 constexpr double least_change = 1.15;  // times
@@ -95,7 +95,7 @@ bool has(const study::Cells& cells, Cost cost) {
 }
 
 // Of a series: worse, better or same.
-Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& series,
+Turn turn_of_costs(const Results& a, const Results& b, const std::vector<Ratio>& series,
                    const Noise& noise, const Clock& clock) {
     const double change = median_of(series, [](const Ratio& r) { return r.change(); });
     const double beyond = noise.beyond(series.size());
@@ -109,7 +109,7 @@ Turn turn_of_costs(const Folder& a, const Folder& b, const std::vector<Ratio>& s
     return change > 1 ? Turn::worse : Turn::better;
 }
 
-std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector<Pair>& pairs,
+std::vector<Ratio> ratios_of(const Results& a, const Results& b, const std::vector<Pair>& pairs,
                              const Clock& clock) {
     std::vector<Ratio> ratios;
     for (const Pair& p : pairs) {
@@ -123,7 +123,7 @@ std::vector<Ratio> ratios_of(const Folder& a, const Folder& b, const std::vector
 }
 }  // namespace
 
-void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pairs,
+void compare_costs(const Results& a, const Results& b, const std::vector<Pair>& pairs,
                    Difference& d) {
     if (!has(b.cells, wall.median)) {
         if (has(a.cells, wall.median))
@@ -195,4 +195,4 @@ void compare_costs(const Folder& a, const Folder& b, const std::vector<Pair>& pa
     }
 }
 
-}  // namespace jvari::bench::diff
+}  // namespace jvari::bench::suite

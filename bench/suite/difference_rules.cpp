@@ -20,7 +20,7 @@
 // moved. The certificate of the later side counts no more than that of the earlier one, and a
 // certificate that grew is worse itself: a result cannot be excused by knowing less.
 // A number that was known and no longer is, is worse.
-#include "bench/diff/difference.hpp"
+#include "bench/suite/difference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@
 #include <set>
 #include <sstream>
 
-namespace jvari::bench::diff {
+namespace jvari::bench::suite {
 
 namespace {
 using Cell = study::TabledCell;
@@ -163,4 +163,4 @@ Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string
                    {tolerance, m.less_is_better ? 1 : -1, true, b.*certificate, a.*certificate});
 }
 
-}  // namespace jvari::bench::diff
+}  // namespace jvari::bench::suite

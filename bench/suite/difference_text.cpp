@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/diff/difference.hpp"
 #include "bench/store/json.hpp"
+#include "bench/suite/difference.hpp"
 
-namespace jvari::bench::diff {
+namespace jvari::bench::suite {
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -68,7 +68,7 @@ std::string only_text(const char* what, const char* where, const std::vector<std
     return text;
 }
 
-Json json_of(const Folder& f) {
+Json json_of(const Results& f) {
     return {{"folder", f.name},
             {"commit", f.provenance.commit},
             {"date", f.provenance.date},
@@ -79,7 +79,7 @@ Json json_of(const Folder& f) {
 }
 }  // namespace
 
-std::string text_of(const Difference& d, const Folder& before, const Folder& after,
+std::string text_of(const Difference& d, const Results& before, const Results& after,
                     std::size_t most) {
     // first: what the figures below rest on
     std::string text = d.references.empty() ? "" : d.references + "\n";
@@ -105,7 +105,7 @@ std::string text_of(const Difference& d, const Folder& before, const Folder& aft
     return text;
 }
 
-std::string json_of(const Difference& d, const Folder& before, const Folder& after) {
+std::string json_of(const Difference& d, const Results& before, const Results& after) {
     Json findings = Json::array();
     for (const Finding& f : d.findings)
         findings.push_back({{"turn", name_of(f.turn)},
@@ -135,4 +135,4 @@ std::string json_of(const Difference& d, const Folder& before, const Folder& aft
                             {"notes", d.notes}});
 }
 
-}  // namespace jvari::bench::diff
+}  // namespace jvari::bench::suite

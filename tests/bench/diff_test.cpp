@@ -4,16 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "bench/diff/difference.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/suite/difference.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
 namespace {
 
-using bench::diff::Difference;
-using bench::diff::Folder;
-using bench::diff::Turn;
+using bench::suite::Difference;
+using bench::suite::Results;
+using bench::suite::Turn;
 
 constexpr int schemes = 8, rates = 4;
 
@@ -33,11 +33,11 @@ bench::study::Figure& headline(bench::study::TabledCell& c) {
 
 // Costs as a clock gives them: a true one of each cell, times the machine's drift, times a
 // disturbance of the cell and a smaller one of each of its five samples.
-Folder timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
-             const std::string& cpu = "one") {
+Results timed(unsigned seed, double disturbance, double drift = 1, int slow = -1,
+              const std::string& cpu = "one") {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    Folder f;
+    Results f;
     f.name = "made up";
     f.provenance.cpu = cpu;
     for (int s = 0; s < schemes; ++s)
@@ -84,14 +84,14 @@ TEST(Costs, OfTwoMachinesAreNotComparedAndItIsSaid) {
 
 TEST(Costs, ThatAreGoneAreWorse) {
     for (const double cost : {double{NAN}, 0.0, -1.0}) {
-        Folder after = timed(1, 0.02);
+        Results after = timed(1, 0.02);
         after.cells[5].cost_s_per_s = cost;
         EXPECT_EQ(difference(timed(1, 0.02), after).count(Turn::worse), 1) << cost;
     }
 }
 
 TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
-    Folder a = timed(1, 0.02), b = timed(2, 0.02, 1.3);
+    Results a = timed(1, 0.02), b = timed(2, 0.02, 1.3);
     a.cells.resize(rates), b.cells.resize(rates);
     const Difference d = difference(a, b);
     EXPECT_EQ(d.count(Turn::worse), 0);
@@ -100,22 +100,22 @@ TEST(Costs, OfASingleSchemeAreNotToldFromTheMachines) {
 
 // ---- Errors and outcomes.
 
-Folder cell(const std::string& status, const std::string& flags, double error, double floor,
-            double certificate) {
-    Folder f;
+Results cell(const std::string& status, const std::string& flags, double error, double floor,
+             double certificate) {
+    Results f;
     f.name = "made up";
     f.cells = {judged("a", 44100, status, {error, floor, certificate})};
     f.cells[0].flags = flags;
     return f;
 }
-Turn turn_between(const Folder& a, const Folder& b) {
+Turn turn_between(const Results& a, const Results& b) {
     const Difference d = difference(a, b);
     EXPECT_LE(d.findings.size(), 1u);
     return d.findings.empty() ? Turn::same : d.findings[0].turn;
 }
 
 TEST(Errors, GetWorseBeyondNoiseAndCertificatesAlone) {
-    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    const Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
     // a thousand floors
     EXPECT_EQ(turn_between(was, cell("ok", "", 0.05 + 9e-10, 1e-12, 1e-3)), Turn::same);
     // beyond them, not beyond the certificates
@@ -133,19 +133,19 @@ Turn turn_in(const Difference& d, const std::string& column) {
 }
 
 TEST(Errors, OfAnotherReferenceAreSaidToBeBeforeAnyFigure) {
-    Folder was = cell("ok", "", 0.05, 1e-12, 1e-3), is = cell("ok", "", 0.08, 1e-12, 1e-3);
-    EXPECT_EQ(bench::diff::difference(was, is).references, "");
+    Results was = cell("ok", "", 0.05, 1e-12, 1e-3), is = cell("ok", "", 0.08, 1e-12, 1e-3);
+    EXPECT_EQ(bench::suite::difference(was, is).references, "");
     was.cells[0].reference = "exact_contact";
     is.cells[0].reference = "sundials";
-    const std::string text = text_of(bench::diff::difference(was, is), was, is);
+    const std::string text = text_of(bench::suite::difference(was, is), was, is);
     EXPECT_TRUE(text.starts_with(
         "the references differ in 1 of 1 cells (reference exact_contact -> sundials)"))
         << text;
 }
 
 TEST(Errors, ThatAreNoLongerKnownAreWorse) {
-    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
-    Folder is = was;
+    const Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    Results is = was;
     headline(is.cells[0]).value = NAN;
     EXPECT_EQ(turn_between(was, is), Turn::worse);
     EXPECT_EQ(turn_between(is, was), Turn::better);
@@ -155,12 +155,12 @@ TEST(Errors, ThatAreNoLongerKnownAreWorse) {
 }
 
 TEST(Cells, ThatCameBackToTheLastDigitAreCounted) {
-    Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
     was.cells.push_back(judged("b", 44100, "ok", {0.05, 1e-12, 1e-3}));
     for (auto& c : was.cells) c.processor_s_per_s = 1;
-    Folder is = was;
+    Results is = was;
     is.cells[0].processor_s_per_s = 2;  // a clock's
-    const std::string text = text_of(bench::diff::difference(was, is), was, is);
+    const std::string text = text_of(bench::suite::difference(was, is), was, is);
     EXPECT_TRUE(says(text, "\n2 of 2 cells came back to the last digit")) << text;
     is = was;
     headline(is.cells[1]).value = 0.05000000000000001;  // below noise
@@ -170,7 +170,7 @@ TEST(Cells, ThatCameBackToTheLastDigitAreCounted) {
 }
 
 TEST(Errors, AreNotExcusedByACertificateThatGrew) {
-    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    const Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
     const Difference nine = difference(was, cell("ok", "", 0.45, 1e-12, 1e9));
     EXPECT_EQ(turn_in(nine, "error_l2_50ms"), Turn::worse);
     EXPECT_EQ(turn_in(nine, "certificate of error_l2_50ms"), Turn::worse);
@@ -187,22 +187,22 @@ TEST(Errors, AreNotExcusedByACertificateThatGrew) {
 }
 
 TEST(Cells, ThatAreMissingAfterAreWorse) {
-    Folder two = cell("ok", "", 0.05, 1e-12, 1e-3), one = two;
+    Results two = cell("ok", "", 0.05, 1e-12, 1e-3), one = two;
     two.cells.push_back(judged("b", 44100, "ok", {0.05, 1e-12, 1e-3}));
     EXPECT_TRUE(difference(two, one).worse());
     EXPECT_EQ(difference(two, one).missing(), 1);
     EXPECT_FALSE(difference(one, two).worse());
 }
 
-Folder boundary(const std::string& low, const std::string& high) {
-    Folder f;
+Results boundary(const std::string& low, const std::string& high) {
+    Results f;
     f.boundaries.columns = {"map", "scheme", "x_key", "y_key", "y", "between", "x_low", "x_high"};
     f.boundaries.rows = {{"m", "a", "rate", "", "", "sound and diverged", low, high}};
     return f;
 }
 
 TEST(Boundaries, MovedWhereTheirBracketsAreApartOnEitherSide) {
-    const Folder was = boundary("10", "20");
+    const Results was = boundary("10", "20");
     for (const auto& [low, high] : {std::pair{"21", "30"}, {"1", "9"}})
         EXPECT_EQ(turn_between(was, boundary(low, high)), Turn::moved) << low;
     for (const auto& [low, high] : {std::pair{"20", "30"}, {"1", "10"}, {"12", "13"}, {"5", "50"}})
@@ -210,7 +210,7 @@ TEST(Boundaries, MovedWhereTheirBracketsAreApartOnEitherSide) {
 }
 
 TEST(Boundaries, ThatAreGoneAreToldAndAreNotWorse) {
-    Folder one = boundary("10", "20"), two = one;
+    Results one = boundary("10", "20"), two = one;
     two.boundaries.rows.push_back({"m", "b", "rate", "", "", "sound and diverged", "1", "2"});
     const Difference d = difference(two, one);
     EXPECT_FALSE(d.worse());
@@ -218,35 +218,35 @@ TEST(Boundaries, ThatAreGoneAreToldAndAreNotWorse) {
 }
 
 TEST(Outcomes, ThatFailAreWorseAndFlagsToo) {
-    const Folder was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    const Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
     EXPECT_EQ(turn_between(was, cell("diverged", "", 0.05, 1e-12, 1e-3)), Turn::worse);
     EXPECT_EQ(turn_between(cell("diverged", "", 0.05, 1e-12, 1e-3), was), Turn::better);
     EXPECT_EQ(turn_between(was, cell("ok", "adhesion", 0.05, 1e-12, 1e-3)), Turn::worse);
 }
 
 TEST(Outcomes, AFurtherFlagAndANegativeErrorAreWorse) {
-    Folder before = timed(1, 0.02);
+    Results before = timed(1, 0.02);
     for (auto& c : before.cells) c.flags = "energy";
-    Folder after = before;
+    Results after = before;
     after.cells[0].flags = "adhesion energy";
     EXPECT_EQ(difference(before, after).count(Turn::worse), 1);
     EXPECT_EQ(difference(after, before).count(Turn::better), 1);
-    Folder negative = before;
+    Results negative = before;
     headline(negative.cells[0]).value = -1;
     EXPECT_EQ(difference(before, negative).count(Turn::worse), 1);
 }
 
 TEST(Errors, AreNotExcusedByAFloorThatWasRaised) {
-    Folder before = timed(1, 0.02);
+    Results before = timed(1, 0.02);
     for (auto& c : before.cells) headline(c).floor = 1e-12;
-    Folder after = before;
+    Results after = before;
     headline(before.cells[0]).floor = 1e9;
     headline(after.cells[0]).value = 0.5;
     EXPECT_EQ(difference(before, after).count(Turn::worse), 1);
 }
 
 TEST(Outcomes, OfMapsAreComparedPointByPoint) {
-    Folder a, b;
+    Results a, b;
     a.maps.columns =
         b.maps.columns = {"map", "scene", "scheme", "x_key", "x", "y_key", "y", "outcome"};
     a.maps.rows = {{"m", "s", "a", "rate", "1", "", "", "sound"},
@@ -265,7 +265,7 @@ TEST(Outcomes, OfMapsAreComparedPointByPoint) {
 }
 
 TEST(Folders, WithNothingInCommonAreRefused) {
-    Folder a = cell("ok", "", 0.05, 0, 0), b = a;
+    Results a = cell("ok", "", 0.05, 0, 0), b = a;
     b.cells[0].scheme = "b";
     EXPECT_THROW(difference(a, b), bench::store::UsageError);
 }

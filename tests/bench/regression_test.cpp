@@ -2,12 +2,12 @@
 // move it?
 //
 // Every column of its cells, by the rules of `jvari diff`
-// (bench/diff/rules.cpp), without the clock. `below_floor` follows from the rest: each error that
+// (bench/suite/difference_rules.cpp), without the clock. `below_floor` follows from the rest: each error that
 // it names is no larger than its floor, and no other.
 #include <cmath>
 #include <fstream>
 
-#include "bench/diff/difference.hpp"
+#include "bench/suite/difference.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -35,9 +35,9 @@ TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
                                          " --jobs 2 --quiet --out " + (scratch / "now"));
     ASSERT_EQ(o.code, 0) << o.err;
 
-    const bench::diff::Folder then = bench::diff::read_folder(kept),
-                              now = bench::diff::read_folder(scratch / "now");
-    bench::diff::Difference d = bench::diff::difference(then, now);
+    const bench::suite::Results then = bench::suite::read_results(kept),
+                                now = bench::suite::read_results(scratch / "now");
+    bench::suite::Difference d = bench::suite::difference(then, now);
     d.columns.after.clear();  // a later program may measure more
     EXPECT_TRUE(d.nothing()) << text_of(d, then, now);
     EXPECT_GT(d.compared, 10000);
