@@ -178,13 +178,9 @@ std::string verdict_of(const compare::Comparison& c) {
                     cause_sentence(cell) + beside(c, c.outcome.records[i]);
     }
     const std::string own = c.outcome.records.front().cell.scheme->name;
-    const std::size_t window = compare::headline_error(cells, study::all_rows(cells));
-    for (const auto& [low, high] : compare::rising_with_the_rate(cells))
-        if (cells[low].scheme == own)
-            text += fmt::format(
-                "\nits error rises with the rate, from {} at {:g} Hz to {} at {:g} Hz",
-                compare::percent(compare::bound_of(cells[low], window).error), cells[low].rate,
-                compare::percent(compare::bound_of(cells[high], window).error), cells[high].rate);
+    for (const compare::Rising& r : compare::rising_with_the_rate(cells))
+        if (cells[r.low].scheme == own)
+            text += fmt::format("\n{} at {:g} Hz", r.text, cells[r.high].rate);
     for (const compare::ObservedOrder& o : compare::convergence_of(cells))
         if (cells[o.first].scheme == own && o.measure == study::measure("error_l2_50ms") &&
             o.tap == cells[o.first].headline_nut)

@@ -149,22 +149,20 @@ store::Table table_of(const std::vector<Answer>& answers, const Cells& cells) {
     const store::Table names = study::table_of(cells, study::Contents::cost);
     const auto scheme = names.columns.begin() + names.column("scheme");
     store::Table t{{names.columns.begin() + 1, scheme}, {}};
-    for (const char* name :
-         {"measure", "target", "status", "run", "scheme", "options", "rate", "modes", "error",
-          "bound", "cost_s_per_s", "ties", "perhaps", "as_published", "why"})
-        t.columns.emplace_back(name);
+    t.columns.insert(t.columns.end(),
+                     {"measure", "target", "status", "run", "scheme", "options", "rate", "modes",
+                      "error", "bound", "cost_s_per_s", "ties", "perhaps", "as_published", "why"});
     for (const Answer& a : answers) {
         const Cell found = a.cell ? cells[*a.cell] : Cell{};
         const auto& own = names.rows[a.of];
         auto& row =
             t.rows.emplace_back(own.begin() + 1, own.begin() + (scheme - names.columns.begin()));
-        for (const std::string& field :
-             {study::measures()[a.measure].column, store::text_of(a.most), std::string(a.status),
-              a.cell ? found.run() : "", found.scheme, found.options, store::text_of(found.rate),
-              store::text_of(found.modes), store::text_of(a.bound.error),
-              store::text_of(a.bound.most()), store::text_of(found.cost_s_per_s), a.ties, a.perhaps,
-              a.as_published, a.why})
-            row.push_back(field);
+        row.insert(row.end(),
+                   {study::measures()[a.measure].column, store::text_of(a.most),
+                    std::string(a.status), a.cell ? found.run() : "", found.scheme, found.options,
+                    store::text_of(found.rate), store::text_of(found.modes),
+                    store::text_of(a.bound.error), store::text_of(a.bound.most()),
+                    store::text_of(found.cost_s_per_s), a.ties, a.perhaps, a.as_published, a.why});
     }
     return t;
 }

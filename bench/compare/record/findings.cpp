@@ -110,9 +110,9 @@ std::vector<ObservedOrder> convergence_of(const Cells& cells) {
     return all;
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> rising_with_the_rate(const Cells& cells) {
+std::vector<Rising> rising_with_the_rate(const Cells& cells) {
     constexpr double rise = 1.2;
-    std::vector<std::pair<std::size_t, std::size_t>> all;
+    std::vector<Rising> all;
     const std::size_t window = headline_error(cells, study::all_rows(cells));
     for (Rows rows : differing_in_rate(cells)) {
         std::erase_if(rows, [&](std::size_t i) {
@@ -121,8 +121,11 @@ std::vector<std::pair<std::size_t, std::size_t>> rising_with_the_rate(const Cell
         if (rows.size() < 2) continue;
         const auto [low, high] =
             std::ranges::minmax(rows, {}, [&](std::size_t i) { return cells[i].rate; });
-        if (bound_of(cells[high], window).least() > rise * bound_of(cells[low], window).most())
-            all.emplace_back(low, high);
+        const Bound from = bound_of(cells[low], window), to = bound_of(cells[high], window);
+        if (to.least() > rise * from.most())
+            all.push_back({low, high,
+                           fmt::format("its error rises with the rate, from {} at {:g} Hz to {}",
+                                       percent(from.error), cells[low].rate, percent(to.error))});
     }
     return all;
 }
@@ -131,18 +134,16 @@ store::Table convergence_table(const Cells& cells) {
     const store::Table named = study::table_of(cells, study::Contents::cost);
     const auto rate = static_cast<std::size_t>(named.column("rate"));
     store::Table t{{named.columns.begin() + 1, named.columns.begin() + rate}, {}};
-    for (const char* name :
-         {"modes", "tap", "window", "order", "half_width", "points", "from_hz", "to_hz"})
-        t.columns.emplace_back(name);
+    t.columns.insert(t.columns.end(), {"modes", "tap", "window", "order", "half_width", "points",
+                                       "from_hz", "to_hz"});
     for (const auto& [first, m, tap, modes, order, from, to] : convergence_of(cells)) {
         auto& row =
             t.rows.emplace_back(named.rows[first].begin() + 1, named.rows[first].begin() + rate);
-        for (const std::string& field :
-             {store::text_of(modes), tap, study::measures()[m].column.substr(9),
-              store::text_of(order.order),
-              std::isfinite(order.half_width) ? store::text_of(order.half_width) : "",
-              std::to_string(order.points), store::text_of(from), store::text_of(to)})
-            row.push_back(field);
+        row.insert(row.end(),
+                   {store::text_of(modes), tap, study::measures()[m].column.substr(9),
+                    store::text_of(order.order),
+                    std::isfinite(order.half_width) ? store::text_of(order.half_width) : "",
+                    std::to_string(order.points), store::text_of(from), store::text_of(to)});
     }
     return t;
 }
@@ -214,11 +215,8 @@ std::string harm_text(const study::Cells& cells) {
 
 std::string cause_text(const study::Cells& cells) {
     std::string text;
-    const std::size_t window = headline_error(cells, study::all_rows(cells));
-    for (const auto& [low, high] : rising_with_the_rate(cells))
-        text += fmt::format("; {}: its error rises with the rate, from {} at {:g} Hz to {}",
-                            cells[high].run(), percent(bound_of(cells[low], window).error),
-                            cells[low].rate, percent(bound_of(cells[high], window).error));
+    for (const Rising& r : rising_with_the_rate(cells))
+        text += fmt::format("; {}: {}", cells[r.high].run(), r.text);
     for (const Rows& rows : differing_in_rate(cells)) {
         const std::size_t high = std::ranges::max(
             rows, {}, [&](std::size_t i) { return std::isnan(cells[i].rate) ? 0 : cells[i].rate; });
