@@ -43,12 +43,9 @@ std::string Cell::status() const {
 }
 
 Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
-    RunOptions options;
-    options.energy = true;
-    options.progress = progress;
     const auto scheme = make_scheme(*cell.scheme, scene, cell.settings);
     const double from = store::processor_seconds();
-    Run result = run(*scheme, scene, cell.settings, options);
+    Run result = run(*scheme, scene, cell.settings, {.energy = true, .progress = progress});
     const double took = store::processor_seconds() - from;
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
     cell.summary.processor_seconds = took;

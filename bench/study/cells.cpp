@@ -74,15 +74,13 @@ void add_clock(TabledCell& c, const Cell& cell) {
     c.repeats = t.wall.count;
     if (!(t.wall.median > 0)) return;
     const double seconds = cell.summary.duration > 0 ? cell.summary.duration : store::nan;
-    c.cost_s_per_s = t.wall.median / seconds;
-    c.cost_lower = t.wall.lower / seconds;
-    c.cost_upper = t.wall.upper / seconds;
-    c.processor_s_per_s = t.processor.median / seconds;
-    c.processor_lower = t.processor.lower / seconds;
-    c.processor_upper = t.processor.upper / seconds;
-    c.wall_seconds = t.wall.median;
-    c.wall_seconds_lower = t.wall.lower;
-    c.wall_seconds_upper = t.wall.upper;
+    const auto put = [](const Spread& s, double over, double& median, double& lower,
+                        double& upper) {
+        median = s.median / over, lower = s.lower / over, upper = s.upper / over;
+    };
+    put(t.wall, seconds, c.cost_s_per_s, c.cost_lower, c.cost_upper);
+    put(t.processor, seconds, c.processor_s_per_s, c.processor_lower, c.processor_upper);
+    put(t.wall, 1, c.wall_seconds, c.wall_seconds_lower, c.wall_seconds_upper);
     if (cell.summary.steps > 0)
         c.ns_per_step = t.wall.median * 1e9 / static_cast<double>(cell.summary.steps);
     c.times_real_time = seconds / t.wall.median;

@@ -126,11 +126,7 @@ Json quoted(const Spread& s) {
     return {store::text_of(s.median), store::text_of(s.lower), store::text_of(s.upper)};
 }
 Spread spread_in(const Json& j, int count) {
-    Spread s = spread_of({});
-    s.count = count;
-    s.median = store::number_of(j.at(0)), s.lower = store::number_of(j.at(1)),
-    s.upper = store::number_of(j.at(2));
-    return s;
+    return {count, store::number_of(j.at(0)), store::number_of(j.at(1)), store::number_of(j.at(2))};
 }
 }  // namespace
 

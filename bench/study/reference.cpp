@@ -21,9 +21,9 @@ ProgressOf told_to(store::Done& done) {
 }
 
 Run reference_run(const ReferenceChoice& choice, const Scene& scene, const ProgressOf& progress) {
-    RunOptions options;
-    options.progress = progress;
-    const auto make = [&] { return run(*choice.scheme, scene, choice.settings, options); };
+    const auto make = [&] {
+        return run(*choice.scheme, scene, choice.settings, {.progress = progress});
+    };
     if (!choice.kept) return make();
     const std::string key = run_key(*choice.scheme, scene, choice.settings);
     const auto cached = [&] { return kept_run(kept_runs_folder(), key, make); };
@@ -37,13 +37,11 @@ double last_instant(const Run& r) {
 // A scheme at three rates, the highest of them those of `r.choice`: its run there and its own
 // estimate.
 void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progress) {
-    RunOptions options;
-    options.progress = progress;
     Settings coarsest = r.choice.settings;
     coarsest.sample_rate /= r.choice.oversampled;
     try {
-        Oversampled o =
-            oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled, options);
+        Oversampled o = oversampled(*r.choice.scheme, scene, coarsest, r.choice.oversampled,
+                                    {.progress = progress});
         if (o.rate == r.choice.settings.sample_rate) {
             r.run = std::move(o.run);
             r.trust = trust_of(o, last_instant(r.run) - free_from(scene));
@@ -57,14 +55,13 @@ void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progres
 // Schemes that may stand in, in order of what they estimate their own error to be.
 void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene,
                        const ProgressOf& progress) {
-    RunOptions options;
-    options.progress = progress;
     std::vector<std::pair<double, ReferenceChoice>> tried;
     for (ReferenceChoice& c : choices) {
         Settings coarsest = c.settings;
         coarsest.sample_rate /= c.oversampled;
-        tried.emplace_back(estimate_of(*c.scheme, scene, coarsest, c.oversampled, options),
-                           std::move(c));
+        tried.emplace_back(
+            estimate_of(*c.scheme, scene, coarsest, c.oversampled, {.progress = progress}),
+            std::move(c));
     }
     std::ranges::stable_sort(tried, {}, [](const auto& t) { return t.first; });
     for (std::size_t i = 0; i < tried.size(); ++i) choices[i] = std::move(tried[i].second);

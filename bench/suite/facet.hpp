@@ -7,32 +7,22 @@
 #include <span>
 
 #include "bench/store/records.hpp"
-#include "schemes/scheme.hpp"
-#include "schemes/trace.hpp"
+#include "bench/study/job.hpp"
 
 namespace jvari::bench::suite {
-
-struct MeasuredCell {  // a cell whose accuracy run reached its end or its failure
-    const Scene& scene;
-    const Descriptor& scheme;
-    const Settings& settings;
-    const Trace& trace;
-    const Trace* reference;  // on the same rows; nullptr where there is none
-    int tap;                 // that the set of cells names, else the scene's first
-};
 
 struct Facet {
     const char* name;
     const char* meaning;
     // may come without rows; repeats bit for bit
-    store::Table (*rows)(const MeasuredCell&) = nullptr;
+    store::Table (*rows)(const study::Ran&) = nullptr;
 };
 std::span<const Facet> facets();
 
 // ---- The row facet `sound` of a suite: a cell's samples and its reference's lie in its record,
 // and become sounds/*.wav and sounds.csv.
 
-store::Table sound_rows(const MeasuredCell&);
+store::Table sound_rows(const study::Ran&);
 void write_sound_rows(const std::filesystem::path& folder, const store::Table& gathered);
 
 }  // namespace jvari::bench::suite

@@ -15,19 +15,19 @@ namespace jvari::bench::suite {
 // ---- The row facet `sound`: one row per cell, its samples and its reference's as base64 of 16
 // bit, which become files when all cells are there.
 
-store::Table sound_rows(const MeasuredCell& c) {
+store::Table sound_rows(const study::Ran& c) {
     store::Table t{{"tap", "quantity", "sample_rate", "peak", "samples", "reference_peak",
                     "reference_samples"},
                    {}};
-    const int tap = study::headline_of(c.scene).nut;
-    const auto whole = static_cast<std::size_t>(c.scene.duration * c.trace.tap_rate);
+    const int tap = study::headline_of(c.point.scene).nut;
+    const auto whole = static_cast<std::size_t>(c.point.scene.duration * c.trace.tap_rate);
     if (c.trace.column(tap).size() < whole) return t;  // it failed on its way
     const store::Sound own = store::sound_of(c.trace.column(tap), c.trace.tap_rate);
     if (own.samples.empty()) return t;
     const store::Sound reference =
         c.reference ? store::sound_of(c.reference->column(tap), c.reference->tap_rate)
                     : store::Sound{};
-    t.rows.push_back({c.scene.taps.at(tap).name, name_of(c.scene.taps.at(tap).quantity),
+    t.rows.push_back({c.point.scene.taps.at(tap).name, name_of(c.point.scene.taps.at(tap).quantity),
                       store::text_of(own.rate), store::text_of(own.peak),
                       store::base64(own.samples), store::text_of(reference.peak),
                       store::base64(reference.samples)});

@@ -159,21 +159,9 @@ store::Kind<std::vector<Map>> maps() {
 }
 
 store::Table maps_table(const MapRun& run) {
-    store::Table t;
-    t.columns = {"map",
-                 "scene",
-                 "scheme",
-                 "x_key",
-                 "x",
-                 "y_key",
-                 "y",
-                 "outcome",
-                 "detail",
-                 "reference",
-                 "largest_over_bound",
-                 "energy_gain",
-                 "pull",
-                 "error"};
+    store::Table t{{"map", "scene", "scheme", "x_key", "x", "y_key", "y", "outcome", "detail",
+                    "reference", "largest_over_bound", "energy_gain", "pull", "error"},
+                   {}};
     for (const JudgedPoint& p : run.points) {
         const study::Summary& s = p.tried.record.cell.summary;
         const bool ran = p.tried.record.cell.ran();

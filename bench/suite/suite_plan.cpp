@@ -29,9 +29,7 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
         if (set.measures(measured::spectrogram))
             into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);
         for (const Facet& f : facets())
-            if (set.measures(f.name) && f.rows)
-                into.rows[f.name] = f.rows({ran.point.scene, *ran.cell.scheme, ran.cell.settings,
-                                            ran.trace, ran.reference, tap});
+            if (set.measures(f.name) && f.rows) into.rows[f.name] = f.rows(ran);
     };
 }
 }  // namespace
