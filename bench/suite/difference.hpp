@@ -1,5 +1,5 @@
-// Two folders of results: what changed from one to the other, number by number (difference_rules.cpp) and by
-// the clock (difference_costs.cpp).
+// Two folders of results: what changed from one to the other, number by number
+// (difference_rules.cpp) and by the clock (difference_costs.cpp).
 #pragma once
 
 #include <filesystem>

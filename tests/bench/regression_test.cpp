@@ -1,9 +1,9 @@
 // The smoke suite against results/smoke: has a number of any scheme moved by more than rounding can
 // move it?
 //
-// Every column of its cells, by the rules of `jvari diff`
-// (bench/suite/difference_rules.cpp), without the clock. `below_floor` follows from the rest: each error that
-// it names is no larger than its floor, and no other.
+// Every column of its cells, by the rules of `jvari diff` (bench/suite/difference_rules.cpp),
+// without the clock. `below_floor` follows from the rest: each error that it names is no larger
+// than its floor, and no other.
 #include <cmath>
 #include <fstream>
 
