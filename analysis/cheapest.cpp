@@ -42,19 +42,20 @@ double at_least(double error, double uncertainty) {
 
 Choice cheapest_within(double accuracy, std::span<const Offer> offers) {
     const auto met = [=](const Offer& o) { return o.most <= accuracy; };
-    const auto cheapest = least(offers, met, &Offer::cost);
+    const auto best = least(offers, met, &Offer::cost);
     const auto tied = [&](const Offer& o) {
-        return met(o) && o.lower <= offers[*cheapest].upper &&
-               o.cost < a_tie * offers[*cheapest].cost;
+        return met(o) && o.lower <= offers[*best].upper && o.cost < a_tie * offers[*best].cost;
     };
-    const auto best = least(offers, tied, &Offer::most);
+    const auto own = [&](const Offer& o) { return tied(o) && o.scheme == offers[*best].scheme; };
     const auto perhaps = [&](const Offer& o) {
         return !met(o) && o.least <= accuracy && (!best || o.cost < offers[*best].cost);
     };
-    std::vector<std::size_t> ties =
-        best ? other_schemes(offers, best, tied) : std::vector<std::size_t>();
-    if (best && best != cheapest && offers[*best].scheme == offers[*cheapest].scheme)
-        ties.insert(ties.begin(), *cheapest);
+    std::vector<std::size_t> ties;
+    if (best) {
+        ties = other_schemes(offers, best, tied);
+        const auto finest = least(offers, own, &Offer::most);
+        if (finest && finest != best) ties.insert(ties.begin(), *finest);
+    }
     return {best, std::move(ties), other_schemes(offers, best, perhaps)};
 }
 

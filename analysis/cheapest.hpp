@@ -21,11 +21,11 @@ struct Offer {
     double cost, lower, upper;  // its median and quartiles
 };
 
-// `best`: of the runs within `accuracy` whose quartiles of cost touch those of the cheapest, and
-// that cost less than 1.2 times as much, the one of least error. `ties`: other schemes among them,
-// and the cheapest run whatever its scheme. `perhaps`: other schemes with a cheaper run (without a
-// best: any run) of which it is not certain that it is within. Each scheme once, by its cheapest
-// such run, in the order of the offers.
+// `best`: of the runs within `accuracy` the one of least cost. `ties` never change it: runs within
+// whose quartiles of cost touch its own and that cost less than 1.2 times as much; first the one of
+// least error of its own scheme, then of each other scheme the cheapest. `perhaps`: other schemes
+// with a cheaper run (without a best: any run) of which it is not certain that it is within; each
+// scheme once, by its cheapest such run, in the order of the offers.
 struct Choice {
     std::optional<std::size_t> best;
     std::vector<std::size_t> ties, perhaps;

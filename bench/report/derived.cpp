@@ -15,7 +15,7 @@ using store::Table;
 using study::Rows;
 using Cell = study::TabledCell;
 
-// beyond, fronts and orders are of the headline errors alone
+// beyond, orders are of the headline errors alone
 constexpr std::size_t most_cells_with_taps = 600;
 
 // Of a scheme with several numbers of modes at one rate the cells that none of its others beats are
@@ -111,30 +111,6 @@ Table cheapest_table(const Results& r) {
     return t;
 }
 
-Table fronts_of(const Results& r, const std::vector<std::string>& lines) {
-    constexpr std::pair<const char*, double Cell::*> costs[] = {
-        {"cost_s_per_s", &Cell::cost_s_per_s},
-        {"ns_per_step", &Cell::ns_per_step},
-        {"worst_block_of_deadline", &Cell::worst_block_of_deadline},
-        {"rate", &Cell::rate},
-        {"dofs", &Cell::dofs}};
-    Table t{{"row", "tap", "measure", "cost"}, {}};
-    Rows rivals = study::all_rows(r.cells);
-    std::erase_if(rivals, [&](std::size_t i) {
-        return lines[i].empty() || !compare::may_win(r.cells[i], r.controls);
-    });
-    for (const Rows& rows : study::by_problem(r.cells, rivals))
-        for (const auto& [measure, tap] : errors_in(r.cells))
-            for (const auto& [name, cost] : costs) {
-                const auto front = compare::pareto_front(r.cells, rows, measure, cost, tap);
-                for (std::size_t k = 0; k < front.size(); ++k)
-                    if (front[k])
-                        t.rows.push_back({std::to_string(rows[k]), tap,
-                                          study::measures()[measure].column, name});
-            }
-    return t;
-}
-
 // a tie with the truth has no order, and an error that is all wrong is not on its way to one
 Table orders_of(const Results& r) {
     Table t{{"problem", "series", "tap", "measure", "order", "half_width", "points"}, {}};
@@ -157,9 +133,11 @@ Table orders_of(const Results& r) {
 std::map<std::string, Table> derived_tables(const Results& r) {
     if (r.cells.empty()) return {};
     const auto lines = lines_of(r);
-    return {{"cells", cells_table(r, lines)},  {"errors", figures_table(r.cells)},
-            {"scenes", scenes_table(r.cells)}, {"cheapest", cheapest_table(r)},
-            {"fronts", fronts_of(r, lines)},   {"orders", orders_of(r)}};
+    return {{"cells", cells_table(r, lines)},
+            {"errors", figures_table(r.cells)},
+            {"scenes", scenes_table(r.cells)},
+            {"cheapest", cheapest_table(r)},
+            {"orders", orders_of(r)}};
 }
 
 }  // namespace jvari::bench::report

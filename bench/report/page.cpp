@@ -38,7 +38,8 @@ std::string shared_program() {
                    "sound_charts.js", "run.js", "verdict.js"});
 }
 static std::string page_program() {
-    return shared_program() + joined({"table.js", "view.js", "chart.js", "player.js", "page.js"});
+    return shared_program() +
+           joined({"table.js", "view.js", "chart.js", "player.js", "answer.js", "page.js"});
 }
 
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts) {

@@ -40,13 +40,12 @@ Results read_results(const std::filesystem::path&);
 // and draws them.
 
 // cells:    what is known of each but its errors, with its problem and series in front, and with
-//           trusted, may_win, run (its name in a sentence), line (its series beside the front; none
-//           where another of its scheme's numbers of modes is better) behind
+//           trusted, may_win, run (its name in a sentence), line (its series in the first chart;
+//           none where another of its scheme's numbers of modes is better) behind
 // errors:   row (of cells), tap, measure, value, floor, certificate; shown, text: of those that are
 //           no more than bounded (compare/bound.hpp)
 // scenes:   problem, headline, certificate (of its first cell), spread and busy (of its clock)
 // cheapest: problem and goal ("10 %"), then what compare::cheapest_of says
-// fronts:   row, tap, measure, cost: the cells on the front of each error and cost
 // orders:   problem, series, tap, measure, order, half_width, points: as observed over the rates
 std::map<std::string, store::Table> derived_tables(const Results&);
 

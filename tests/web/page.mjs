@@ -226,10 +226,10 @@ const parts = {
     ];
     const v = await see(`verdict(${JSON.stringify(by_hand)}, 0.1)`);
     expect(
-      v.best.scheme === "modal_quadratised" &&
-        String(v.ties.map(p => p.scheme)) === "modal_two_point" &&
+      v.best.scheme === "modal_two_point" &&
+        String(v.ties.map(p => p.scheme)) === "modal_quadratised" &&
         String(v.perhaps.map(p => p.scheme)) === "sitar_fdm",
-      "where quartiles touch the more accurate is named and the other a tie, a control " +
+      "the cheapest is named, and as a tie what touches its quartiles; a control " +
         `does not win, what may be within is named: ${JSON.stringify(v)}`,
     );
 

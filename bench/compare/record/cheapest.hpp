@@ -24,8 +24,7 @@ struct Answer {
     const char* status;
     std::optional<std::size_t> cell;  // found
     Bound bound{};                    // of its error
-    // other schemes with a cell that meets the target and whose quartiles of cost touch, the
-    // cheapest such cell of each
+    // cells that meet the target and are no dearer by this clock (analysis/cheapest.hpp)
     std::string ties{};
     // other schemes with a cheaper cell (not_known: any cell) of which it is not certain
     std::string perhaps{};

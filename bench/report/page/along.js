@@ -108,7 +108,6 @@ function convergence_spec(choice, print) {
   );
   return {
     legend: names,
-    zooms: choice.narrow ? null : {x: "zoom_rate", y: "zoom_y"},
     spec: framed(
       {
         height: print ? Math.min(420, Math.max(220, 0.75 * print_width())) : 420,

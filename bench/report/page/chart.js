@@ -1,6 +1,6 @@
 // A chart of the page: its menus choose what its specification is made of, its colours follow the
 // page's, its scene is the page's. Its legend shows line and marker of what is drawn, and brings
-// out what is clicked.
+// out what is clicked; the first chart has its names in the ranking beside it.
 const dark = matchMedia("(prefers-color-scheme: dark)"),
   narrow = matchMedia("(max-width: 720px)");
 
@@ -42,7 +42,12 @@ const svg_element = (name, attributes) => {
 };
 // A line with its dash and its marker, as the chart has them.
 function sample_of(look) {
-  const sample = svg_element("svg", {width: 40, height: 14, "aria-hidden": "true"}),
+  const sample = svg_element("svg", {
+      width: 40,
+      height: 14,
+      viewBox: "0 0 40 14",
+      "aria-hidden": "true",
+    }),
     symbol = vega.path(),
     colour = shade(look.colour);
   vega.pathSymbols(look.shape).draw(symbol, 60);
@@ -61,15 +66,14 @@ function sample_of(look) {
   return sample;
 }
 
-function chart_of(chart, section, first) {
+function chart_of(chart, section) {
   const frame = element("div", {
     className: chart.scrolls || chart.wide_on_phones ? "chart wide" : "chart",
     id: "chart-" + drawings.length,
   });
   const menus = element("div", {className: "menus"}),
     said = element("p", {className: "soft"}),
-    legend = element("div", {className: "legend"}),
-    zoom = element("div", {className: "zoom"});
+    legend = element("div", {className: "legend"});
   menus.dataset.chart = frame.id;
   legend.setAttribute("role", "group");
   legend.setAttribute("aria-label", "lines of the chart: a click brings one out");
@@ -83,6 +87,7 @@ function chart_of(chart, section, first) {
     scene,
     narrow: narrow.matches,
     every: every.checked,
+    ...chart.chosen?.(),
     ...Object.fromEntries(
       [...selects].map(([menu, select]) => [menu.key, menu.choices[select.selectedIndex][0]]),
     ),
@@ -116,7 +121,6 @@ function chart_of(chart, section, first) {
         .filter(([menu]) => menu.choices.length > 1)
         .map(([menu, select]) => element("label", {}, menu.label + " ", select)),
     );
-    if (first && chart.main) menus.append(element("label", {}, every, " every scheme"));
   }
   function fill_legend(names) {
     const looks = looks_of(names);
@@ -142,42 +146,18 @@ function chart_of(chart, section, first) {
       }),
     );
   }
-  // of a chart that can be zoomed: buttons, for who has no wheel; zooms: channel, its signal
-  function fill_zoom(zooms) {
-    const by = factor => async () => {
-      for (const [channel, signal] of Object.entries(zooms)) {
-        const scale = vega_view.scale(channel),
-          [near, far] = scale.range(),
-          middle = (near + far) / 2,
-          half = (factor * (far - near)) / 2;
-        vega_view.signal(
-          signal,
-          factor === null
-            ? null
-            : [scale.invert(middle - half), scale.invert(middle + half)].sort((a, b) => a - b),
-        );
-      }
-      await vega_view.runAsync();
-    };
-    const buttons = [
-      ["+", "zoom in", 0.7],
-      ["\u2212", "zoom out", 1 / 0.7],
-      ["whole", "the whole chart", null],
-    ];
-    zoom.replaceChildren(
-      ...(zooms ? buttons : []).map(([text, name, factor]) =>
-        element(
-          "button",
-          {type: "button", title: name, ariaLabel: name, onclick: by(factor)},
-          text,
-        ),
-      ),
-    );
-  }
   async function draw() {
     frame.setAttribute("data-drawn", "false");
     if (vega_view) vega_view.finalize();
-    const {spec, legend: names = [], labels, few, zooms} = chart.spec(choice(), false);
+    const {
+      spec,
+      legend = [],
+      names = legend,
+      labels,
+      first,
+      few,
+      zooms,
+    } = chart.spec(choice(), false);
     picked = picked.filter(name => names.includes(name));
     every.parentElement?.toggleAttribute("hidden", few === true);
     ({view: vega_view} = await vegaEmbed(frame, coloured(spec), {
@@ -187,27 +167,11 @@ function chart_of(chart, section, first) {
       tooltip: {theme: dark.matches ? "dark" : "light"},
       actions: {export: true, source: false, compiled: false, editor: false},
     }));
-    fill_legend(names);
-    fill_zoom(zooms);
+    fill_legend(legend);
     vega_view.signal("picked", picked);
-    const label = () =>
-      vega_view.data(
-        "labels",
-        narrow.matches || names.length > 8
-          ? []
-          : line_labels(
-              names,
-              labels,
-              vega_view.scale("x"),
-              vega_view.scale("y"),
-              vega_view.width(),
-              vega_view.height(),
-            ),
-      );
-    if (labels) label();
+    const label = () => labels && vega_view.data("labels", labels(vega_view));
+    label();
     await vega_view.runAsync();
-    for (const signal of labels && zooms ? Object.values(zooms) : [])
-      vega_view.addSignalListener(signal, () => requestAnimationFrame(() => label().runAsync()));
     // what has no name is no picture to a reader's ear; the chart as a whole has one, and the
     // tables its numbers
     for (const part of frame.querySelectorAll("svg [role]:not([aria-label])")) {
@@ -215,6 +179,7 @@ function chart_of(chart, section, first) {
       part.removeAttribute("aria-roledescription");
     }
     frame.querySelector("summary")?.setAttribute("aria-label", "save the picture of " + chart.name);
+    chart.seen?.({view: vega_view, frame, names, label});
     frame.dataset.scene = scene;
     frame.setAttribute("data-drawn", "true");
   }
@@ -243,12 +208,7 @@ function chart_of(chart, section, first) {
   frame.setAttribute("role", "group");
   frame.setAttribute("aria-label", "chart: " + chart.name);
   every.onchange = draw;
-  const whole = [frame, element("div", {className: "below"}, legend, zoom), said];
-  return {
-    parts:
-      first && chart.main
-        ? [...whole, folded("Another error or cost, every scheme", [menus])]
-        : [menus, ...whole],
-    draw,
-  };
+  const below = element("div", {className: "below"}, legend);
+  if (chart.main) below.append(element("label", {className: "soft"}, every, " every scheme"));
+  return {parts: [menus, frame, below, said], draw};
 }

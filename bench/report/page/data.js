@@ -83,6 +83,16 @@ const figure_of = (cell, error, what) => number(cell.errors[error]?.[what]);
 const is_bounded = (cell, error) => Boolean(cell.errors[error]?.text);
 const error_of = (cell, error) =>
   figure_of(cell, error, is_bounded(cell, error) ? "shown" : "value");
+// What an error may be at most and is at least: bench/compare/bound.hpp, in which spectral measures
+// count as measured. NaN where the uncertainty of the reference is unknown.
+function bound_of(cell, error) {
+  const value = figure_of(cell, error, "value"),
+    certificate = is_percent(error) ? figure_of(cell, error, "certificate") : 0;
+  return {
+    most: value + certificate,
+    least: value < Infinity ? Math.max(0, value - (certificate >= 0 ? certificate : value)) : value,
+  };
+}
 const of_scene = (rows, scene) => rows.filter(row => row.problem === scene);
 const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row[column])));
 
@@ -105,6 +115,32 @@ function errors_in(rows) {
     .filter(e => rows.some(c => Number.isFinite(figure_of(c, e.column, "value"))));
   const headline = records("scenes").find(s => s.problem === rows[0]?.problem)?.headline;
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
+}
+// An error as a sentence has it: "the force on the nut, first 50 ms".
+function spoken_error({measure, tap, title}, rows) {
+  const name = tap || rows[0]?.[measure === "third_octave_db" ? "headline_bridge" : "headline_nut"],
+    scene = page.manifest?.scenes?.[rows[0]?.scene] ?? page.manifest?.scene?.text ?? "",
+    [, quantity = ""] =
+      scene
+        .split("[[tap]]")
+        .find(text => text.includes(`name = "${name}"`))
+        ?.match(/quantity = "(\w+)"/) ?? [],
+    [what, where] = quantity.split("_"),
+    signal = quantity.endsWith("_force")
+      ? `the force on the ${what}` + (name === what ? "" : `, tap ${name}`)
+      : quantity
+        ? `the ${what} at ${name}`
+        : name
+          ? `the signal at ${name}`
+          : "the signal";
+  const window = {
+    error_l2_10ms: "first 10 ms",
+    error_l2_50ms: "first 50 ms",
+    error_l2_whole: "whole run",
+  }[measure];
+  return window
+    ? `${signal}, ${window}${after_pluck(rows)}`
+    : `${measure === "third_octave_db" ? "third octaves" : title.replace(/( \[.*)?,? ?(tap .*)?$/, "")} of ${signal}${after_pluck(rows)}`;
 }
 // The menus of an error: its measure and its tap.
 function error_menus(rows) {

@@ -31,16 +31,15 @@ const shapes = [
   "arrow",
   "M0,-.5L.12,-.16L.48,-.16L.19,.06L.3,.4L0,.2L-.3,.4L-.19,.06L-.48,-.16L-.12,-.16Z",
 ]; // a star
-// A difference is in ink, the front a track with edges. The edges have a contrast of 3 or more to
-// the page, what lies between them leaves the lines on it seen.
+// A difference is in ink, what is asked for in the page's own blue.
 const ink = ["#1d2329", "#e6eaee"],
-  front_edge = ["#868c92", "#6f7780"],
-  front_track = ["#f0f2f4", "#20272d"];
+  key = ["#0072b2", "#56b4e9"],
+  paper = ["#fff", "#14181c"];
 const dark_of = Object.fromEntries([
   ...families.map(([, , light, dark]) => [light, dark]),
   ink,
-  front_edge,
-  front_track,
+  key,
+  paper,
 ]);
 
 let known_schemes = null; // name: its family and its place there
@@ -262,17 +261,26 @@ const quantity = (field, axis = {}, scale = {}) => ({
 });
 const log = padding => ({type: "log", nice: false, padding});
 const is_percent = error => error.startsWith("error_l2_");
-const error_text = (x, error) => (is_percent(error) ? percent(x) : decibels(x));
+const error_text = (x, error) =>
+  is_percent(error) || /convergence|relative/.test(error)
+    ? percent(x)
+    : error.includes("_hz")
+      ? `${digits(x, 2)}\u00a0Hz`
+      : decibels(x);
 // Decades are labelled; on an axis of less than three decades 2 and 5 as well. `text`: how a
 // labelled value is written.
 function decades(channel, text) {
-  const digit = "round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))";
+  const digit = "round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))",
+    shown =
+      `(${digit} == 1 || (domain('${channel}')[1]/domain('${channel}')[0] < 1000 && ` +
+      `indexof([2, 5], ${digit}) >= 0))`,
+    only = value => ({condition: {test: shown, value}, value: 0});
   return {
     title: null,
     labelOverlap: true,
-    labelExpr:
-      `${digit} == 1 || (domain('${channel}')[1]/domain('${channel}')[0] < 1000 && ` +
-      `indexof([2, 5], ${digit}) >= 0) ? (${text}) : ''`,
+    labelExpr: `${shown} ? (${text}) : ''`,
+    gridOpacity: only(0.6),
+    tickOpacity: only(1),
   };
 }
 const plain_number =

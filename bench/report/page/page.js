@@ -1,7 +1,7 @@
 // The page from its data: sections in the order in which they came, what it was measured with at
 // the foot.
 const drawings = [];
-const report = {}; // what is made of the tables: {verdicts, sections, scenes}
+const report = {}; // what is made of the tables: {sections, scenes, judged: scenes with an answer}
 
 function pictures_of(pictures) {
   return (pictures ?? []).map(p =>
@@ -16,26 +16,15 @@ function pictures_of(pictures) {
 
 // What stands in a section below its heading.
 function parts_of(s) {
-  const parts = [],
-    notes = s.notes.map(text => element("p", {className: "soft"}, text));
-  const first = s === report.sections[0];
-  if (!first || !s.charts.length) parts.push(...notes);
+  const parts = s.notes.map(note);
   for (const chart of s.charts) {
-    const {parts: drawn, draw} = chart_of(chart, s.id, first);
+    const {parts: drawn, draw} = chart_of(chart, s.id);
     parts.push(...drawn);
     drawings.push({id: s.id, draw});
   }
-  if (first && s.charts.length && notes.length) parts.push(folded("How to read this chart", notes));
-  parts.push(
-    ...pictures_of(s.pictures),
-    ...s.left_out.map(text => element("p", {className: "soft"}, text)),
-  );
+  parts.push(...pictures_of(s.pictures), ...s.left_out.map(note));
   if (s.table) parts.push(...table_of(s.table, s.heading));
   return parts;
-}
-
-function folded(title, parts) {
-  return element("details", {className: "note"}, element("summary", {}, title), ...parts);
 }
 
 // A section that a click opens. Its charts are drawn when it is first seen: a page of twenty charts
@@ -74,28 +63,15 @@ const words = [
     "horizon",
     "first instant at which the running error passes 10 %. After it judge by third octaves",
   ],
-  ["third octaves", "root mean square over the bands of the difference in level"],
   [
     "noise floor",
     "the error that a change of the start by 1e-12 makes. Smaller errors cannot be told apart",
-  ],
-  [
-    "uncertainty",
-    "how wrong the reference itself may be (its certificate). After \u2264 it is added to " +
-      "the error",
   ],
   [
     "not to be trusted",
     "the run itself shows a fault: the contact pulls the string (adhesion), stored energy " +
       "remains in an open contact (psi_gap), or the energy balance does not close (energy)",
   ],
-  ["control", "a scheme with a known fault, run to show that the comparison finds it"],
-  [
-    "cost",
-    "computing time of one core per second of sound, the median of several runs; quartiles " +
-      "beside it",
-  ],
-  ["front", "runs that no other run certainly beats in both cost and error"],
 ];
 function how_to_read() {
   const list = element("dl");
@@ -124,6 +100,8 @@ function how_to_read() {
       whole,
     );
   });
+  if (page.command)
+    texts.push(element("p", {className: "soft"}, "Made by ", element("code", {}, page.command)));
   return element(
     "details",
     {id: "reading", className: "part"},
@@ -159,10 +137,13 @@ function fill_page() {
   const main = document.querySelector("main"),
     nav = document.querySelector("nav");
   main.classList.toggle("run", Boolean(page.run));
-  report.verdicts = verdicts();
   report.sections = sections_of();
+  const traces = report.sections.find(s => s.id === "sounds"),
+    [first, ...rest] = report.sections.filter(s => s !== traces);
+  const answered = first?.id === "work-precision" && first.charts.length > 0;
+  report.judged = answered ? first.charts[0].scenes : [];
   report.scenes = distinct([
-    ...report.verdicts.map(v => v.scene),
+    ...report.judged,
     ...report.sections.flatMap(s => s.charts).flatMap(c => c.scenes ?? []),
   ]);
   if (report.scenes.length > 1) nav.after(scene_menu(report.scenes));
@@ -171,19 +152,20 @@ function fill_page() {
     .join(" \u00b7 ");
   document.querySelector("h1").textContent = finding_of_maps() || finding_of_trim() || page.title;
   if (page.missing) main.append(element("p", {className: "soft"}, page.missing));
-  const [first, ...rest] = report.sections;
   const beginning = element("div", {className: "first"}),
-    playing = player_of(sounds());
-  if (first)
+    heard = sounds().length ? [hear_it(), ...(traces ? [see_it(traces)] : [])] : [];
+  if (answered) beginning.append(...answer_of(first, heard));
+  else if (first)
     beginning.append(
-      element("section", {id: first.id, ariaLabel: first.heading}, ...parts_of(first)),
+      ...(page.run ? heard : []),
+      element(
+        "section",
+        {id: first.id, className: "card", ariaLabel: first.heading},
+        ...parts_of(first),
+      ),
+      ...(page.run ? [] : heard),
     );
-  if (report.verdicts.length) beginning.append(verdict_of(report.verdicts, page.command));
-  main.append(
-    ...(page.run || records("path").length ? [...playing, beginning] : [beginning, ...playing]),
-    ...rest.map(section_of),
-    how_to_read(),
-  );
+  main.append(beginning, ...rest.map(section_of), how_to_read());
   for (const [id, heading] of [
     ...rest.map(s => [s.id, s.heading]),
     ["reading", "How to read it"],
@@ -206,6 +188,7 @@ function fill_page() {
 (async () => {
   const first = fill_page();
   if (first) await draw_in(first.id);
+  if (document.getElementById("sounds")) await draw_in("sounds");
   const at = view.get("at") ?? location.hash.slice(1);
   if (at) show(at);
   document.documentElement.dataset.ready = "true";

@@ -1,39 +1,7 @@
-// One player for all sounds of a scene. They run side by side from one clock and one of them is
-// heard, so that another takes over in the middle of the sound. Space plays and stops; keys 1 to 9
-// choose. A blind comparison hides the names and deals the keys anew until it is asked for them.
-const player = {
-  sounds: [],
-  shown: [],
-  heard: null,
-  context: null,
-  playing: null,
-  started: 0,
-  buttons: [],
-  play: null,
-  blind: null,
-  level: null,
-};
-
-const sound_like = (scheme, rate, scene) =>
-  player.sounds.find(s => s.name === scheme && s.detail === rate && s.problem === scene);
-function listen_to(sound) {
-  const button = element(
-    "button",
-    {type: "button", className: "listen", onclick: () => listen(sound)},
-    "\u25b6 listen",
-  );
-  button.setAttribute("aria-label", `listen to ${sound.name}, ${sound.detail}`);
-  return button;
-}
-
-function listen(sound) {
-  if (player.blind.checked) {
-    // its name has been said
-    player.blind.checked = false;
-    player.blind.onchange();
-  }
-  hear(sound, true);
-}
+// Hear it: two sounds of a scene run side by side from one clock and one of them is heard, so that
+// the other takes over in the middle of the sound. X is one of the two by lot; guesses are counted.
+// Space plays and stops, the keys a, b and x choose.
+const player = {pair: [], hidden: 0, heard: 0, right: 0, guesses: 0, playing: null, context: null};
 
 // For ears: the mean taken away, the ends faded over 5 ms, all sounds at one root mean square, the
 // loudest that leaves every peak within 0.9.
@@ -70,99 +38,104 @@ const level_of = sounds =>
   );
 function buffer_of(sound) {
   if (sound.buffer) return sound.buffer;
-  const signal = levelled(sound, (player.level ??= level_of(player.sounds)));
+  const signal = levelled(sound, (player.level ??= level_of(sounds())));
   sound.buffer = player.context.createBuffer(1, signal.length, sound.rate);
   sound.buffer.copyToChannel(signal, 0);
   return sound.buffer;
 }
 
+const audible = () => (player.heard === 2 ? player.hidden : player.heard);
 function stop() {
   player.playing?.forEach(({source}) => {
     source.onended = null;
     source.stop();
   });
   player.playing = null;
-  mark();
+  player.mark();
 }
-
 async function play() {
   player.context ??= new AudioContext();
   await player.context.resume();
-  const buffers = player.shown.map(buffer_of);
+  const buffers = player.pair.map(buffer_of);
   stop();
   player.started = player.context.currentTime + 0.02;
   player.playing = buffers.map((buffer, k) => {
     const source = new AudioBufferSourceNode(player.context, {buffer}),
-      gain = new GainNode(player.context, {gain: player.shown[k] === player.heard ? 1 : 0});
+      gain = new GainNode(player.context, {gain: k === audible() ? 1 : 0});
     source.connect(gain).connect(player.context.destination);
     source.start(player.started);
-    return {source, gain, sound: player.shown[k]};
+    return {source, gain};
   });
   player.playing.reduce((a, b) =>
     b.source.buffer.duration > a.source.buffer.duration ? b : a,
   ).source.onended = stop;
-  mark();
+  player.mark();
 }
-
-function hear(sound, from_start = false) {
-  player.heard = sound;
-  player.playing?.forEach(({gain, sound: of}) => {
-    gain.gain.value = of === sound ? 1 : 0;
+function hear(which) {
+  // what sounds already is stopped
+  if (player.playing && player.heard === which) return stop();
+  player.heard = which;
+  player.playing?.forEach(({gain}, k) => {
+    gain.gain.value = k === audible() ? 1 : 0;
   });
-  mark();
-  if (from_start) play();
+  player.mark();
+  if (!player.playing) play();
 }
 
-function mark() {
-  player.buttons.forEach((button, k) =>
-    button.setAttribute("aria-pressed", String(player.shown[k] === player.heard)),
-  );
-  if (player.play) player.play.textContent = player.playing ? "\u25a0 stop" : "\u25b6 play";
-}
-
-function player_of(sounds) {
-  if (!sounds.length) return [];
-  player.sounds = sounds;
-  const choices = element("div", {className: "choices"});
-  choices.setAttribute("role", "group");
-  choices.setAttribute("aria-label", "what is heard");
-  player.play = element("button", {
-    type: "button",
-    className: "play",
-    onclick: () => (player.playing ? stop() : play()),
-  });
-  player.blind = element("input", {type: "checkbox"});
-  const fill = () => {
-    stop();
-    const own = sounds.filter(s => s.problem === scene_shown()),
-      answers = report.verdicts.find(v => v.scene === scene_shown())?.answers ?? [];
-    const place = s =>
-      s.reference ? 0 : answers.some(a => a.scheme === s.name && a.rate === s.detail) ? 1 : 2;
-    player.shown = (own.length ? own : [...sounds]).sort((a, b) => place(a) - place(b));
-    if (player.blind.checked)
-      player.shown = player.shown
-        .slice(0, 9)
-        .map(s => [Math.random(), s])
-        .sort(([a], [b]) => a - b)
-        .map(([, s]) => s);
-    player.heard = player.shown[0];
-    player.buttons = player.shown.map((sound, k) => {
-      const name = player.blind.checked ? "sound" : spoken(sound.name),
-        detail = player.blind.checked ? "" : sound.detail;
-      return element(
-        "button",
-        {type: "button", onclick: () => hear(sound)},
-        ...(k < 9 ? [element("kbd", {}, String(k + 1)), " "] : []),
-        name,
-        element("span", {className: "soft"}, " " + detail),
-      );
+// Of a scene's sounds A is the reference and B the answer's; `prefer` tells which that is.
+function hear_it() {
+  const score = element("output", {className: "soft"}),
+    names = ["A", "B", "X"],
+    buttons = names.map((name, k) => element("button", {type: "button", onclick: () => hear(k)})),
+    selects = ["A", "B"].map(name => element("select", {ariaLabel: `what ${name} is`})),
+    guesses = [0, 1].map(k =>
+      element("button", {type: "button", className: "guess", onclick: () => guess(k)}, names[k]),
+    );
+  player.mark = () =>
+    buttons.forEach((button, k) => {
+      const sounds_now = player.playing && player.heard === k;
+      button.textContent = `${sounds_now ? "\u25a0" : "\u25b6"} ${names[k]}`;
+      button.setAttribute("aria-pressed", String(player.heard === k));
     });
-    choices.replaceChildren(...player.buttons);
-    mark();
+  function anew() {
+    stop();
+    Object.assign(player, {right: 0, guesses: 0, hidden: Math.random() < 0.5 ? 0 : 1});
+    score.textContent = "";
+  }
+  function guess(k) {
+    ++player.guesses;
+    player.right += k === player.hidden;
+    score.textContent = score_text(player.right, player.guesses);
+    stop();
+    player.hidden = Math.random() < 0.5 ? 0 : 1;
+  }
+  let own = [];
+  const choose_pair = () => {
+    player.pair = selects.slice(0, own.length).map(select => own[select.selectedIndex]);
+    anew();
+    player.seen?.();
   };
-  player.blind.onchange = fill;
+  player.prefer = best => {
+    const k = own.findIndex(s => s.series === best?.series && s.hertz === number(best?.rate));
+    if (k < 0 || own[k] === player.pair[1]) return;
+    selects[1].selectedIndex = k;
+    choose_pair();
+  };
+  const fill = scene => {
+    own = sounds().filter(s => s.problem === scene);
+    if (!own.length) own = [...sounds()];
+    own.sort((a, b) => b.reference - a.reference);
+    selects.forEach((select, k) => {
+      select.replaceChildren(
+        ...own.map(s => new Option(scheme_words(s.name) + (s.detail && `, ${s.detail}`))),
+      );
+      select.selectedIndex = Math.min(k, own.length - 1);
+    });
+    choose_pair();
+  };
+  selects.forEach(select => (select.onchange = choose_pair));
   on_scene.push(fill);
-  fill();
+  fill(scene_shown());
   document.addEventListener("keydown", event => {
     if (
       event.ctrlKey ||
@@ -171,31 +144,42 @@ function player_of(sounds) {
       event.target.closest?.("input, select, textarea")
     )
       return;
-    const k = Number(event.key) - 1;
+    const k = names.indexOf(event.key.toUpperCase());
     if (event.key === " " && !event.target.closest?.("button, a, summary, [tabindex]"))
       player.playing ? stop() : play();
-    else if (Number.isInteger(k) && k >= 0 && k < Math.min(9, player.shown.length))
-      hear(player.shown[k]);
+    else if (k >= 0 && (k < 2 ? k : 1) < own.length) hear(k);
     else return;
     event.preventDefault();
   });
-  return [
-    element(
-      "section",
-      {id: "player", ariaLabel: "sounds"},
-      element(
-        "div",
-        {className: "menus"},
-        player.play,
-        element("label", {}, player.blind, " blind: hide the names"),
-        element(
-          "span",
-          {className: "soft"},
-          "Space plays and stops. Keys 1 to 9 change what is heard while the sound goes " +
-            "on, at equal loudness.",
-        ),
-      ),
-      choices,
-    ),
-  ];
+  const pair = own.length > 1;
+  return element(
+    "section",
+    {id: "player", className: "card", ariaLabel: "sounds"},
+    element("h2", {}, pair ? "Hear it, blind" : "Hear it"),
+    ...(pair ? [0, 1] : [0]).map(k => element("p", {className: "ab"}, buttons[k], selects[k])),
+    ...(pair ? [element("p", {className: "ab"}, buttons[2], "is", ...guesses, score)] : []),
+    ...page.left_out.sounds.map(note),
+  );
+}
+// See it: the trace of what is heard over its reference's.
+function see_it(section) {
+  const [chart] = section.charts;
+  if (!chart) return "";
+  const {parts, draw} = chart_of(
+    {
+      ...chart,
+      menus: scene => chart.menus(scene).filter(menu => menu.key !== "sound_field"),
+      chosen: () => ({sound_field: [...player.pair].reverse().find(s => !s.reference)?.file}),
+    },
+    section.id,
+  );
+  const drawing = {id: section.id, draw};
+  drawings.push(drawing);
+  player.seen = () => drawing.drawn && draw();
+  return element(
+    "section",
+    {id: section.id, className: "card", ariaLabel: section.heading},
+    element("h2", {}, "See it"),
+    ...parts,
+  );
 }

@@ -26,6 +26,7 @@ function sounds() {
       ...row,
       ...sound,
       reference,
+      hertz: number(row.rate),
       detail: reference ? "" : kilohertz(number(row.rate)),
       name:
         row.what ||
@@ -109,7 +110,10 @@ function wave_spec(choice, print) {
       },
       head,
     ];
-    return {legend: [], spec: framed({height: 300, encoding: {x}, layer}, title, print)};
+    return {
+      legend: [],
+      spec: framed({height: print ? 300 : 200, encoding: {x}, layer}, title, print),
+    };
   }
   const first = Math.round(from * wave.rate),
     count = Math.min(wave.samples.length - first, Math.floor(choice.until_field * wave.rate) + 1);
@@ -133,8 +137,7 @@ function wave_spec(choice, print) {
   ];
   return {
     legend: [],
-    zooms: {x: "zoom_ms"},
-    spec: framed({height: 300, encoding: {x}, layer}, title, print),
+    spec: framed({height: print ? 300 : 200, encoding: {x}, layer}, title, print),
   };
 }
 function waveform_section() {
@@ -142,7 +145,6 @@ function waveform_section() {
     scenes = distinct(drawn.map(s => s.problem)),
     longest = Math.max(...sounds().map(s => (s.samples.length * 3) / 8 / s.rate));
   if (!sounds().length || page.run) return null;
-  const {tap, quantity: of} = sounds()[0];
   const menus = scene => [
     {
       label: "scheme",
@@ -178,13 +180,7 @@ function waveform_section() {
     heading: "Traces, to look at and to listen to",
     charts,
     left_out: page.left_out.sounds,
-    notes: [
-      `Tap ${tap} (${of}), as the scheme gives it: ` +
-        `${of === "nut_force" ? "the force that drives the body, " : ""}not differentiated, ` +
-        "no body. Sounds are level-matched: the same root mean square, their mean taken away.",
-      "Drag the picture to move along. Pinch, turn the wheel with Ctrl held, or press + " +
-        "and \u2212 to zoom; double-click to go back.",
-    ],
+    notes: [],
   };
 }
 

@@ -1,160 +1,194 @@
-// What the folder says of each of its scenes: the cheapest scheme for each accuracy and how certain
-// that is, what the reference is, how the machine was. The program has found the cheapest and
-// judged every cell; here it is put in words.
-function wanted(c, rows) {
-  if (c.measure === "third_octave_db") return `third octaves within ${c.goal}${after_pluck(rows)}`;
-  const window = {error_l2_50ms: "first 50 ms", error_l2_10ms: "first 10 ms"}[c.measure];
-  return `waveform within ${c.goal}, ${window ?? "whole run"}${after_pluck(rows)}`;
+// What the folder says of each of its scenes: the cheapest scheme within any tolerance, and what is
+// known of it. The rule is the program's (analysis/cheapest.hpp), so that a tolerance can be
+// dragged; what is known of each cell the program has said.
+const scheme_words = name => spoken(name).replaceAll("_", " ");
+const place_words = c => c.run.slice(variant(c).length).replace(/^,/, ":"); // ": 133 modes at 88.2 kHz"
+const run_words = c => scheme_words(variant(c)) + place_words(c);
+const times_words = x => `${digits(x, 2)}\u00a0\u00d7`;
+// "at most 0.57 %", "0.49 %", "0.49 % as measured"; "not known"
+function quoted(c, error) {
+  const text = error_text(error_of(c, error), error),
+    says = c.errors[error]?.text ?? "";
+  if (!(error_of(c, error) >= 0)) return "not known";
+  if (is_bounded(c, error)) return says === "not known" ? says : "at most " + text;
+  return Number.isNaN(bound_of(c, error).most) ? text + " as measured" : text;
 }
-// A row of the cheapest: its error as it is quoted, with the uncertainty of the reference where
-// that is more than a tenth of it.
-function quoted(c) {
-  const bounded = number(c.bound) - number(c.error) > 0.1 * number(c.error);
-  return {bounded, text: error_text(number(bounded ? c.bound : c.error), c.measure)};
+
+// offers: [{scheme, most, least, cost, lower, upper}]
+function cheapest_within(within, offers) {
+  const least = (all, of) => all.reduce((a, b) => (a && of(a) <= of(b) ? a : b), null),
+    met = o => o.most <= within,
+    best = least(offers.filter(met), o => o.cost),
+    tied = o => met(o) && o.lower <= best.upper && o.cost < 1.2 * best.cost;
+  const others = which => {
+    const found = new Map(); // of each other scheme the cheapest
+    for (const o of offers.filter(which))
+      if (o.scheme !== best?.scheme && !(found.get(o.scheme)?.cost <= o.cost))
+        found.set(o.scheme, o);
+    return [...found.values()];
+  };
+  const perhaps = others(o => !met(o) && o.least <= within && (!best || o.cost < best.cost));
+  if (!best) return {best, ties: [], perhaps};
+  const finest = least(
+    offers.filter(o => o.scheme === best.scheme && tied(o)),
+    o => o.most,
+  );
+  return {best, ties: [finest, ...others(tied)].filter(o => o && o !== best), perhaps};
 }
-// the trusted cell that comes nearest, where none is near enough
-function nearest_text(rows, measure) {
-  const near = rows.filter(c => c.may_win && Number.isFinite(error_of(c, measure)));
-  if (!near.length) return "no trusted run has this error";
-  const best = near.reduce((a, b) => (error_of(b, measure) < error_of(a, measure) ? b : a));
-  return `closest: ${best.run}, ${error_text(error_of(best, measure), measure)}`;
+const has_cost = c => number(c.cost_s_per_s) > 0;
+// schemes that were run and have no cost anywhere, where others have
+function unpriced_in(rows) {
+  const priced = new Set(rows.filter(has_cost).map(c => c.scheme));
+  return new Set(
+    rows
+      .filter(c => priced.size && c.may_win && c.status === "ok" && !priced.has(c.scheme))
+      .map(c => c.scheme),
+  );
 }
-function answer_of(c, rows) {
-  if (c.status !== "found") {
-    const open = c.status === "not_known";
-    return {
-      within: wanted(c, rows),
-      scheme: open ? "cannot be decided" : "none",
-      modes: "",
-      rate: "",
-      error: "",
-      cost: "",
-      certain: open
-        ? c.why + (c.perhaps && `; candidates: ${c.perhaps}`)
-        : nearest_text(rows, c.measure),
-    };
-  }
-  const found = quoted(c),
-    scheme = variant(c),
-    more = [
-      [c.ties, "a tie with "],
-      [c.perhaps, "perhaps for less "],
-      [c.as_published, "without matched compliance: "],
-    ];
+// {error, within, best, ties, perhaps, published: the cheapest without matched compliance,
+// ranking: of each scheme {scheme, best, nearest}, unpriced: likewise}
+function answer_at(rows, error, within) {
+  const offers = rows
+      .filter(c => c.may_win && Number.isFinite(figure_of(c, error, "value")))
+      .map(c => ({
+        c,
+        scheme: c.scheme,
+        ...bound_of(c, error),
+        cost: number(c.cost_s_per_s),
+        lower: number(c.cost_lower),
+        upper: number(c.cost_upper),
+      })),
+    priced = offers.filter(o => o.cost > 0),
+    found = cheapest_within(within, priced),
+    least = (all, of) => all.reduce((a, b) => (of(b) < of(a) ? b : a), all[0]),
+    met = all => all.filter(o => o.most <= within);
+  const rank = all =>
+    distinct(all.map(o => o.scheme)).map(scheme => {
+      const own = all.filter(o => o.scheme === scheme);
+      return {
+        scheme,
+        best: least(met(own), o => o.cost || o.most),
+        nearest: least(own, o => error_of(o.c, error)),
+        open: own.some(o => !(o.most <= within) && o.least <= within),
+      };
+    });
+  const guests = unpriced_in(rows);
   return {
-    within: wanted(c, rows),
-    scheme,
-    modes: c.modes,
-    rate: kilohertz(number(c.rate)),
-    error: (found.bounded ? "\u2264 " : "") + found.text,
-    cost: time_text(number(c.cost_s_per_s)),
-    colour: looks_of([scheme]).get(scheme).colour,
-    certain:
-      (c.why ||
-        (found.bounded ? "upper bound: includes the uncertainty of the reference" : "measured")) +
-      more.map(([text, before]) => (text ? `; ${before}${text}` : "")).join(""),
+    error,
+    within,
+    ...found,
+    published: least(
+      met(priced).filter(o => !o.c.options.includes("compliance=matched")),
+      o => o.cost,
+    ),
+    nearest: least(priced, o => error_of(o.c, error)),
+    ranking: rank(priced).sort(
+      (a, b) =>
+        (a.best?.cost ?? Infinity) - (b.best?.cost ?? Infinity) ||
+        error_of(a.nearest.c, error) - error_of(b.nearest.c, error),
+    ),
+    unpriced: rank(offers.filter(o => guests.has(o.scheme))),
   };
 }
-// The cheapest within 1 % of the waveform, else the first that is found: what it does, and how
-// fast.
-function finding_of(scene, cheapest, rows) {
-  const found = cheapest.filter(c => c.status === "found"),
-    best = found.find(c => number(c.target) === 0.01) ?? found[0];
-  if (!best) return `No scheme is known to be near enough on ${scene}`;
-  const {bounded, text} = quoted(best),
-    rate = kilohertz(number(best.rate)),
-    cost = number(best.cost_s_per_s),
-    matched = best.options.includes("compliance=matched");
+// The end of "To keep ... within 1 %"
+function finding_of({error, best, perhaps, nearest, unpriced}) {
+  const guests = unpriced
+    .map(({scheme, best: own, nearest: near, open}) =>
+      own
+        ? ` ${scheme_words(scheme)} keeps it too (${quoted(own.c, error)}): no cost measured.`
+        : ` ${scheme_words(scheme)} ${open ? "may keep it or not" : "does not keep it"} ` +
+          `(${quoted(near.c, error)}): no cost measured.`,
+    )
+    .join("");
+  if (best) return ` take ${run_words(best.c)}.${guests}`;
+  if (perhaps.length) return `: cannot be decided.${guests}`;
+  return `${nearest ? " is more than any run here does" : ": no trusted run has a cost"}.${guests}`;
+}
+// What stands below it, each a sentence; *what matters*.
+function consequences({error, within, best, ties, perhaps, published, nearest}, rows) {
+  const all = list =>
+    list
+      .slice(0, 3)
+      .map(o => `${run_words(o.c)} (${quoted(o.c, error)})`)
+      .join("; ") + (list.length > 3 ? ` and ${list.length - 3} more` : "");
+  const certificate = figure_of(rows[0], error, "certificate");
+  const unknown = "How wrong the reference itself may be is not known";
+  if (!best) {
+    const stated = records("cheapest").find(
+      c =>
+        c.problem === rows[0].problem &&
+        c.status === "none" &&
+        c.measure === error &&
+        number(c.target) >= within,
+    );
+    return perhaps.length
+      ? [
+          Number.isNaN(certificate)
+            ? `${unknown}.`
+            : `The reference itself may be wrong by *${error_text(certificate, error)}*.`,
+          `It may be kept by ${all(perhaps)}.`,
+        ]
+      : nearest
+        ? [stated?.why || `The closest is ${run_words(nearest.c)}: *${quoted(nearest.c, error)}*.`]
+        : [];
+  }
+  const {c, cost} = best,
+    // of modes that were measured
+    [beyond] = /what lies above .*? is not in your table/.exec(c.reference_doubling ?? "") ?? [],
+    worst = number(c.worst_block_of_deadline),
+    whole = error.replace(/error_l2_(10|50)ms/, "error_l2_whole"),
+    later = c.errors[whole];
+  return [
+    `It errs by *${quoted(c, error)}* and takes *${percent(cost)} of a core*: ` +
+      (cost < 1
+        ? `${Math.floor(1 / cost)} ${cost > 0.5 ? "voice" : "voices"} on one core.`
+        : "it is slower than real time."),
+    worst > 0 && `Its worst block takes ${percent(worst)} of the deadline.`,
+    c.options.includes("compliance=matched") &&
+      (published
+        ? `As published the cheapest is ${scheme_words(published.c.scheme)}` +
+          `${place_words(published.c)}, ` +
+          `${digits(published.cost / cost, 2)} times dearer.`
+        : "As published none gets there."),
+    later &&
+      whole !== error &&
+      `After the window: over the whole run it errs by ${quoted(c, whole)}.`,
+    ties.length && `No dearer by this clock: ${all(ties)}.`,
+    perhaps.length &&
+      `Perhaps for less: ${all(perhaps)}; the reference is not known well enough to tell.`,
+    Number.isNaN(number(scene_facts(rows).certificate)) && `${unknown}; this is as measured.`,
+    beyond && `W${beyond.slice(1)}.`,
+    scene_facts(rows).busy && `Costs: ${scene_facts(rows).busy}.`,
+  ].filter(Boolean);
+}
+const scene_facts = rows => records("scenes").find(s => s.problem === rows[0]?.problem) ?? {};
+// How far a line can be dragged, and where it stands at first: at 1 % or 1 dB where a run is known
+// to be so near, else at the next that a run is.
+function tolerances(rows, error) {
+  const usual = is_percent(error) ? [0.01, 0.1] : [1, 3],
+    first = usual.find(t => answer_at(rows, error, t).best) ?? usual[0],
+    {ranking, unpriced} = answer_at(rows, error, first),
+    least = [...ranking, ...unpriced].map(r => error_of(r.nearest.c, error)).filter(y => y > 0);
+  return {
+    first,
+    from: Number((0.7 * Math.min(first, ...least)).toPrecision(1)),
+    to: Number((1.5 * Math.max(first, ...least)).toPrecision(1)),
+  };
+}
+// By chance alone so many guesses or more are right: one side of the binomial test.
+function chance(right, guesses) {
+  let p = 0;
+  for (let k = 0, ways = 1; k <= guesses; ways *= (guesses - k) / (k + 1), ++k)
+    if (k >= right) p += ways;
+  return p / 2 ** guesses;
+}
+function score_text(right, guesses) {
+  if (!guesses) return "";
+  const p = chance(right, guesses);
   return (
-    `${best.scheme}${matched ? " with matched compliance" : ""} errs by ` +
-    `${bounded ? "at most " : ""}${text}${after_pluck(rows)}${rate && ` at ${rate}`}, ` +
-    `${digits(cost < 1 ? 1 / cost : cost, 2)} times ${cost < 1 ? "faster" : "slower"} than ` +
-    "real time"
+    `so far ${right} of ${guesses}: ${p < 0.05 ? "you hear a difference" : "no difference shown"} ` +
+    `(p = ${digits(p, 2)})`
   );
-}
-function reference_text(s, rows) {
-  const name = page.manifest?.reference?.name ?? rows[0]?.reference ?? "",
-    modes = number(rows[0]?.reference_modes),
-    horizon = number(rows[0]?.reference_horizon_s),
-    certificate = number(s.certificate);
-  // its modes were measured
-  const beyond = /what lies above .*? is not in your table/.exec(
-    rows[0]?.reference_doubling ?? "",
-  )?.[0];
-  if (!name) return "";
-  return (
-    `Reference: ${name}${Number.isNaN(modes) ? "" : ` with ${modes} modes`}. Its uncertainty is ` +
-    (Number.isNaN(certificate)
-      ? "unknown."
-      : `${error_text(certificate, s.headline)} in the first error of the table.`) +
-    (beyond ? ` W${beyond.slice(1)}.` : "") +
-    (Number.isNaN(horizon)
-      ? ""
-      : " Two reference runs whose starting points differ by 1e-12 agree within 10 % for " +
-        `${digits(horizon, 3)} s${after_pluck(rows)}.`)
-  );
-}
-// schemes that carry another number of modes than the reference: their error is of the cut as well
-function modes_text(rows) {
-  const of_reference = number(rows[0]?.reference_modes);
-  const others = distinct(
-    rows
-      .filter(c => c.status === "ok" && number(c.modes) > 0 && number(c.modes) !== of_reference)
-      .map(c => c.scheme),
-  ).sort();
-  return Number.isNaN(of_reference) || !others.length
-    ? ""
-    : `The reference has ${of_reference} modes. These schemes have fewer or more, and that ` +
-        `difference is part of their error: ${others.join(", ")}.`;
-}
-function runs_text(rows) {
-  const count = of => rows.filter(of).length,
-    ok = count(c => c.status === "ok"),
-    left = count(c => c.status === "not_needed"),
-    refused = count(c => c.status === "refused");
-  const flagged = count(c => c.status === "ok" && !c.trusted),
-    failed = rows.length - ok - left - refused;
-  const some = (n, text) => (n ? `, ${n} ${text}` : "");
-  return (
-    `${ok === rows.length ? `All ${ok}` : `${ok} of ${rows.length}`} runs succeeded` +
-    some(flagged, "of them with a flag against them") +
-    some(failed, "failed") +
-    some(left, "left out, because a cheaper one does as well") +
-    `${some(refused, "were refused")}.`
-  );
-}
-function machine_text(s) {
-  const {cpu, load, cores} = page.manifest ?? {},
-    spread = number(s.spread);
-  if (!cpu || Number.isNaN(spread)) return "";
-  const busy = load !== undefined && cores !== undefined;
-  return (
-    `Timed on ${cpu}${busy ? `, ${cores} cores, at a load of ${digits(load, 2)}` : ""}; ` +
-    `the costs scatter by \u00b1${(100 * spread).toFixed(0)} % between their quartiles (median).`
-  );
-}
-function verdicts() {
-  return records("scenes").map(s => {
-    const rows = of_scene(cells(), s.problem),
-      cheapest = of_scene(records("cheapest"), s.problem),
-      answers = cheapest.map(c => answer_of(c, rows));
-    const none = answers.length
-      ? ""
-      : "No scheme can be called the cheapest here: none has a cost, an error and no flag.";
-    return {
-      scene: s.problem,
-      finding: finding_of(s.problem, cheapest, rows),
-      answers,
-      sentences: [
-        none,
-        reference_text(s, rows),
-        modes_text(rows),
-        runs_text(rows),
-        machine_text(s),
-        s.busy && `Costs: ${s.busy}.`,
-      ].filter(Boolean),
-    };
-  });
 }
 
 // ---- The tables and pictures at the end

@@ -1,13 +1,10 @@
-// The first chart: any cost against any error, scene by scene, layer upon layer: bands of what
-// cannot be known, real time, goals, front, lines, points, failures.
+// The first chart: cost against error, scene by scene, layer upon layer: bands of what cannot be
+// known, real time, what is asked for, front, lines, points, failures.
 const costs = [
   ["cost_s_per_s", "computing time for one second of sound, one core"],
-  ["ns_per_step", "time per step [ns]"],
-  ["worst_block_of_deadline", "worst block of 64 samples, as a fraction of its deadline"],
   ["rate", "sample rate [kHz]"],
-  ["dofs", "state carried [doubles]"],
 ];
-const timed = cost => cost === "cost_s_per_s" || cost === "ns_per_step";
+const cost_of = rows => costs.find(([column]) => has_finite(rows, column)) ?? costs[0];
 const time_text = s =>
   Number.isFinite(s) ? (s < 1 ? `${digits(1000 * s, 2)} ms` : `${digits(s, 2)} s`) : "";
 const cost_text = (x, cost) =>
@@ -44,21 +41,20 @@ function points_of(rows, error, cost, series = "series") {
       x = number(c[cost]) * (cost === "rate" ? 1e-3 : 1),
       y = error_of(c, error),
       differ = several.has(c.series);
-    const side = which =>
-      timed(cost) && number(c.cost_s_per_s) > 0
-        ? finite((x * number(c["cost_" + which])) / number(c.cost_s_per_s))
-        : null;
     const label = place_label(rate, modes, differ),
-      from = side("lower"),
-      to = side("upper"),
+      timed = cost === "cost_s_per_s" && x > 0,
+      from = timed ? finite(number(c.cost_lower)) : null,
+      to = timed ? finite(number(c.cost_upper)) : null,
       bounded = is_bounded(c, error) ? "\u2264 " : "";
     return {
       series: c.series,
+      scheme: c.scheme,
       problem: c.problem,
       n: c.n,
       x: finite(x),
       y: finite(y),
       uncertain: figure_of(c, error, "certificate") || 0,
+      most: finite(bound_of(c, error).most),
       from,
       to,
       label,
@@ -76,14 +72,7 @@ function points_of(rows, error, cost, series = "series") {
         ["modes", c.modes],
         ["error", Number.isFinite(y) ? bounded + error_text(y, error) : ""],
         ["cost", Number.isFinite(x) ? cost_text(x, cost) : ""],
-        [
-          "quartiles",
-          from === null
-            ? ""
-            : cost === "cost_s_per_s"
-              ? `${time_text(from)} to ${time_text(to)}`
-              : `${digits(from, 3)} to ${digits(to, 3)}`,
-        ],
+        ["quartiles", from === null ? "" : `${time_text(from)} to ${time_text(to)}`],
         ["below its floor", c.below_floor],
         ["not to be trusted", c.flags],
         ["reason", c.status === "ok" ? "" : c.reason || c.status],
@@ -93,33 +82,13 @@ function points_of(rows, error, cost, series = "series") {
 }
 const is_sound = p => p.status === "ok" && p.x > 0 && p.y > 0;
 
-// Of many schemes those that a reader looks for first: each that is on the front, with what is
-// matched there as published too, then of each hue the one that comes nearest to it.
-function main_series(all) {
-  const names = in_order(all.map(p => p.series)),
-    looks = looks_of(names),
-    sound = all.filter(p => is_sound(p) && p.trusted && !p.control);
-  if (names.length <= 8) return names;
-  const behind = new Map(); // times the cost of the cheapest that may be as accurate
-  for (const p of sound) {
-    const least = Math.min(
-      ...sound
-        .filter(other => other.y <= p.y + p.uncertain + other.uncertain)
-        .map(other => other.x),
-    );
-    behind.set(p.series, Math.min(behind.get(p.series) ?? Infinity, p.x / least));
-  }
-  const chosen = [],
-    hues = new Set();
-  for (const [name, times] of behind)
-    if (times === 1 && name.includes(" compliance=matched"))
-      chosen.push(name.replace("matched", "own"));
-  for (const [name, times] of [...behind].sort(([, a], [, b]) => a - b))
-    if ((times === 1 || !hues.has(looks.get(name).colour)) && chosen.length < 8) {
-      chosen.push(name);
-      hues.add(looks.get(name).colour);
-    }
-  return names.filter(name => chosen.includes(name));
+// Of many schemes the lines that a reader looks for first: of the answer, of it as published, of
+// what ranks next, and of each hue the first in rank.
+function main_series(rows, error, within) {
+  const {ranking, published} = answer_at(rows, error, within),
+    lines = ranking.map(r => (r.best ?? r.nearest).c.line),
+    hues = lines.map(line => looks_of([line]).get(line).colour);
+  return [published?.c.line, ...lines.filter((_, k) => k < 5 || hues.indexOf(hues[k]) === k)];
 }
 
 // What an error of a scene is known to: the noise floor, and the certificate of the reference where
@@ -136,242 +105,128 @@ function bands_of(rows, error) {
   return {floor: known(floor), certificate: least === most ? known(most) : null};
 }
 
-const goal_text = g => `${g.goal}: ${g.run}${g.ties ? ` or ${g.ties}` : ""}`;
-// The goals that some cells of the scene reach and some do not, so that they lie among the points.
-function goals_of(rows, scene, error) {
-  const measured = c => figure_of(c, error, "value");
-  const most = c => measured(c) + (is_percent(error) ? figure_of(c, error, "certificate") : 0);
-  return of_scene(records("cheapest"), scene)
-    .filter(
-      g =>
-        g.measure === error &&
-        g.scheme !== "" &&
-        rows.some(
-          c => c.status === "ok" && Number.isFinite(measured(c)) && most(c) > number(g.target),
-        ),
-    )
-    .map(g => ({y: number(g.target), text: goal_text(g)}));
-}
-
-// the points of the front, from the cheapest on, with the name of each scheme at its dearest
-function front_of(rows, error, cost) {
-  const on = of_scene(
-    records("fronts")
-      .filter(f => error_name(f) === error && f.cost === cost)
-      .map(f => cells()[f.row]),
-    rows[0]?.problem,
-  );
-  const front = on
-    .map(c => ({
-      n: c.n,
-      series: c.line,
-      x: number(c[cost]) * (cost === "rate" ? 1e-3 : 1),
-      y: error_of(c, error),
-    }))
-    .filter(p => p.y > 0);
-  for (const p of front)
-    p.name = front.some(o => o.series === p.series && o.x > p.x) ? "" : p.series;
-  return front.sort((a, b) => a.x - b.x);
-}
-
+// Across the plot from one height to another, where a scale or a signal may put it.
+const across = (from, to, style) =>
+  once({type: "rect", x: 0, x2: {expr: "width"}, y: {expr: from}, y2: {expr: to}, ...style});
+const small_text = more => once({type: "text", fontSize: 11, ...more});
+const height_of = y => `clamp(scale('y', ${y}), 0, height)`;
 // From the level of what limits the error down to the lower edge.
-function band(level, name, color, opacity) {
-  if (level === null) return [];
-  const at = `clamp(scale('y', ${level}), 0, height)`;
+const band = (level, name) =>
+  level === null
+    ? []
+    : [
+        across(height_of(level), "height", {color: "#888", opacity: 0.18}),
+        small_text({
+          x: 6,
+          y: {expr: "height - 9"},
+          align: "left",
+          text: {expr: `${height_of(level)} < height - 18 ? '${name}' : ''`},
+        }),
+      ];
+function real_time() {
+  // where a scheme takes a second for a second
+  const at = "scale('x', 1)",
+    there = value => ({expr: `${at} > 0 && ${at} < width ? ${value}`});
   return [
     once({
       type: "rect",
-      x: 0,
-      x2: {expr: "width"},
-      y: {expr: at},
+      x: there(`${at} : 0`),
+      x2: there(`${at} + 1 : 0`),
+      y: 0,
       y2: {expr: "height"},
-      color,
-      opacity,
+      color: "#888",
     }),
-    once({
-      type: "text",
-      x: 6,
-      y: {expr: at},
-      dy: 10,
-      align: "left",
-      fontSize: 10,
-      text: {expr: `${at} < height - 14 && width > 400 ? '${name}' : ''`},
-    }),
+    small_text({x: there(`${at} - 5 : 0`), y: 10, align: "right", text: there("'real time' : ''")}),
   ];
-}
-function real_time(cost) {
-  // where a scheme takes a second for a second
-  const at = "scale('x', 1)",
-    there = `${at} > 0 && ${at} < width`;
-  return cost !== "cost_s_per_s"
-    ? []
-    : [
-        once({
-          type: "rect",
-          x: {expr: `${there} ? ${at} : 0`},
-          x2: {expr: `${there} ? ${at} + 1 : 0`},
-          y: 0,
-          y2: {expr: "height"},
-          color: "#888",
-        }),
-        once({
-          type: "text",
-          x: {expr: `${there} ? ${at} : 0`},
-          y: {expr: "height - 6"},
-          dx: -5,
-          align: "right",
-          fontSize: 10,
-          text: {expr: `${there} ? 'real time' : ''`},
-        }),
-      ];
-}
-// The axis of errors spans half a decade at least, so that no noise is blown up; and where it says
-// nothing, a sentence does.
-function span_and_silence(all, sound, bands) {
-  const say = text => [
-    once({
-      type: "text",
-      x: {expr: "width / 2"},
-      y: {expr: "height / 2"},
-      fontSize: 13,
-      fontWeight: "bold",
-      text,
-    }),
-  ];
-  if (!sound.length)
-    return all.some(p => p.status === "ok")
-      ? say("These runs ended well and have no such error: choose another measure.")
-      : [];
-  const ys = sound.map(p => p.y),
-    least = Math.min(...ys),
-    most = Math.max(...ys),
-    middle = Math.sqrt(least * most),
-    half = Math.sqrt(Math.sqrt(10));
-  const ends = [Math.max(most, middle * half), Math.min(least, middle / half)].map(y => ({
-    x: sound[0].x,
-    y,
-  }));
-  const silence =
-    bands.floor !== null && most <= bands.floor
-      ? say(
-          "All errors lie within the noise floor: no scheme is better than another by this " +
-            "measure.",
-        )
-      : [];
-  return [{data: {values: ends}, mark: {type: "point", opacity: 0, tooltip: null}}, ...silence];
-}
-// For papers: rates along the front, and the name of each scheme at its dearest point there, where
-// they are a line apart.
-function front_labels(front, all) {
-  const span = Math.log(Math.max(...all.map(p => p.y)) / Math.min(...all.map(p => p.y))),
-    rows = [];
-  for (const f of front.toReversed()) {
-    const p = all.find(q => q.n === f.n);
-    if (p.control || rows.some(r => Math.abs(Math.log(r.y / f.y)) < 0.04 * span)) continue;
-    rows.push({
-      x: f.x,
-      y: f.y,
-      text: (f.name && print_width() > 500 ? f.name + ", " : "") + p.label,
-    });
-  }
-  return {
-    data: {values: rows},
-    mark: {type: "text", align: "left", dx: 8, dy: -7, fontSize: 10},
-    encoding: {text: {field: "text"}},
-  };
 }
 
+// What is asked for is a line that can be dragged (signals `within`, `best` and `winner`). Filled is
+// what is surely within it, a ring is about the answer, and what has no cost stands at the right
+// edge.
 function work_precision_spec(choice, print) {
   const rows = of_scene(cells(), choice.scene),
     {column: error, title} = chosen_error(rows, choice),
-    cost = choice.cost_field,
+    [cost, cost_title] = cost_of(rows),
     every = points_of(rows, error, cost, "line");
-  const names = choice.every ? in_order(every.map(p => p.series)) : main_series(every),
+  const {first, from, to} = tolerances(rows, error),
+    within = choice.within ?? first,
+    answer = answer_at(rows, error, within).best?.c,
+    priceless = unpriced_in(rows),
+    unpriced = every.filter(p => p.may_win && p.y > 0 && priceless.has(p.scheme));
+  const series = in_order(every.map(p => p.series)),
+    few = series.length <= 8,
+    wanted = [answer?.line, ...main_series(rows, error, first), ...unpriced.map(p => p.series)],
+    names = few || choice.every ? series : series.filter(name => wanted.includes(name)),
     all = every.filter(p => names.includes(p.series)),
-    sound = all.filter(is_sound);
-  const bands = bands_of(rows, error),
-    front = front_of(rows, error, cost).filter(f => all.some(p => p.n === f.n)),
+    sound = all.filter(is_sound),
     failed = all.filter(p => p.x > 0 && p.status !== "ok");
-  const {color, shape, strokeDash} = encodings_of(names),
-    drawn = names.filter(
-      name => sound.some(p => p.series === name) || failed.some(p => p.series === name),
-    );
+  const bands = bands_of(rows, error),
+    {color, shape, strokeDash} = encodings_of(names),
+    inside = "datum.may_win && datum.most !== null && datum.most <= within",
+    wins = (value, other) => ({condition: {test: "datum.series === winner", value}, value: other});
   const time =
-      "datum.value < 1 ? format(1000*datum.value, ',~r') + ' ms' : format(datum.value, " +
-      "',~r') + ' s'",
-    opacity = brought_out;
-  const lines = (which, strokeWidth) => ({
-    data: {values: sound.filter(p => p.control === which)},
-    mark: {type: "line", strokeWidth},
-    encoding: {color, strokeDash, order: {field: "order"}, opacity},
-  });
-  const marks = (which, mark) => ({
-    data: {values: sound.filter(p => (p.flags === "") === which)},
-    ...points(
-      {color, shape, opacity, size: {condition: {test: "datum.control", value: 30}, value: 75}},
-      mark,
-    ),
-  });
-  const goals = cost === "cost_s_per_s" ? goals_of(rows, choice.scene, error) : [],
-    cost_title = costs.find(([column]) => column === cost)[1];
-  const layer = [
-    ...band(bands.certificate, "the reference is certain to here", "#56b4e9", 0.16),
-    ...band(bands.floor, "noise floor", "#888", 0.18),
-    ...real_time(cost),
-    {
-      data: {values: goals},
-      mark: {type: "rule", strokeDash: [2, 4], color: "#888"},
-      encoding: {x: null},
+    "datum.value < 1 ? format(1000*datum.value, ',~r') + ' ms' : format(datum.value, " +
+    "',~r') + ' s'";
+  const marks = (values, mark, more) => ({
+    data: {values},
+    mark: {type: "point", filled: false, strokeWidth: 1.6, size: 60, ...mark},
+    encoding: {
+      color,
+      shape,
+      fill: {condition: {test: inside, ...color}, value: paper[0]},
+      opacity: {condition: {test: `${inside} || datum.series === winner`, value: 1}, value: 0.55},
+      ...hover,
+      ...more,
     },
-    ...(print
-      ? [
-          {
-            data: {values: goals},
-            mark: {
-              type: "text",
-              x: {expr: "width - 6"},
-              dy: -6,
-              align: "right",
-              fontSize: 10,
-              limit: {expr: "0.6 * width"},
-              opacity: {expr: "width < 500 ? 0 : 1"},
-            },
-            encoding: {x: null, text: {field: "text"}},
-          },
-        ]
-      : []),
-    ...[
-      [10, front_edge],
-      [7, front_track],
-    ].map(([strokeWidth, tone]) => ({
-      data: {values: front},
-      mark: {
-        type: "line",
-        strokeWidth,
-        color: tone[0],
-        strokeCap: "round",
-        strokeJoin: "round",
-        tooltip: null,
-      },
-      encoding: {order: {field: "x"}},
-    })),
+  });
+  const ring = mark => ({
+    data: {values: sound},
+    transform: [{filter: "datum.n === best"}],
+    mark: {tooltip: null, ...mark},
+    encoding: mark.type === "text" ? {text: {field: "label"}} : {},
+  });
+  const layer = [
+    ...band(bands.certificate, "below what the reference is known to"),
+    ...band(bands.floor, bands.certificate === null ? "below the noise floor" : ""),
+    ...(cost === "cost_s_per_s" ? real_time() : []),
+    across(height_of("within"), "height", {color: key[0], opacity: 0.08}),
+    across(height_of("within") + " - 1", height_of("within") + " + 1", {color: key[0]}),
     {
       data: {values: sound.filter(p => p.from > 0 && p.to > 0)},
-      mark: {type: "rule", strokeWidth: 1},
-      encoding: {x: {field: "from", type: "quantitative"}, x2: {field: "to"}, color, opacity},
+      mark: {type: "rule", strokeWidth: 1, opacity: 0.5},
+      encoding: {x: {field: "from", type: "quantitative"}, x2: {field: "to"}, color},
     },
-    // hollow: not to be trusted
-    lines(true, 0.8),
-    lines(false, 1.8),
-    {...marks(true, {}), ...(print || choice.narrow ? {} : zoomed("x", "y"))},
-    marks(false, {filled: false, strokeWidth: 1.6}),
-    print ? front_labels(front, all) : line_labels_layer(),
+    {
+      data: {values: sound},
+      mark: {type: "line"},
+      encoding: {
+        color,
+        strokeDash,
+        order: {field: "order"},
+        opacity: wins(1, 0.6),
+        size: wins(3, 1.5),
+      },
+    },
+    marks(sound, {}),
+    ...(unpriced.length
+      ? [
+          marks(unpriced, {x: {expr: "width - 10"}}, {x: null}),
+          small_text({align: "right", x: {expr: "width"}, y: -10, text: "no cost measured"}),
+        ]
+      : []),
+    ring({type: "point", filled: false, size: 420, strokeWidth: 2.5, color: key[0]}),
+    ...(print
+      ? [ring({type: "text", color: ink[0], align: "left", dx: 16, dy: -6, fontSize: 11})]
+      : line_labels_layers()),
     {
       data: {values: failed},
       mark: {type: "text", text: "\u2715", fontSize: 14, fontWeight: "bold", y: 8},
-      encoding: {y: null, color, opacity, ...hover},
+      encoding: {y: null, color, ...hover},
     },
-    ...span_and_silence(every, sound, bands),
+    {
+      data: {values: [from, to].map(y => ({x: sound[0]?.x, y}))},
+      mark: {type: "point", opacity: 0, tooltip: null},
+    },
     above(title),
     once({
       type: "text",
@@ -380,46 +235,51 @@ function work_precision_spec(choice, print) {
       align: "right",
       fontSize: 12,
       fontWeight: "bold",
-      text: {
-        expr:
-          "width < 400 ? " +
-          `'${cost === "cost_s_per_s" ? "computing time per second" : cost_title.split(",")[0]}' ` +
-          `: '${cost_title}'`,
-      },
+      text: {expr: `width < 400 ? '${cost_title.split(",")[0]}' : '${cost_title}'`},
     }),
   ];
+  if (sound.every(p => p.y <= bands.floor))
+    layer.push(
+      small_text({
+        x: {expr: "width / 2"},
+        y: {expr: "height / 2"},
+        text: sound.length
+          ? "All errors lie within the noise floor: none is better than another by this measure."
+          : "No run that ended well has this error: choose another measure.",
+      }),
+    );
   const encoding = {
     x: quantity("x", decades("x", cost === "cost_s_per_s" ? time : plain_number), log(36)),
-    y: quantity("y", error_axis(error), log(36)),
+    y: quantity("y", error_axis(error), log(24)),
   };
-  const one = scenes_of_cells().length === 1,
+  const signals = {within, best: answer?.n ?? null, winner: answer?.line || null},
+    params = Object.entries(signals).map(([name, value]) => ({name, value})),
+    one = scenes_of_cells().length === 1,
     about = page.manifest?.reference ? page.about.split("; ").slice(0, -1).join("; ") : page.source;
-  const spec = framed(
-    {
-      height: print
-        ? Math.min(470, Math.max(220, 0.75 * print_width()))
-        : choice.narrow
-          ? 220
-          : 400,
-      encoding,
-      layer,
-    },
-    {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names},
-    print,
-  );
+  const height = print
+      ? Math.min(470, Math.max(220, 0.75 * print_width()))
+      : choice.narrow
+        ? 300
+        : 350,
+    padding = print
+      ? {}
+      : {padding: {left: 12, top: 12, bottom: 12, right: choice.narrow ? 12 : 120}};
   return {
-    spec,
-    legend: drawn,
-    labels: sound,
-    zooms: choice.narrow ? null : {x: "zoom_x", y: "zoom_y"},
-    few: in_order(every.map(p => p.series)).length <= 8,
+    spec: framed(
+      {height, encoding, layer, params, ...padding},
+      {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names},
+      print,
+    ),
+    names,
+    labels: view => line_labels(names, [...sound, ...unpriced], view),
+    few,
   };
 }
 
-// Names beside the ends of lines, where the page has found room for them.
-function line_labels_layer() {
-  // its fields have names of their own: it is no part of the scales
-  return {
+// Names beside the ends of lines, where the page has found room for them; what they lie on ends
+// beside them. Their fields have names of their own: they are no part of the scales.
+function line_labels_layers() {
+  const layer = more => ({
     data: {name: "labels", values: []},
     mark: {
       type: "text",
@@ -428,35 +288,55 @@ function line_labels_layer() {
       tooltip: null,
       x: {expr: "datum.left"},
       y: {expr: "datum.middle"},
+      ...more,
     },
     encoding: {x: null, y: null, text: {field: "text", type: "nominal"}},
-  };
+  });
+  return [layer({stroke: paper[0], strokeWidth: 5, strokeJoin: "round"}), layer({})];
 }
-// A name beside the most accurate point of each line, where it covers neither a point nor another
-// name.
-function line_labels(names, points, x, y, width, height) {
-  const placed = points.map(p => ({series: p.series, x: x(p.x), y: y(p.y)})),
-    boxes = placed.map(p => ({left: p.x - 5, right: p.x + 5, top: p.y - 5, bottom: p.y + 5})),
+// A name beside the most accurate points of each line, where it covers neither a point, a line, what
+// is asked for nor another name; that of the answer before the others.
+function line_labels(names, points, view) {
+  const [x, y] = [view.scale("x"), view.scale("y")],
+    [width, height] = [view.width(), view.height()],
+    first = points.find(p => p.n === view.signal("best")),
+    asked = y(view.signal("within") ?? 0);
+  const placed = points.map(p => ({...p, x: p.x === null ? width - 10 : x(p.x), y: y(p.y)})),
+    box = (p, r) => ({left: p.x - r, right: p.x + r, top: p.y - r, bottom: p.y + r}),
+    boxes = [
+      {left: 0, right: width, top: asked - 3, bottom: asked + 3},
+      ...placed.map(p => box(p, p.n === first?.n ? 13 : 5)),
+    ],
     labels = [];
+  for (const name of names) {
+    const line = placed.filter(p => p.series === name).sort((a, b) => a.order - b.order);
+    line.slice(1).forEach((p, k) => {
+      const steps = Math.ceil(Math.hypot(p.x - line[k].x, p.y - line[k].y) / 8),
+        between = (a, b, s) => a + ((b - a) * s) / steps;
+      for (let s = 1; s < steps; ++s)
+        boxes.push(box({x: between(line[k].x, p.x, s), y: between(line[k].y, p.y, s)}, 2));
+    });
+  }
   const free = box =>
     box.left >= 0 &&
-    box.right <= width &&
+    box.right <= width + view.padding().right &&
     box.top >= 0 &&
-    box.bottom <= height &&
+    box.bottom <= height - 18 &&
     !boxes.some(
       b => b.left < box.right && b.right > box.left && b.top < box.bottom && b.bottom > box.top,
     );
-  for (const name of names) {
+  for (const name of [...names].sort((a, b) => (b === first?.series) - (a === first?.series))) {
     const ends = placed.filter(p => p.series === name).sort((a, b) => b.y - a.y),
-      text = spoken(name),
-      wide = 6.4 * text.length;
-    const places = ends.flatMap(p => [
+      text = scheme_words(name).replace(", as published", ""),
+      wide = 6.2 * text.length;
+    const places = ends.slice(0, 4).flatMap(p => [
       [p.x + 9, p.y],
       [p.x - 9 - wide, p.y],
       [p.x - wide / 2, p.y + 15],
       [p.x - wide / 2, p.y - 15],
       [p.x + 6, p.y + 14],
       [p.x + 6, p.y - 14],
+      [p.x - 6 - wide, p.y + 14],
     ]);
     const place = places
       .map(([left, middle]) => ({left, right: left + wide, top: middle - 7, bottom: middle + 7}))
@@ -470,62 +350,20 @@ function line_labels(names, points, x, y, width, height) {
 
 const scenes_of_cells = () => distinct(cells().map(c => c.problem));
 function work_precision_section() {
-  const usable = scene =>
-    errors_in(of_scene(cells(), scene)).length > 0 &&
-    costs.some(([column]) => has_finite(of_scene(cells(), scene), column));
+  const usable = scene => errors_in(of_scene(cells(), scene)).length > 0;
   const scenes = scenes_of_cells().filter(usable);
   if (!scenes.length) return null;
-  const menus = scene => {
-    const rows = of_scene(cells(), scene);
-    return [
-      ...error_menus(rows),
-      {
-        label: "cost",
-        key: "cost_field",
-        choices: costs.filter(([column]) => has_finite(cells(), column)),
-      },
-    ];
-  };
-  const notes = [
-    "Down is more accurate, left is cheaper. The grey track is the Pareto front; its " +
-      "points say their rates. Bars are quartiles of the cost. Crosses at the upper edge are " +
-      "runs that failed. Dotted lines are accuracies that were asked for.",
-    "A hue is a family of schemes, a marker a scheme, a dash its options; thin grey lines " +
-      "are controls, known to be wrong somewhere. Click a name in the legend to bring it " +
-      "out, more names with it, or the same name again to go back.",
-  ];
-  if (cells().some(c => c.flags))
-    notes.push(
-      "Hollow points are not to be trusted: the run's own figures speak against it. They " +
-        "are on no front.",
-    );
-  if (
-    scenes.some(scene =>
-      Object.values(
-        bands_of(of_scene(cells(), scene), errors_in(of_scene(cells(), scene))[0].column),
-      ).some(x => x !== null),
-    )
-  )
-    notes.push(
-      "Points in the grey band cannot be told apart, because the problem is too sensitive. " +
-        "Points in the blue band are below the accuracy of the reference. If the uncertainty " +
-        "of the reference is more than a tenth of an error, it is added to it: the point is " +
-        "an upper bound.",
-    );
   const twins = scenes
     .slice(0, most_twins)
-    .map(scene => ({
-      file: twin_file("work_precision", scene, scenes_of_cells()),
-      choice: first_choice(menus(scene), scene),
-    }));
+    .map(scene => ({file: twin_file("work_precision", scene, scenes_of_cells()), choice: {scene}}));
   return {
     id: "work-precision",
-    heading: "Error and cost",
-    notes,
+    heading: "Error against cost",
+    notes: [],
     charts: [
       {
         name: "error against cost of each scheme at each rate",
-        menus,
+        menus: () => [],
         scenes,
         spec: work_precision_spec,
         twins,
