@@ -90,14 +90,14 @@ Table figures_table(const study::Cells& cells) {
 }
 
 Table scenes_table(const study::Cells& cells) {
-    Table t{{"problem", "headline", "certificate", "spread", "busy"}, {}};
+    Table t{{"problem", "headline", "certificate", "busy"}, {}};
     for (const Rows& rows : study::by_problem(cells, study::all_rows(cells))) {
         const std::size_t headline = compare::headline_error(cells, rows);
         study::Cells own;
         for (const std::size_t i : rows) own.push_back(cells[i]);
         t.rows.push_back({own[0].problem(), study::measures()[headline].column,
                           store::text_of(compare::bound_of(own[0], headline).certificate),
-                          store::text_of(compare::median_spread(own)), compare::busy_text(own)});
+                          compare::busy_text(own)});
     }
     return t;
 }

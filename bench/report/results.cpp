@@ -68,13 +68,11 @@ void read_manifest(Results& r, const Json& m) {
         r.source = m.value("source", "");
         return;
     }
-    const Json &scene = m.at("scene"), &headline = m.at("headline");
+    const Json& scene = m.at("scene");
     r.name = scene.at("name");
     r.source = scene.at("source");
-    r.about = fmt::format("against {}, {} s; nut tap {}, bridge tap {}; {}",
-                          m.at("reference").at("name").get<std::string>(),
-                          scene.at("duration").get<double>(), headline.at("nut").get<std::string>(),
-                          headline.at("bridge").get<std::string>(), r.about);
+    r.about = fmt::format("against {}, {} s; {}", m.at("reference").at("name").get<std::string>(),
+                          scene.at("duration").get<double>(), r.about);
     if (scene.contains("strings") && !scene.at("strings").empty())
         r.about = scene.at("strings").at(0).get<std::string>() + "; " + r.about;
 }

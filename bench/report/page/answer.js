@@ -12,7 +12,7 @@ function bar_of({best: {c, cost}, scheme}, k, [first], most) {
     place = run_words(c).slice(scheme.length).replace(/^\W+/, ""),
     bar = element("i", {className: cost > most ? "broken" : ""}),
     text = time_text(cost) + (k ? ` \u00b7 ${times_words(cost / first.best.cost)}` : "");
-  bar.style.width = `${Math.min(1, cost / most) * 62}%`;
+  bar.style.width = `calc(${Math.min(1, cost / most)} * (100% - 160px))`;
   const row = element("li", {className: k ? "" : "winner"}, name, element("small", {}, place));
   row.append(element("br"), sample_of(looks_of([variant(c)]).get(variant(c))), bar, text);
   row.dataset.n = c.n;

@@ -82,7 +82,8 @@ function chart_of(chart, section) {
   let vega_view = null,
     scene = scene_shown(),
     selects = new Map(),
-    picked = [];
+    picked = [],
+    drawing = Promise.resolve();
   const choice = () => ({
     scene,
     narrow: narrow.matches,
@@ -146,18 +147,12 @@ function chart_of(chart, section) {
       }),
     );
   }
-  async function draw() {
+  // one after the other: a scene may be chosen while another is drawn
+  const draw = () => (drawing = drawing.then(draw_now));
+  async function draw_now() {
     frame.setAttribute("data-drawn", "false");
     if (vega_view) vega_view.finalize();
-    const {
-      spec,
-      legend = [],
-      names = legend,
-      labels,
-      first,
-      few,
-      zooms,
-    } = chart.spec(choice(), false);
+    const {spec, legend = [], names = legend, labels, few} = chart.spec(choice(), false);
     picked = picked.filter(name => names.includes(name));
     every.parentElement?.toggleAttribute("hidden", few === true);
     ({view: vega_view} = await vegaEmbed(frame, coloured(spec), {

@@ -117,30 +117,25 @@ function errors_in(rows) {
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
 }
 // An error as a sentence has it: "the force on the nut, first 50 ms".
-function spoken_error({measure, tap, title}, rows) {
-  const name = tap || rows[0]?.[measure === "third_octave_db" ? "headline_bridge" : "headline_nut"],
-    scene = page.manifest?.scenes?.[rows[0]?.scene] ?? page.manifest?.scene?.text ?? "",
-    [, quantity = ""] =
-      scene
-        .split("[[tap]]")
-        .find(text => text.includes(`name = "${name}"`))
-        ?.match(/quantity = "(\w+)"/) ?? [],
-    [what, where] = quantity.split("_"),
-    signal = quantity.endsWith("_force")
-      ? `the force on the ${what}` + (name === what ? "" : `, tap ${name}`)
-      : quantity
-        ? `the ${what} at ${name}`
-        : name
-          ? `the signal at ${name}`
-          : "the signal";
-  const window = {
-    error_l2_10ms: "first 10 ms",
-    error_l2_50ms: "first 50 ms",
-    error_l2_whole: "whole run",
-  }[measure];
-  return window
-    ? `${signal}, ${window}${after_pluck(rows)}`
-    : `${measure === "third_octave_db" ? "third octaves" : title.replace(/( \[.*)?,? ?(tap .*)?$/, "")} of ${signal}${after_pluck(rows)}`;
+function spoken_error({measure, tap, title}, [row = {}]) {
+  const octaves = measure === "third_octave_db",
+    name = tap || row[octaves ? "headline_bridge" : "headline_nut"],
+    scene = page.manifest?.scenes?.[row.scene] ?? page.manifest?.scene?.text ?? "",
+    of_tap = scene.split("[[tap]]").find(text => text.includes(`name = "${name}"`)) ?? "",
+    [, quantity = "signal"] = /quantity = "(\w+)"/.exec(of_tap) ?? [],
+    [what, force] = quantity.split("_"),
+    signal = force
+      ? `the force on the ${what}${name === what ? "" : ` (${name})`}`
+      : `the ${what}${name ? ` at ${name}` : ""}`,
+    whole = octaves ? "third octaves" : title.replace(/( \[| after the|, tap ).*/, "");
+  const window = {error_l2_10ms: "first 10 ms", error_l2_50ms: "first 50 ms"}[measure];
+  return (
+    (window
+      ? `${signal}, ${window}`
+      : is_percent(measure)
+        ? `${signal}, whole run`
+        : `${whole} of ${signal}`) + after_pluck([row])
+  );
 }
 // The menus of an error: its measure and its tap.
 function error_menus(rows) {

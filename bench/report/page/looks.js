@@ -34,7 +34,7 @@ const shapes = [
 // A difference is in ink, what is asked for in the page's own blue.
 const ink = ["#1d2329", "#e6eaee"],
   key = ["#0072b2", "#56b4e9"],
-  paper = ["#fff", "#14181c"];
+  paper = ["#ffffff", "#14181c"];
 const dark_of = Object.fromEntries([
   ...families.map(([, , light, dark]) => [light, dark]),
   ink,

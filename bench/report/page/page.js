@@ -9,7 +9,7 @@ function pictures_of(pictures) {
       "figure",
       {},
       element("img", {src: p.data, alt: p.name, loading: "lazy"}),
-      element("figcaption", {}, p.name),
+      element("figcaption", {className: "soft small"}, p.name),
     ),
   );
 }
@@ -53,52 +53,30 @@ function show(id) {
   part?.scrollIntoView();
 }
 
-const words = [
-  [
-    "relative L2 error",
-    "root of the summed squared difference from the reference, divided by that of the " +
-      "reference: 1 % is close, 100 % is unrelated",
-  ],
-  [
-    "horizon",
-    "first instant at which the running error passes 10 %. After it judge by third octaves",
-  ],
-  [
-    "noise floor",
-    "the error that a change of the start by 1e-12 makes. Smaller errors cannot be told apart",
-  ],
-  [
-    "not to be trusted",
-    "the run itself shows a fault: the contact pulls the string (adhesion), stored energy " +
-      "remains in an open contact (psi_gap), or the energy balance does not close (energy)",
-  ],
-];
+const words = {
+  "relative L2 error": "root of the summed squared difference from the reference, over that of it",
+  horizon: "when the running error first passes 10 %. After it judge by third octaves",
+  "noise floor": "the error that a change of the start by 1e-12 makes: smaller ones are ties",
+  "not to be trusted":
+    "the contact pulls the string (adhesion), stored energy remains in an open contact " +
+    "(psi_gap), or the energy balance does not close (energy)",
+  columns: "'jvari list columns' explains every column of the tables",
+};
 function how_to_read() {
-  const list = element("dl");
-  for (const [word, meaning] of words)
+  const list = element("dl"),
+    {schemes = {}} = page.manifest ?? {},
+    sources = Array.isArray(schemes)
+      ? schemes.map(s => [s.name, s.source])
+      : Object.entries(schemes);
+  for (const [word, meaning] of [...Object.entries(words), ...sources])
     list.append(element("dt", {}, word), element("dd", {}, meaning));
-  const sources = Array.isArray(page.manifest?.schemes)
-    ? page.manifest.schemes.map(s => [s.name, s.source])
-    : Object.entries(page.manifest?.schemes ?? {});
-  for (const [name, source] of sources)
-    list.append(element("dt", {}, name), element("dd", {}, source));
-  list.append(
-    element("dt", {}, "columns"),
-    element("dd", {}, "'jvari list columns' explains every column of the tables"),
-  );
   const scenes =
     page.manifest?.scenes ??
     (page.manifest?.scene?.text ? {[page.manifest.scene.name]: page.manifest.scene.text} : {});
   const texts = Object.entries(scenes).map(([name, text]) => {
-    const whole = element("pre", {tabIndex: 0}, text);
-    whole.setAttribute("role", "region");
-    whole.setAttribute("aria-label", "the scene " + name);
-    return element(
-      "details",
-      {className: "scene"},
-      element("summary", {}, `the scene ${name}`),
-      whole,
-    );
+    const of = "the scene " + name,
+      whole = element("pre", {tabIndex: 0, role: "region", ariaLabel: of}, text);
+    return element("details", {className: "scene"}, element("summary", {}, of), whole);
   });
   if (page.command)
     texts.push(element("p", {className: "soft"}, "Made by ", element("code", {}, page.command)));
@@ -136,7 +114,6 @@ function entries_of(value, name = "") {
 function fill_page() {
   const main = document.querySelector("main"),
     nav = document.querySelector("nav");
-  main.classList.toggle("run", Boolean(page.run));
   report.sections = sections_of();
   const traces = report.sections.find(s => s.id === "sounds"),
     [first, ...rest] = report.sections.filter(s => s !== traces);

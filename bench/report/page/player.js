@@ -5,37 +5,24 @@ const player = {pair: [], hidden: 0, heard: 0, right: 0, guesses: 0, playing: nu
 
 // For ears: the mean taken away, the ends faded over 5 ms, all sounds at one root mean square, the
 // loudest that leaves every peak within 0.9.
-const shapes_heard = new Map();
 function shape_of(sound) {
-  if (shapes_heard.has(sound)) return shapes_heard.get(sound);
+  if (sound.shape) return sound.shape;
   const {samples} = wave_of(sound),
     mean = samples.reduce((sum, x) => sum + x, 0) / samples.length,
-    centred = samples.map(x => (x - mean) / 32768);
-  const shape = {
-    centred,
-    rms: Math.sqrt(centred.reduce((sum, x) => sum + x * x, 0) / samples.length),
-    peak: centred.reduce((most, x) => Math.max(most, Math.abs(x)), 0),
-  };
-  shapes_heard.set(sound, shape);
-  return shape;
+    centred = samples.map(x => (x - mean) / 32768),
+    rms = Math.sqrt(centred.reduce((sum, x) => sum + x * x, 0) / samples.length),
+    peak = centred.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+  return (sound.shape = {centred, rms, peak});
 }
 function levelled(sound, level) {
   const {centred, rms} = shape_of(sound),
     fade = 0.005 * sound.rate,
-    last = centred.length - 1;
-  return Float32Array.from(
-    centred,
-    (x, n) => (rms > 0 ? level / rms : 0) * Math.min(1, n / fade, (last - n) / fade) * x,
-  );
+    last = centred.length - 1,
+    gain = rms > 0 ? level / rms : 0;
+  return Float32Array.from(centred, (x, n) => gain * Math.min(1, n / fade, (last - n) / fade) * x);
 }
 const level_of = sounds =>
-  Math.min(
-    1,
-    ...sounds
-      .map(shape_of)
-      .filter(s => s.peak > 0)
-      .map(s => (0.9 * s.rms) / s.peak),
-  );
+  Math.min(1, ...sounds.map(shape_of).map(s => (s.peak > 0 ? (0.9 * s.rms) / s.peak : 1)));
 function buffer_of(sound) {
   if (sound.buffer) return sound.buffer;
   const signal = levelled(sound, (player.level ??= level_of(sounds())));
@@ -121,16 +108,18 @@ function hear_it() {
     selects[1].selectedIndex = k;
     choose_pair();
   };
+  const section = element("section", {id: "player", className: "card", ariaLabel: "sounds"});
   const fill = scene => {
-    own = sounds().filter(s => s.problem === scene);
-    if (!own.length) own = [...sounds()];
+    const of = name => sounds().filter(s => s.problem === name);
+    section.hidden = !of(scene).length;
+    own = of(section.hidden ? (drawn_sounds()[0] ?? sounds()[0]).problem : scene);
     own.sort((a, b) => b.reference - a.reference);
-    selects.forEach((select, k) => {
-      select.replaceChildren(
-        ...own.map(s => new Option(scheme_words(s.name) + (s.detail && `, ${s.detail}`))),
-      );
-      select.selectedIndex = Math.min(k, own.length - 1);
-    });
+    const names_of = s => scheme_words(s.name) + (s.detail && `, ${s.detail}`);
+    for (const select of selects) select.replaceChildren(...own.map(s => new Option(names_of(s))));
+    selects[1].selectedIndex = Math.max(
+      0,
+      own.findIndex((s, k) => k > 0 && !s.reference),
+    );
     choose_pair();
   };
   selects.forEach(select => (select.onchange = choose_pair));
@@ -152,14 +141,13 @@ function hear_it() {
     event.preventDefault();
   });
   const pair = own.length > 1;
-  return element(
-    "section",
-    {id: "player", className: "card", ariaLabel: "sounds"},
+  section.append(
     element("h2", {}, pair ? "Hear it, blind" : "Hear it"),
     ...(pair ? [0, 1] : [0]).map(k => element("p", {className: "ab"}, buttons[k], selects[k])),
-    ...(pair ? [element("p", {className: "ab"}, buttons[2], "is", ...guesses, score)] : []),
+    pair ? element("p", {className: "ab"}, buttons[2], "is", ...guesses, score) : "",
     ...page.left_out.sounds.map(note),
   );
+  return section;
 }
 // See it: the trace of what is heard over its reference's.
 function see_it(section) {
@@ -168,7 +156,6 @@ function see_it(section) {
   const {parts, draw} = chart_of(
     {
       ...chart,
-      menus: scene => chart.menus(scene).filter(menu => menu.key !== "sound_field"),
       chosen: () => ({sound_field: [...player.pair].reverse().find(s => !s.reference)?.file}),
     },
     section.id,

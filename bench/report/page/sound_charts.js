@@ -145,40 +145,25 @@ function waveform_section() {
     scenes = distinct(drawn.map(s => s.problem)),
     longest = Math.max(...sounds().map(s => (s.samples.length * 3) / 8 / s.rate));
   if (!sounds().length || page.run) return null;
-  const menus = scene => [
-    {
-      label: "scheme",
-      key: "sound_field",
-      choices: drawn
-        .filter(s => scene === undefined || s.problem === scene)
-        .map(s => [s.file, spoken(s.name) + (s.detail && ", " + s.detail)]),
-    },
-    {
-      label: "show",
-      key: "until_field",
-      choices: [
-        [0.05, "50 ms"],
-        [0.02, "20 ms"],
-        [0.005, "5 ms"],
-        ...(longest > beginning ? [[longest, `whole, ${digits(longest, 3)} s`]] : []),
+  const spans = [
+      [0.05, "50 ms"],
+      [0.02, "20 ms"],
+      [0.005, "5 ms"],
+      ...(longest > beginning ? [[longest, `whole, ${digits(longest, 3)} s`]] : []),
+    ],
+    chart = {
+      name: "a scheme's trace over its reference's",
+      menus: () => [{label: "show", key: "until_field", choices: spans}],
+      scenes,
+      spec: wave_spec,
+      twins: [
+        {file: "waveforms.svg", choice: {until_field: beginning, sound_field: drawn[0]?.file}},
       ],
-    },
-  ];
-  const charts = drawn.length
-    ? [
-        {
-          name: "a scheme's trace over its reference's",
-          menus,
-          scenes,
-          spec: wave_spec,
-          twins: [{file: "waveforms.svg", choice: first_choice(menus(scenes[0]), scenes[0])}],
-        },
-      ]
-    : [];
+    };
   return {
     id: "sounds",
     heading: "Traces, to look at and to listen to",
-    charts,
+    charts: drawn.length ? [chart] : [],
     left_out: page.left_out.sounds,
     notes: [],
   };

@@ -2,7 +2,9 @@
 // known of it. The rule is the program's (analysis/cheapest.hpp), so that a tolerance can be
 // dragged; what is known of each cell the program has said.
 const scheme_words = name => spoken(name).replaceAll("_", " ");
-const place_words = c => c.run.slice(variant(c).length).replace(/^,/, ":"); // ": 133 modes at 88.2 kHz"
+// ": 133 modes at 88.2 kHz", " at 88.2 kHz"
+const place_words = c =>
+  c.run.slice(variant(c).length).replace(/^,/, ":").replace(" kHz", "\u00a0kHz");
 const run_words = c => scheme_words(variant(c)) + place_words(c);
 const times_words = x => `${digits(x, 2)}\u00a0\u00d7`;
 // "at most 0.57 %", "0.49 %", "0.49 % as measured"; "not known"
@@ -93,11 +95,11 @@ function answer_at(rows, error, within) {
 // The end of "To keep ... within 1 %"
 function finding_of({error, best, perhaps, nearest, unpriced}) {
   const guests = unpriced
-    .map(({scheme, best: own, nearest: near, open}) =>
-      own
-        ? ` ${scheme_words(scheme)} keeps it too (${quoted(own.c, error)}): no cost measured.`
-        : ` ${scheme_words(scheme)} ${open ? "may keep it or not" : "does not keep it"} ` +
-          `(${quoted(near.c, error)}): no cost measured.`,
+    .map(
+      r =>
+        ` ${scheme_words(r.scheme)} ` +
+        (r.best ? "keeps it too" : r.open ? "may keep it or not" : "does not keep it") +
+        ` (${quoted((r.best ?? r.nearest).c, error)}): no cost measured.`,
     )
     .join("");
   if (best) return ` take ${run_words(best.c)}.${guests}`;
@@ -129,7 +131,10 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
           `It may be kept by ${all(perhaps)}.`,
         ]
       : nearest
-        ? [stated?.why || `The closest is ${run_words(nearest.c)}: *${quoted(nearest.c, error)}*.`]
+        ? [
+            (stated && scheme_words(stated.why)) ||
+              `The closest is ${run_words(nearest.c)}: *${quoted(nearest.c, error)}*.`,
+          ]
         : [];
   }
   const {c, cost} = best,
@@ -141,7 +146,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
   return [
     `It errs by *${quoted(c, error)}* and takes *${percent(cost)} of a core*: ` +
       (cost < 1
-        ? `${Math.floor(1 / cost)} ${cost > 0.5 ? "voice" : "voices"} on one core.`
+        ? `${Math.floor(1 / cost)} voice${cost > 0.5 ? "" : "s"} on one core.`
         : "it is slower than real time."),
     worst > 0 && `Its worst block takes ${percent(worst)} of the deadline.`,
     c.options.includes("compliance=matched") &&
@@ -172,7 +177,7 @@ function tolerances(rows, error) {
   return {
     first,
     from: Number((0.7 * Math.min(first, ...least)).toPrecision(1)),
-    to: Number((1.5 * Math.max(first, ...least)).toPrecision(1)),
+    to: Number((1.5 * Math.max(usual[1], ...least)).toPrecision(1)),
   };
 }
 // By chance alone so many guesses or more are right: one side of the binomial test.
@@ -185,10 +190,8 @@ function chance(right, guesses) {
 function score_text(right, guesses) {
   if (!guesses) return "";
   const p = chance(right, guesses);
-  return (
-    `so far ${right} of ${guesses}: ${p < 0.05 ? "you hear a difference" : "no difference shown"} ` +
-    `(p = ${digits(p, 2)})`
-  );
+  const heard = p < 0.05 ? "you hear a difference" : "no difference shown";
+  return `so far ${right} of ${guesses}: ${heard} (p = ${digits(p, 2)})`;
 }
 
 // ---- The tables and pictures at the end

@@ -140,9 +140,8 @@ function real_time() {
   ];
 }
 
-// What is asked for is a line that can be dragged (signals `within`, `best` and `winner`). Filled is
-// what is surely within it, a ring is about the answer, and what has no cost stands at the right
-// edge.
+// What is asked for is a line that can be dragged (signals `within`, `best` and `winner`). What is
+// surely within it is filled, the answer has a ring, and what has no cost stands at the right edge.
 function work_precision_spec(choice, print) {
   const rows = of_scene(cells(), choice.scene),
     {column: error, title} = chosen_error(rows, choice),
@@ -294,8 +293,8 @@ function line_labels_layers() {
   });
   return [layer({stroke: paper[0], strokeWidth: 5, strokeJoin: "round"}), layer({})];
 }
-// A name beside the most accurate points of each line, where it covers neither a point, a line, what
-// is asked for nor another name; that of the answer before the others.
+// A name beside the most accurate points of each line, where it covers neither a point, a line, nor
+// what is asked for, nor another name; that of the answer before the others.
 function line_labels(names, points, view) {
   const [x, y] = [view.scale("x"), view.scale("y")],
     [width, height] = [view.width(), view.height()],
