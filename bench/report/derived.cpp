@@ -106,8 +106,8 @@ Table cheapest_table(const Results& r) {
     const auto answers = compare::cheapest_of(r.cells, r.controls);
     Table t = compare::table_of(answers, r.cells);
     for (std::size_t i = 0; i < answers.size(); ++i)
-        t.rows[i].insert(t.rows[i].begin(), {r.cells[answers[i].of].problem(), answers[i].goal()});
-    t.columns.insert(t.columns.begin(), {"problem", "goal"});
+        t.rows[i].insert(t.rows[i].begin(), r.cells[answers[i].of].problem());
+    t.columns.insert(t.columns.begin(), "problem");
     return t;
 }
 

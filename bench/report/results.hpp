@@ -45,7 +45,7 @@ Results read_results(const std::filesystem::path&);
 // errors:   row (of cells), tap, measure, value, floor, certificate; shown, text: of those that are
 //           no more than bounded (compare/bound.hpp)
 // scenes:   problem, headline, certificate (of its first cell), busy (its clock)
-// cheapest: problem and goal ("10 %"), then what compare::cheapest_of says
+// cheapest: problem, then what compare::cheapest_of says
 // orders:   problem, series, tap, measure, order, half_width, points: as observed over the rates
 std::map<std::string, store::Table> derived_tables(const Results&);
 

@@ -76,7 +76,7 @@ function how_to_read() {
   const texts = Object.entries(scenes).map(([name, text]) => {
     const of = "the scene " + name,
       whole = element("pre", {tabIndex: 0, role: "region", ariaLabel: of}, text);
-    return element("details", {className: "scene"}, element("summary", {}, of), whole);
+    return element("details", {}, element("summary", {}, of), whole);
   });
   if (page.command)
     texts.push(element("p", {className: "soft"}, "Made by ", element("code", {}, page.command)));
