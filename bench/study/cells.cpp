@@ -76,7 +76,9 @@ void add_clock(TabledCell& c, const Cell& cell) {
     const double seconds = cell.summary.duration > 0 ? cell.summary.duration : store::nan;
     const auto put = [](const Spread& s, double over, double& median, double& lower,
                         double& upper) {
-        median = s.median / over, lower = s.lower / over, upper = s.upper / over;
+        median = s.median / over;
+        lower = s.lower / over;
+        upper = s.upper / over;
     };
     put(t.wall, seconds, c.cost_s_per_s, c.cost_lower, c.cost_upper);
     put(t.processor, seconds, c.processor_s_per_s, c.processor_lower, c.processor_upper);
