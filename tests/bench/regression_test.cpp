@@ -2,8 +2,8 @@
 // move it?
 //
 // Every column of its cells, by the rules of `jvari diff` (bench/suite/difference_rules.cpp),
-// without the clock. `below_floor` follows from the rest: each error that it names is no larger than its
-// floor, and no other.
+// without the clock. `below_floor` follows from the rest: each error that it names is no larger
+// than its floor, and no other.
 #include <cmath>
 #include <fstream>
 
