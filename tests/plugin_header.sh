@@ -27,11 +27,17 @@ for compiler in gcc clang; do
     command -v $compiler >/dev/null || continue
     compiled $compiler '' "$c" && runs "a plugin in C by $compiler" two_point_in_c
 done
-said=$("$jvari" check --plugin ./plugin.so) || fail "the template in C breaks a promise: $said"
+promises() {  # promises WHAT: it keeps them, its balance among them
+    said=$("$jvari" check --plugin ./plugin.so) &&
+        [ "$(echo "$said" | grep -c 'kept .*KeepsItsEnergyLedgerIn')" = 2 ] ||
+        fail "$1 breaks a promise, or is not asked for its balance: $said"
+}
+promises "the template in C"
 for compiler in g++ clang++; do
     command -v $compiler >/dev/null || continue
     compiled $compiler '' "$cpp" && runs "a plugin in C++ by $compiler" plain_two_point
 done
+promises "the template in C++"
 compiled gcc '/All below may be 0/,/const void\* own/d' "$c" &&
     runs "a plugin of a header without the optional members" two_point_in_c
 compiled gcc '/const char \*compiler/s/$/ double more[64];/

@@ -11,7 +11,7 @@ from two_point import TwoPoint
 scene, traces, cost = "tanpura_c3_release", {}, {}
 for rate in (44100, 88200, 176400):
     problem, began = jvari.problem(scene, rate, 133, duration=0.05), time.perf_counter()
-    traces[rate] = TwoPoint(problem).advance(problem.rows)
+    traces[rate], _ = TwoPoint(problem).advance(problem.rows)
     cost[rate] = (time.perf_counter() - began) / 0.05  # for one second of sound
 rows = jvari.judge(scene, traces, name="mine", cost=cost, schemes=["modal_two_point"],
                    duration=0.05)

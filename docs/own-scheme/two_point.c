@@ -2,7 +2,7 @@
  * arrays:
  *     cc -O3 -shared -fPIC -I FOLDER_OF_jvari_scheme.h two_point.c -o libtwo_point.so -lm
  *     jvari check --plugin ./libtwo_point.so
- * One contact of exponent 1 and a thread at most. Leaves out: the energy columns. */
+ * One contact of exponent 1 and a thread at most. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,8 +11,8 @@
 struct mine {
     const struct jvari_problem *p; /* lives as long as the scheme */
     const double *g_b, *g_c, *g_e; /* weights, zeros where there is none */
-    double *a, *J, *y, *q, *u;     /* modes each */
-    double dt, xi, theta, theta_bc, phi_c, inverse_c, beta_c, mean_b, mean_c;
+    double *a, *b, *J, *y, *q, *u; /* modes each */
+    double dt, xi, theta, theta_bc, phi_c, inverse_c, beta_c, mean_b, mean_c, supplied, lost;
     int64_t n;
 };
 
@@ -30,17 +30,17 @@ static double shared(const struct mine *s, const double *g, const double *h) {
 static void reset(void *self) {
     struct mine *s = self;
     for (int64_t i = 0; i < s->p->modes; ++i) s->y[i] = s->p->start[i], s->q[i] = 0;
-    s->n = 0, s->mean_b = s->mean_c = 0;
+    s->n = 0, s->mean_b = s->mean_c = s->supplied = s->lost = 0;
 }
 static void *make(const struct jvari_scheme *scheme, const struct jvari_problem *p,
                   struct jvari_made *made) {
     (void)scheme;
     /* and its arrays behind it; the last stays 0 */
-    struct mine *s = calloc(1, sizeof *s + sizeof(double) * (size_t)(6 * p->modes));
-    double *room = (double *)(s + 1), *none = room + 5 * p->modes;
+    struct mine *s = calloc(1, sizeof *s + sizeof(double) * (size_t)(7 * p->modes));
+    double *room = (double *)(s + 1), *none = room + 6 * p->modes;
     s->p = p, s->dt = 1 / p->sample_rate, s->xi = s->dt * s->dt / (2 * p->modal_mass);
     s->a = room, s->J = room + p->modes, s->y = room + 2 * p->modes;
-    s->q = room + 3 * p->modes, s->u = room + 4 * p->modes;
+    s->q = room + 3 * p->modes, s->u = room + 4 * p->modes, s->b = room + 5 * p->modes;
     s->g_b = p->contacts ? p->contact_weights : none;
     s->g_c = p->threads ? p->thread_weights : none;
     s->g_e = p->plucks ? p->pluck_weights : none;
@@ -48,7 +48,8 @@ static void *make(const struct jvari_scheme *scheme, const struct jvari_problem 
         const double square = p->omega0[i] * p->omega0[i] - p->sigma[i] * p->sigma[i];
         const double turn = square > 0 ? cos(sqrt(square) * s->dt) : cosh(sqrt(-square) * s->dt);
         const double R = exp(-p->sigma[i] * s->dt), twice = 2 * R * turn, sum = 1 + twice + R * R;
-        s->a[i] = (1 - twice + R * R) / sum, s->J[i] = 1 + s->a[i] + 2 * (1 - R * R) / sum;
+        s->a[i] = (1 - twice + R * R) / sum, s->b[i] = 2 * (1 - R * R) / sum;
+        s->J[i] = 1 + s->a[i] + s->b[i];
     }
     s->phi_c = p->thread_stiffness / 2 + p->thread_damping / s->dt;
     s->inverse_c = 1 / (1 + s->phi_c * shared(s, s->g_c, s->g_c));
@@ -85,9 +86,23 @@ static void step(struct mine *s) {
     for (int64_t i = 0; i < p->modes; ++i) {
         const double r = s->u[i] + s->xi / s->J[i] * (s->g_b[i] * F_b + s->g_c[i] * F_c); /* (41) */
         s->y[i] += r, s->q[i] = r - s->q[i]; /* (40) */
+        s->u[i] = r, s->lost += s->b[i] * r * r / s->xi;
     }
+    const double r_c = dot(s, s->g_c, s->u); /* (51), (52) */
+    s->lost += p->thread_damping / s->dt * r_c * r_c;
+    s->supplied += F_e * dot(s, s->g_e, s->u);
     s->mean_b += F_b / (double)p->steps_per_row, s->mean_c += F_c / (double)p->steps_per_row;
     ++s->n;
+}
+static double stored(const struct mine *s) { /* (49) */
+    const struct jvari_problem *p = s->p;
+    const double d_b = p->contacts ? fmax(0, *p->contact_height - dot(s, s->g_b, s->y)) : 0;
+    const double d_c = p->threads ? p->thread_height - dot(s, s->g_c, s->y) : 0;
+    double sum = 0;
+    for (int64_t i = 0; i < p->modes; ++i)
+        sum += (s->q[i] * s->q[i] + s->a[i] * s->y[i] * s->y[i]) / s->xi;
+    if (p->contacts) sum += *p->contact_stiffness * d_b * d_b / 2;
+    return sum + p->thread_stiffness * d_c * d_c / 2;
 }
 /* driving force; bridge and thread force; velocity; displacement and nut force */
 static double tap(const struct mine *s, const char *of, const double *w) {
@@ -102,7 +117,10 @@ static int advance(void *self, struct jvari_rows *out) {
         for (int64_t k = 0; k < out->taps; ++k)
             out->tap[k * out->stride + row] =
                 tap(s, s->p->tap_quantities[k], s->p->tap_weights + k * s->p->modes);
-        s->mean_b = s->mean_c = 0;
+        double *energy = out->energy ? out->energy + row : NULL;
+        if (energy) energy[0] = stored(s), energy[out->stride] = s->supplied;
+        if (energy) energy[2 * out->stride] = s->lost;
+        s->mean_b = s->mean_c = s->supplied = s->lost = 0;
         for (int64_t n = 0; n < s->p->steps_per_row; ++n) step(s);
     }
     return JVARI_OK;
@@ -114,7 +132,7 @@ static const struct jvari_scheme scheme = {
     .source = "van Walstijn et al. 2016, eqs 33, 38-48",
     .represents = "bending stiffness, damping, frequency-dependent damping, measured modes, "
                   "lumped barrier, thread, initial shape, pluck",
-    .balance = "none",
+    .balance = "exact",
     .make = make,
     .reset = reset,
     .advance = advance,

@@ -1,7 +1,13 @@
-% The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48):
+% The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-52):
 % octave-cli two_point.m problem.json trace.csv
 % One contact of exponent 1 at most, and a thread. In MATLAB, set the two names in the next line.
 if exist('OCTAVE_VERSION'), files = argv(); else, files = {'problem.json', 'trace.csv'}; end
+if strcmp(files{1}, 'represents')  % as `jvari check` asks
+  disp(['represents: bending stiffness, damping, frequency-dependent damping, measured modes, ' ...
+        'lumped barrier, thread, initial shape, pluck']);
+  disp('balance: exact');
+  exit(0);
+end
 p = jsondecode(fileread(files{1}));
 if p.contacts > 1 || any(p.contact_exponent != 1) || any(p.contact_loss != 0)
   disp('this scheme takes one contact at most, of exponent 1 and without loss');
@@ -27,14 +33,17 @@ pluck = zeros((p.rows - 1)*steps + 2, 1); pluck(1:numel(p.pluck_force)) = p.pluc
 is = @(quantity) double(strcmp(p.tap_quantities, quantity));
 reads = is('displacement') + is('nut_force'); moves = is('velocity');
 y = p.start; q = none; n = 0; trace = zeros(p.rows, p.taps); F_b = 0; sum_b = 0; sum_c = 0;
+energy = zeros(p.rows, 3); supplied = 0; lost = 0;                        % (49), (51), (52) [J]
 for row = 1:p.rows
   trace(row, :) = reads.*(p.tap_weights*y) + moves.*(p.tap_weights*(2/dt*q)) ...
                   + (is('bridge_force')*sum_b + is('thread_force')*sum_c ...
                      - is('driving_force')*(sum_b + sum_c))/steps;
-  sum_b = 0; sum_c = 0;
+  energy(row, :) = [sum(q.^2 + a.*y.^2)/xi + k_b/2*max(0, h_b - g_b'*y)^2 ...
+                    + p.threads*k_c/2*(h_c - g_c'*y)^2, supplied, lost];
+  sum_b = 0; sum_c = 0; supplied = 0; lost = 0;
   for step = 1:steps
     n = min(n + 1, numel(pluck) - 1);
-    u = 2./J.*(q - a.*y) + e_e*(pluck(n) + pluck(n + 1))/2;                              % (42)
+    F_e = (pluck(n) + pluck(n + 1))/2; u = 2./J.*(q - a.*y) + e_e*F_e;                   % (42)
     v_c = (k_c*(h_c - g_c'*y) - phi_c*(g_c'*u))*inverse_c;
     d = h_b - g_b'*y; B = -(g_b'*u) - theta_bc*v_c;    % r + B = theta F: (48), the cases of fig 4
     if k_b == 0 || (d <= 0 && d + B <= 0), F_b = 0;
@@ -43,10 +52,13 @@ for row = 1:p.rows
     else, F_b = (-(B - 2*phi*d + sqrt(B^2 - 4*phi*d*(B + d)))/(2*(1 + phi)) + B)/theta; end
     F_c = v_c - beta_c*F_b;                                                              % (46)
     s = u + e_b*F_b + e_c*F_c; y = y + s; q = s - q;                                 % (40), (41)
-    sum_b = sum_b + F_b; sum_c = sum_c + F_c;
+    sum_b = sum_b + F_b; sum_c = sum_c + F_c; supplied = supplied + F_e*(g_e'*s);
+    lost = lost + sum(b.*s.^2)/xi + p.thread_damping/dt*(g_c'*s)^2;
   end
 end
 file = fopen(files{2}, 'w');
-fprintf(file, 'time_s'); fprintf(file, ',%s', p.tap_names{:}); fprintf(file, '\n');
-fprintf(file, ['%.17g' repmat(',%.17g', 1, p.taps) '\n'], [(0:p.rows - 1)'/p.tap_rate, trace]');
+fprintf(file, 'time_s'); fprintf(file, ',%s', p.tap_names{:});
+fprintf(file, ',energy_stored_J,energy_supplied_J,energy_dissipated_J\n');
+rows = [(0:p.rows - 1)'/p.tap_rate, trace, energy];
+fprintf(file, ['%.17g' repmat(',%.17g', 1, p.taps + 3) '\n'], rows');
 fclose(file);

@@ -1,15 +1,18 @@
-"""The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-48):
+"""The modal two-point scheme of van Walstijn, Bridges & Mehes 2016 (eqs 33, 38-52):
 python3 two_point.py problem.json trace.csv
 
 One contact of exponent 1 at most, and a thread. `jvari export` writes the problem, `jvari judge`
-says how wrong the trace is. In Python, `jvari.scheme("mine", represents=[...])(TwoPoint)` makes it
-a scheme, and picture.py draws it beside others."""
+says how wrong the trace is. In Python, `jvari.scheme("mine", represents=REPRESENTS)(TwoPoint)` makes
+it a scheme, and picture.py draws it beside others."""
 
 import json
 import sys
 from types import SimpleNamespace
 
 import numpy as np
+
+REPRESENTS = ["bending stiffness", "damping", "frequency-dependent damping", "measured modes",
+              "lumped barrier", "thread", "initial shape", "pluck"]
 
 
 class TwoPoint:
@@ -43,7 +46,7 @@ class TwoPoint:
 
     def reset(self):
         self.y, self.q = self.p.start.copy(), np.zeros(self.p.modes)
-        self.n, self.forces = 0, np.zeros(2)
+        self.n, self.forces, self.supplied, self.lost = 0, np.zeros(2), 0.0, 0.0
 
     def pluck(self, n):
         return self.p.pluck_force[n] if n < len(self.p.pluck_force) else 0.0
@@ -72,11 +75,21 @@ class TwoPoint:
         s = u + self.e_b * F_b + self.e_c * F_c  # (41)
         self.y, self.q = self.y + s, s - self.q  # (40)
         self.n, self.forces = self.n + 1, self.forces + (F_b, F_c)
-        return s
+        self.supplied += F_e * (self.g_e @ s)  # (51), (52)
+        self.lost += (self.b @ (s * s) / self.xi
+                      + self.p.thread_damping / self.dt * (self.g_c @ s) ** 2)
+
+    def stored(self):  # (49) [J]
+        modes = (self.q @ self.q + self.a @ (self.y * self.y)) / self.xi
+        d_b, d_c = max(0.0, self.h_b - self.g_b @ self.y), self.p.thread_height - self.g_c @ self.y
+        thread = 0.5 * self.p.thread_stiffness * d_c**2 * self.p.threads
+        return modes + 0.5 * self.k_b * d_b**2 + thread
 
     def advance(self, rows):
-        trace = np.empty((rows, self.p.taps))
-        for row in trace:
+        trace, energy = np.empty((rows, self.p.taps)), np.empty((rows, 3))
+        for row, joules in zip(trace, energy):
+            joules[:] = self.stored(), self.supplied, self.lost
+            self.supplied, self.lost = 0.0, 0.0
             (F_b, F_c), self.forces = self.forces / self.p.steps_per_row, np.zeros(2)
             shape, speed = self.heard @ self.y, self.heard @ (2 / self.dt * self.q)
             forces = {"bridge_force": F_b, "thread_force": F_c, "driving_force": -F_b - F_c}
@@ -84,17 +97,21 @@ class TwoPoint:
                       for k, of in enumerate(self.p.tap_quantities)]
             for _ in range(self.p.steps_per_row):
                 self.step()
-        return trace
+        return trace, energy
 
 
 if __name__ == "__main__":
+    if sys.argv[1] == "represents":  # as `jvari check` asks
+        print("represents:", ", ".join(REPRESENTS))
+        print("balance: exact")
+        sys.exit()
     with open(sys.argv[1]) as file:
         p = SimpleNamespace(**{key: np.array(value) if isinstance(value, list) else value
                                for key, value in json.load(file).items()})
     try:
-        trace = np.column_stack((np.arange(p.rows) / p.tap_rate, TwoPoint(p).advance(p.rows)))
+        trace = np.column_stack((np.arange(p.rows) / p.tap_rate, *TwoPoint(p).advance(p.rows)))
     except NotImplementedError as refusal:
         print(refusal)
         sys.exit(3)  # refused: no error, and nothing to be judged
-    np.savetxt(sys.argv[2], trace, "%.17g", ",", header="time_s," + ",".join(p.tap_names),
-               comments="")
+    names = ["time_s", *p.tap_names, "energy_stored_J", "energy_supplied_J", "energy_dissipated_J"]
+    np.savetxt(sys.argv[2], trace, "%.17g", ",", header=",".join(names), comments="")

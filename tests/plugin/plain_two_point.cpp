@@ -1,5 +1,5 @@
-// The modal two-point scheme of van Walstijn et al. 2016 (eqs 33, 38-48), in plain C++. Leaves out:
-// the energy columns.
+// The modal two-point scheme of van Walstijn et al. 2016 (eqs 33, 38-52), in plain C++.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -15,21 +15,27 @@ struct PlainTwoPoint {
                                  (square > 0 ? std::cos(std::sqrt(square) * dt)
                                              : std::cosh(std::sqrt(-square) * dt));
             a.push_back((1 - twice + R * R) / (1 + twice + R * R));
-            J.push_back(1 + a[i] + 2 * (1 - R * R) / (1 + twice + R * R));  // (33)
+            b.push_back(2 * (1 - R * R) / (1 + twice + R * R));  // (33)
+            J.push_back(1 + a[i] + b[i]);
             e_b.push_back(xi / J[i] * g_b[i]), e_c.push_back(xi / J[i] * g_c[i]);
         }
         theta_bc = dot(g_b, e_c), inverse = 1 / (1 + phi_c * dot(g_c, e_c)),
         beta_c = phi_c * theta_bc * inverse;
         theta = dot(g_b, e_b) - beta_c * theta_bc;  // (47), (48)
     }
-    void reset() { y.assign(p.start, p.start + p.modes), q = u = none, mean_b = mean_c = 0, n = 0; }
+    void reset() {
+        y.assign(p.start, p.start + p.modes), q = u = none, n = 0;
+        mean_b = mean_c = supplied = lost = 0;
+    }
     int64_t dofs() const { return 2 * p.modes; }
     int advance(const jvari_rows& out) {
         for (int64_t row = 0; row < out.rows; ++row) {
             for (int64_t k = 0; k < out.taps; ++k)
                 out.tap[k * out.stride + row] =
                     tap(p.tap_quantities[k], p.tap_weights + k * p.modes);
-            mean_b = mean_c = 0;
+            if (double* energy = out.energy ? out.energy + row : nullptr)
+                energy[0] = stored(), energy[out.stride] = supplied, energy[2 * out.stride] = lost;
+            mean_b = mean_c = supplied = lost = 0;
             for (int64_t step = 0; step < p.steps_per_row; ++step, ++n) advance_a_step();
         }
         return JVARI_OK;
@@ -54,8 +60,19 @@ struct PlainTwoPoint {
                      F_c = v - beta_c * F_b;
         // (40), (41)
         for (int64_t i = 0; i < p.modes; ++i)
-            u[i] += e_b[i] * F_b + e_c[i] * F_c, y[i] += u[i], q[i] = u[i] - q[i];
+            u[i] += e_b[i] * F_b + e_c[i] * F_c, y[i] += u[i], q[i] = u[i] - q[i],
+                                                               lost += b[i] * u[i] * u[i] / xi;
+        lost += p.thread_damping / dt * dot(g_c, u) * dot(g_c, u);  // (51), (52)
+        supplied += F_e * dot(g_e, u);
         mean_b += F_b / double(p.steps_per_row), mean_c += F_c / double(p.steps_per_row);
+    }
+    double stored() const {  // (49)
+        const double d_b = p.contacts ? std::max(0.0, *p.contact_height - dot(g_b, y)) : 0,
+                     d_c = p.threads ? p.thread_height - dot(g_c, y) : 0;
+        double sum = p.thread_stiffness * d_c * d_c / 2;
+        if (p.contacts) sum += *p.contact_stiffness * d_b * d_b / 2;
+        for (int64_t i = 0; i < p.modes; ++i) sum += (q[i] * q[i] + a[i] * y[i] * y[i]) / xi;
+        return sum;
     }
     double contact(double y_b, double b) const {  // r + b = theta F (48), the four cases of fig 4
         const double d = p.contacts ? *p.contact_height - y_b : 0,
@@ -74,15 +91,16 @@ struct PlainTwoPoint {
     const jvari_problem& p;
     double dt = 1 / p.sample_rate, xi = dt * dt / (2 * p.modal_mass),
            phi_c = p.thread_stiffness / 2 + p.thread_damping / dt;
-    double theta_bc = 0, inverse = 1, beta_c = 0, theta = 0, mean_b = 0, mean_c = 0;
-    std::vector<double> a{}, J{}, e_b{}, e_c{}, y{}, q{}, u{},
+    double theta_bc = 0, inverse = 1, beta_c = 0, theta = 0, mean_b = 0, mean_c = 0, supplied = 0,
+           lost = 0;
+    std::vector<double> a{}, b{}, J{}, e_b{}, e_c{}, y{}, q{}, u{},
         none = std::vector<double>(std::size_t(p.modes));
     const double *g_b = p.contacts ? p.contact_weights : none.data(),
                  *g_c = p.threads ? p.thread_weights : none.data();
     const double* g_e = p.plucks ? p.pluck_weights : none.data();
     int64_t n = 0;
 };
-JVARI_SCHEME(PlainTwoPoint, "plain_two_point", "van Walstijn et al. 2016, eqs 38-48, as printed",
+JVARI_SCHEME(PlainTwoPoint, "plain_two_point", "van Walstijn et al. 2016, eqs 38-52, as printed",
              "bending stiffness, damping, frequency-dependent damping, lumped barrier, thread, "
              "initial shape, pluck",
-             "none")
+             "exact")
