@@ -190,20 +190,6 @@ private:
     std::exception_ptr failure_;
 };
 
-inline Features features_of(const std::vector<std::string>& names) {
-    std::vector<std::string> known;
-    Features all;
-    for (int i = 0; i < feature_count; ++i)
-        known.emplace_back(name_of(static_cast<Feature>(1u << i)));
-    for (const std::string& name : names) {
-        const auto found = std::ranges::find(known, name);
-        if (found == known.end())
-            throw bench::store::UsageError(bench::store::unknown("feature", name, known));
-        all = all | Features(1u << (found - known.begin()));
-    }
-    return all;
-}
-
 // Registers the class in place of one of the same name; returns the path that its guest has.
 inline std::string add_class(const py::object& python_class, const std::string& name,
                              const std::vector<std::string>& represents, const std::string& balance,
@@ -212,13 +198,8 @@ inline std::string add_class(const py::object& python_class, const std::string& 
     const auto* kept = new PythonClass{name, source, python_class};
     Descriptor d{};
     d.name = kept->name.c_str(), d.source = kept->source.c_str();
-    d.represents = features_of(represents);
-    if (balance != "exact" && balance != "to tolerance" && balance != "none")
-        throw bench::store::UsageError("balance: found \"" + balance +
-                                       "\", expected \"exact\", \"to tolerance\" or \"none\"");
-    d.balance = balance == "exact"  ? Balance::exact
-                : balance == "none" ? Balance::none
-                                    : Balance::to_tolerance;
+    d.represents = bench::compare::features_of(represents);
+    d.balance = bench::compare::balance_of(balance);
     d.clock = Clock::stepped;
     d.own = kept;
     d.untimed = compiled ? "" : "interpreted, not compared";

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "bench/check/promise.hpp"
 #include "bench/store/json.hpp"
+#include "bench/store/usage.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::check {
@@ -146,9 +148,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Answer = Verdict::Answer;
 
+bool named(const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
 struct Count {
     int kept = 0, broken = 0, excused = 0, not_asked = 0;
-    const Answered* first = nullptr;  // that has this answer, else any
+    const Answered* first = nullptr;       // that has this answer, else any
+    std::map<std::string, int> unasked{};  // how many scenes for each reason
+    // that most scenes have
+    std::string why_not_asked() const {
+        const auto most = std::ranges::max_element(unasked, {}, [](auto& r) { return r.second; });
+        return most == unasked.end() ? "it represents no scene of it" : most->first;
+    }
     Answer answer() const {
         return broken > 0    ? Answer::broken
                : excused > 0 ? Answer::excused
@@ -166,6 +178,7 @@ Count count_of(const Checked& c, const Promise& p) {
     Count n;
     for (const Answered& a : c.answers) {
         if (a.promise != &p) continue;
+        if (a.verdict.answer == Answer::not_asked) ++n.unasked[a.verdict.why];
         if (++n.of(a.verdict.answer) == 1 && (!n.first || a.verdict.answer == n.answer()))
             n.first = &a;
     }
@@ -185,14 +198,34 @@ bool Checked::broken() const {
                        [](const Answered& a) { return a.verdict.broken(); });
 }
 
-Checked check(const Descriptor& d, const store::Listener& listener,
+namespace {
+// Throws UsageError: a name that there is not.
+void must_be(const char* what, const std::vector<std::string>& names, const auto& all) {
+    std::vector<std::string> known;
+    for (const auto& one : all) known.emplace_back(one.name);
+    for (const std::string& name : names)
+        if (!named(known, name)) throw store::UsageError(store::unknown(what, name, known));
+}
+}  // namespace
+
+Checked check(const Descriptor& d, const Asked& asked, const store::Listener& listener,
               const std::function<void(const Checked&, const Promise&)>& answered) {
-    Checked c{d.name, d.source, {}};
+    must_be("promise", asked.promises, promises());
+    if (!asked.scenes.empty()) must_be("scene of a check", asked.scenes, contract_scenes());
+    Checked c{d.name, d.source, {}, {}};
     const auto progress = listener.begin(std::string("check ") + d.name);
     double done = 0;
     std::string broken, claim_broken;  // the first promise that is, the first claim
     for (const Promise& p : promises()) {
-        const auto cases = cases_of(d, p.scope);
+        if (!asked.promises.empty() && !named(asked.promises, p.name)) continue;
+        auto cases = cases_of(d, p.scope);
+        if (!asked.scenes.empty()) {
+            std::erase_if(cases, [&](const Case& k) { return !named(asked.scenes, k.scene.name); });
+            if (cases.empty()) continue;
+        }
+        c.examined.push_back(&p);
+        // a run of a program is a process and a file
+        const bool too_many = asked.promises.empty() && is_called(d) && p.of == feels_every_number;
         const bool last = p.scope == Scope::once_all_before_are_kept,
                    claim = last || p.scope == Scope::once_all_others_are_kept;
         const std::string& rests_on = last && broken.empty() ? claim_broken : broken;
@@ -200,7 +233,10 @@ Checked check(const Descriptor& d, const store::Listener& listener,
             progress->show(done / promises().size(), p.name);
             const auto start = std::chrono::steady_clock::now();
             Verdict verdict = claim && !rests_on.empty() ? not_asked("it rests on " + rests_on)
-                                                         : verdict_on(p, one);
+                              : too_many
+                                  ? not_asked(fmt::format(
+                                        "hundreds of calls of the program, by --only {}", p.name))
+                                  : verdict_on(p, one);
             std::string& first = claim ? claim_broken : broken;
             if (first.empty() && verdict.broken()) first = p.name;
             const double seconds =
@@ -210,6 +246,9 @@ Checked check(const Descriptor& d, const store::Listener& listener,
         }
         if (answered) answered(c, p);
     }
+    if (c.examined.empty())
+        throw store::UsageError(fmt::format(
+            "check {}: found no promise of these that is examined on these scenes", d.name));
     return c;
 }
 
@@ -227,18 +266,28 @@ std::string line_of(const Checked& c, const Promise& p) {
 }
 
 std::string conclusion_of(const Checked& c) {
-    int broken = 0;
-    std::string excused;
-    for (const Promise& p : promises()) {
-        const Count n = count_of(c, p);
-        broken += n.broken > 0;
-        if (n.excused > 0) excused += (excused.empty() ? "" : ", ") + std::string(p.name);
+    std::map<Answer, int> number;
+    std::string excused, reasons;
+    for (const Promise* p : c.examined) {
+        const Count n = count_of(c, *p);
+        ++number[n.answer()];
+        if (n.excused > 0) excused += (excused.empty() ? "" : ", ") + std::string(p->name);
+        if (n.answer() != Answer::not_asked) continue;
+        if (const std::string why = n.why_not_asked(); reasons.find(why) == std::string::npos)
+            reasons += (reasons.empty() ? ": " : "; ") + why;
     }
-    const std::string text =
-        broken == 0 ? "  keeps what it promises"
-                    : fmt::format("  breaks {} of {} promises", broken, promises().size());
-    return text +
-           (excused.empty() ? "" : fmt::format(", but for what it is known to break: {}", excused));
+    std::string text =
+        number[Answer::broken] > 0
+            ? fmt::format("  breaks {} of {} promises", number[Answer::broken], c.examined.size())
+        : number[Answer::kept] + number[Answer::excused] > 0 ? "  keeps what it promises"
+                                                             : "  nothing could be asked of it";
+    if (!excused.empty()) text += ", but for what it is known to break: " + excused;
+    std::string counts;
+    for (const auto& [answer, count] : number)
+        if (count > 0)
+            counts +=
+                fmt::format("{}{} {}", counts.empty() ? "\n  " : ", ", count, name_of(answer));
+    return text + counts + reasons;
 }
 
 std::string json_of(const std::vector<Checked>& all) {
@@ -252,12 +301,18 @@ std::string json_of(const std::vector<Checked>& all) {
                                {"answer", name_of(a.verdict.answer)},
                                {"why", a.verdict.why},
                                {"seconds", a.seconds}});
-        Json broken = Json::array();
-        for (const Promise& p : promises())
-            if (count_of(c, p).broken > 0) broken.push_back(p.name);
+        Json broken = Json::array(), not_asked = Json::array();
+        for (const Promise* p : c.examined) {
+            const Count n = count_of(c, *p);
+            if (n.broken > 0) broken.push_back(p->name);
+            if (n.answer() == Answer::not_asked) not_asked.push_back(p->name);
+        }
         any = any || c.broken();
-        schemes.push_back(
-            {{"scheme", c.scheme}, {"source", c.source}, {"broken", broken}, {"answers", answers}});
+        schemes.push_back({{"scheme", c.scheme},
+                           {"source", c.source},
+                           {"broken", broken},
+                           {"not_asked", not_asked},
+                           {"answers", answers}});
     }
     return store::indented({{"status", any ? "broken" : "kept"}, {"schemes", schemes}});
 }

@@ -103,8 +103,9 @@ Verdict stays_sound_over_a_map(const Case&);
 Settings settings_for(const Descriptor&, const Scene&);
 // it represents it, and approximates nothing of it
 bool is_as_the_scene_says(const Descriptor&, const Scene&);
-// a program by files: it declares nothing, and refuses when it runs
+// a program by files: of it only rows are known, and it refuses when it runs
 bool is_called(const Descriptor&);
+constexpr const char* in_a_process = "it runs in a process of its own, and gives rows alone";
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
 Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
 
@@ -164,17 +165,24 @@ struct Answered {
     double seconds;  // [s]
 };
 
+struct Asked {  // of promises and scenes those alone that are named; none named: all
+    std::vector<std::string> promises, scenes;
+};
+
 struct Checked {
     std::string scheme, source;
+    std::vector<const Promise*> examined;
     std::vector<Answered> answers;  // in the order of promises(), then of the scenes
     bool broken() const;
 };
 
-// Calls `answered` for each promise as soon as all its scenes are examined.
-Checked check(const Descriptor&, const store::Listener&,
+// Calls `answered` for each promise as soon as all its scenes are examined. Throws UsageError: a
+// promise or a scene that there is not, or no promise that is examined on it.
+Checked check(const Descriptor&, const Asked&, const store::Listener&,
               const std::function<void(const Checked&, const Promise&)>& answered = {});
 
 std::string line_of(const Checked&, const Promise&);
+// whether it keeps them, and how many: "14 kept, 5 not asked: it promises no balance"
 std::string conclusion_of(const Checked&);
 std::string json_of(const std::vector<Checked>&);
 // a test suite a scheme, a test case a promise and scene

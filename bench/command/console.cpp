@@ -9,14 +9,17 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "bench/command/verbs.hpp"
@@ -97,14 +100,28 @@ class Line : public store::Progress {
 public:
     explicit Line(std::string job) : job_(std::move(job)) {}
     ~Line() override {
+        {
+            const std::scoped_lock lock(mutex_);
+            ended_ = true;
+        }
+        end_.notify_one();
+        clock_.join();
         if (shown_) clear_line();
     }
     void show(double fraction, const std::string& what) override {
+        const std::scoped_lock lock(mutex_);
+        text_ = fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what);
+        write();
+    }
+
+private:
+    void write() {  // text_, where it is time to
         const auto now = std::chrono::steady_clock::now();
-        if (now - start_ < 2s || now - last_ < pause_) return;
+        if (text_.empty() || now - start_ < 2s || now - last_ < pause_) return;
         last_ = now;
-        const std::string line =
-            harmless(fmt::format("{} {:3.0f} % {}", job_, 100 * fraction, what));
+        const std::string line = harmless(
+            fmt::format("{}, {} s", text_,
+                        std::chrono::duration_cast<std::chrono::seconds>(now - start_).count()));
         if (!terminal_) return write_error(line);
         const store::Undisturbed whole;
         if (!shown_) shown_.emplace(clear_line);
@@ -115,12 +132,19 @@ public:
         std::fflush(stderr);
     }
 
-private:
-    std::string job_;
+    std::string job_, text_;
     const bool terminal_ = isatty(STDERR_FILENO) != 0;
     const std::chrono::milliseconds pause_ = terminal_ ? 200ms : 10000ms;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
     std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
+    std::mutex mutex_;                             // of all above
+    std::condition_variable end_;
+    bool ended_ = false;
+    // for a job that shows nothing while a long part of it runs
+    std::thread clock_{[this] {
+        std::unique_lock lock(mutex_);
+        while (!end_.wait_for(lock, pause_, [this] { return ended_; })) write();
+    }};
 };
 }  // namespace
 

@@ -36,8 +36,8 @@ public:
     // Columns of standard output: $COLUMNS, else those of the terminal, else as many as are wanted.
     static std::size_t width();
 
-    // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line a
-    // minute. Nothing with --quiet.
+    // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line every
+    // ten seconds. Nothing with --quiet.
     std::unique_ptr<store::Progress> begin(const std::string& job) const override;
 
 private:

@@ -67,7 +67,7 @@ public:
     Verb(CLI::App& program, const char* name, const char* about)
         : Arguments(*program.add_subcommand(name, about)) {}
     Request& r = *request_;  // the arguments; an `act` gets them once they are read
-    Act does(int (*act)(Request), const char* footer) {
+    Act does(int (*act)(Request), const std::string& footer) {
         common(r);
         verb_.footer(footer);
         return [request = request_, act] { return act(*request); };

@@ -129,4 +129,22 @@ std::vector<std::string> names_in(Features features) {
     return names;
 }
 
+Features features_of(const std::vector<std::string>& names) {
+    const std::vector<std::string> known = names_in(Features((1u << feature_count) - 1));
+    Features all;
+    for (const std::string& name : names) {
+        const auto found = std::ranges::find(known, name);
+        if (found == known.end()) throw store::UsageError(store::unknown("feature", name, known));
+        all = all | Features(1u << (found - known.begin()));
+    }
+    return all;
+}
+
+Balance balance_of(const std::string& name) {
+    const std::vector<std::string> known{"exact", "to tolerance", "none"};
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) throw store::UsageError(store::unknown("balance", name, known));
+    return static_cast<Balance>(found - known.begin());
+}
+
 }  // namespace jvari::bench::compare

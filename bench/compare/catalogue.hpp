@@ -85,6 +85,8 @@ bool whole_multiple(double rate, double of);  // rate = n x of, n = 1, 2, ...
 // Doubles of state with that many modes; nothing where it cannot be made. A grid has as many
 // whatever it is told.
 std::optional<int> dofs_with(int modes, const Descriptor&, const Scene&, Settings);
-std::vector<std::string> names_in(Features);  // one by one
+std::vector<std::string> names_in(Features);                  // one by one
+Features features_of(const std::vector<std::string>& names);  // throws UsageError
+Balance balance_of(const std::string& name);  // "exact", "to tolerance", "none"; UsageError
 
 }  // namespace jvari::bench::compare

@@ -2,6 +2,7 @@
 // tests/contract_plugins/check.sh.
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "tests/command_line.hpp"
 
@@ -45,6 +46,46 @@ TEST(Check, ExcusesAKnownBreachByNameAndSaysSo) {
     EXPECT_TRUE(says(o.out,
                      "keeps what it promises, but for what it is known to break: "
                      "CarriesNoMoreStateThanTheSceneNeeds"));
+}
+
+TEST(Check, ItsLastLineCountsAndSaysWhyAPromiseWasNotAsked) {
+    const Scratch scratch;
+    const std::string asked =
+        "check modal_explicit_penalty --only NeverPulls,"
+        "KeepsItsEnergyLedgerInSum,StaysSoundOverAMap";
+    const Outcome o = jvari(scratch, asked);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_TRUE(o.out.ends_with(
+        "\n  keeps what it promises\n  1 kept, 2 not asked: it promises no balance\n"))
+        << o.out;
+    EXPECT_EQ(Json::parse(jvari(scratch, asked + " --json").out)["schemes"][0]["not_asked"],
+              Json({"KeepsItsEnergyLedgerInSum", "StaysSoundOverAMap"}));
+}
+
+TEST(Check, AsksTheNamedPromisesOnTheNamedScenesAlone) {
+    const Scratch scratch;
+    const auto asked = [&](const std::string& options) {
+        std::set<std::string> all;
+        const Outcome o = jvari(scratch, "check modal_two_point --json " + options);
+        const Json said = Json::parse(o.out);
+        for (const Json& a : said["schemes"][0]["answers"])
+            all.insert(a["promise"].get<std::string>() + " " + a["scene"].get<std::string>());
+        return all;
+    };
+    EXPECT_EQ(asked("--only NeverPulls,ItRunsAScene --scene tanpura_c3,free_string"),
+              (std::set<std::string>{"NeverPulls tanpura_c3", "NeverPulls free_string"}));
+    EXPECT_EQ(asked("--only ItRunsAScene"), std::set<std::string>{"ItRunsAScene "});
+    EXPECT_GT(asked("--scene free_string").size(), 10u);
+    EXPECT_TRUE(
+        says(jvari(scratch, "check modal_two_point --only NeverPulls --scene rest").out,
+             "\n  nothing could be asked of it\n  1 not asked: the string touches nothing"));
+    EXPECT_TRUE(ends(jvari(scratch, "check modal_two_point --only NeverPull"), 2,
+                     "did you mean \"NeverPulls\"?"));
+    EXPECT_TRUE(ends(jvari(scratch, "check modal_two_point --scene free_strin"), 2,
+                     "did you mean \"free_string\"?"));
+    EXPECT_TRUE(
+        ends(jvari(scratch, "check modal_two_point --scene free_string --only ItRunsAScene"), 2,
+             "found no promise of these that is examined on these scenes"));
 }
 
 TEST(Check, WritesWhatContinuousIntegrationReads) {
