@@ -1,4 +1,4 @@
-// What the module does: run, run_many, compare, suite, trim. Each hands its arguments to the engine
+// What the module does: run, run_many, compare, report, suite, trim. Each hands its arguments to the engine
 // and its result back.
 #pragma once
 
@@ -19,6 +19,8 @@
 #include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
+#include "bench/report/report.hpp"
+#include "bench/report/results_folder.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/cells.hpp"
@@ -138,14 +140,63 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
     return out;
 }
 
+// The rows that compare or judge give are a list that can be reported: it keeps what they are of.
+struct Compared {
+    compare::Comparison comparison;
+    compare::CompareRequest request;
+};
+inline std::vector<std::string> written(const Compared& c) {
+    return report::written(c.comparison, c.request, PythonListener()).files;
+}
+template <class Act>
+py::object compared(const compare::CompareRequest& request, Act act) {
+    study::Kept keep;
+    keep.folder = report::cells_folder(
+        request.out, "comparison of " + compare::load_scene(request).name, PythonListener());
+    std::unique_ptr<Compared> all;
+    const std::string rows = unlocked(
+        [&] {
+            all = std::make_unique<Compared>(act(keep), request);
+            if (!request.out.empty()) written(*all);
+            return store::indented(compare::json_of(compare::cells_of(all->comparison)));
+        },
+        [&request] {
+            return request.out.empty() ? "nothing is kept but long runs of references"
+                                       : "errors of cells are kept in " + request.out;
+        });
+    py::object list = py::module_::import("jvari").attr("Rows")(parsed(rows));
+    list.attr("_comparison") =
+        py::capsule(all.release(), [](void* c) { delete static_cast<Compared*>(c); });
+    return list;
+}
+inline std::vector<std::string> report_of(const py::object& of, const std::string& out) {
+    if (!py::hasattr(of, "_comparison")) {
+        if (py::isinstance<py::list>(of) || !out.empty())
+            throw store::UsageError(
+                "report: expected the rows as compare or judge gave them and a "
+                "folder, or a folder alone, which is drawn again");
+        const auto folder = py::module_::import("os").attr("fspath")(of).cast<std::string>();
+        return unlocked([&] { return report::write_report(folder, PythonListener()); });
+    }
+    Compared c = *of.attr("_comparison").cast<py::capsule>().get_pointer<Compared>();
+    if (out.empty()) throw store::UsageError("report: expected the folder that is to be written");
+    c.request.out = out;
+    return unlocked([&] {
+        report::cells_folder(out, "comparison of " + c.comparison.scene().name, PythonListener());
+        return written(c);
+    });
+}
+
 inline py::object compare_rows(const py::object& scene, const std::vector<std::string>& schemes,
                                const std::vector<double>& rates,
                                const std::variant<int, std::vector<int>>& modes,
                                const std::string& reference, int reference_modes, bool controls,
                                std::optional<double> duration, std::optional<double> tap_rate,
-                               const py::dict& options, int repeats, int jobs) {
+                               const py::dict& options, int repeats, const std::string& out,
+                               int jobs) {
     const NamedScene s = NamedScene::of(scene);
     compare::CompareRequest r;
+    r.out = out;
     r.scene = s.name;
     r.set = s.set;
     r.schemes = schemes;
@@ -161,12 +212,8 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
     r.repeats = repeats;
     r.jobs = jobs;
     const compare::Catalogue catalogue(plugins());
-    return parsed(unlocked(
-        [&] {
-            return store::indented(compare::json_of(
-                compare::cells_of(compare::compare(r, catalogue, PythonListener()))));
-        },
-        [] { return std::string("nothing is kept but long runs of references"); }));
+    return compared(
+        r, [&](study::Kept& k) { return compare::compare(r, catalogue, PythonListener(), k); });
 }
 
 inline py::dict tables_of(const suite::Suite& suite, const std::string& out, bool resume,

@@ -50,7 +50,7 @@ inline py::object scheme_decorator(const std::string& name,
 inline py::list check_rows_of(const std::string& scheme) {
     const compare::Catalogue catalogue(plugins());
     const Descriptor& d = catalogue.find(scheme);
-    const check::Checked checked = unlocked([&] { return check::check(d, PythonListener()); });
+    const check::Checked checked = unlocked([&] { return check::check(d, {}, PythonListener()); });
     py::list rows;
     for (const check::Answered& a : checked.answers) {
         py::dict row;
@@ -142,11 +142,9 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces,
     c.contents = store::hash_of(c.contents);
     std::vector<std::string> others = plugins();
     std::erase(others, "trace " + name);
-    return parsed(unlocked([&] {
-        study::Kept nowhere;
-        return store::indented(compare::json_of(
-            compare::cells_of(judge::judge(std::move(c), r, others, PythonListener(), nowhere))));
-    }));
+    return compared(r, [&](study::Kept& keep) {
+        return judge::judge(std::move(c), r, others, PythonListener(), keep);
+    });
 }
 
 }  // namespace jvari::python

@@ -1,6 +1,7 @@
 """Numerical schemes for strings against obstacles, compared by speed and accuracy on the same
 scenes. SI units."""
 
+from os import PathLike
 from typing import Any, Mapping, Sequence, Union
 
 import numpy as np
@@ -10,6 +11,9 @@ _Value = Union[bool, int, float, str, Sequence["_Value"]]
 # Its keys are columns; numbers as numbers, None where nothing is known. Of a cell, row["errors"]
 # has {tap: {measure: {"value", "floor", "certificate", "in_model", "certificate_in_model"}}}.
 _Row = dict[str, Any]
+
+class Rows(list[_Row]):
+    """What compare and judge give: rows that report() can write to a folder."""
 
 __version__: str
 
@@ -87,8 +91,9 @@ def compare(
     scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [],
     modes: int | Sequence[int] = 0, reference: str = "", reference_modes: int = 0,
     controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
-    options: Mapping[str, _Value] = {}, repeats: int = 5, jobs: int = 0,
-) -> list[_Row]: ...
+    options: Mapping[str, _Value] = {}, repeats: int = 5, out: str = "", jobs: int = 0,
+) -> Rows: ...
+def report(of: Rows | str | PathLike[str], out: str = "") -> list[str]: ...
 def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...
 def suite_tables(  # "cells", "maps", "boundaries"; SI units
     file: str, out: str = "", resume: bool = False, jobs: int = 0,
@@ -107,7 +112,7 @@ def judge(
     cost: float | Mapping[float, float] | None = None, schemes: Sequence[str] = [],
     duration: float | None = None, tap_rate: float | None = None, tap: str = "",
     reference: str = "", repeats: int = 5, jobs: int = 0,
-) -> list[_Row]: ...
+) -> Rows: ...
 def scheme(
     name: str, *, represents: Sequence[str] = [], balance: str = "none",
     source: str = "a scheme in Python", compiled: bool = False,

@@ -152,15 +152,23 @@ void add_run(py::module_& m) {
 
 void add_studies(py::module_& m) {
     using python::TrimmedRows;
-    m.def("compare", &python::compare_rows, py::arg("scene"),
-          py::arg("schemes") = std::vector<std::string>(), py::arg("rates") = std::vector<double>(),
-          py::arg("modes") = 0, py::arg("reference") = "", py::arg("reference_modes") = 0,
-          py::arg("controls") = false, py::arg("duration") = py::none(),
-          py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5,
-          py::arg("jobs") = 0,
-          "Schemes x modes x rates [Hz] against a reference, as `jvari compare`: modes may be a "
-          "number or several, and so may the values of options. A dict per cell, its keys the "
-          "columns of cells.csv and the bounds of the errors. None where nothing is known.");
+    m.def(
+        "compare", &python::compare_rows, py::arg("scene"),
+        py::arg("schemes") = std::vector<std::string>(), py::arg("rates") = std::vector<double>(),
+        py::arg("modes") = 0, py::arg("reference") = "", py::arg("reference_modes") = 0,
+        py::arg("controls") = false, py::arg("duration") = py::none(),
+        py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5,
+        py::arg("out") = "", py::arg("jobs") = 0,
+        "Schemes x modes x rates [Hz] against a reference, as `jvari compare`: modes may be a "
+        "number or several, and so may the values of options. A dict per cell, its keys the "
+        "columns of cells.csv and the bounds of the errors. None where nothing is known. out: the "
+        "folder that gets tables, pictures and report.html, as of `jvari compare --out`.");
+    const py::type list = py::type::of(py::list());
+    m.attr("Rows") = py::type::of(list)("Rows", py::make_tuple(list), py::dict());
+    m.def("report", &python::report_of, py::arg("of"), py::arg("out") = "",
+          "Writes tables, pictures and report.html of the rows that compare or judge gave into the "
+          "folder `out`: report(rows, \"rep\"). Of a folder alone, page and pictures once more, as "
+          "`jvari report`. Returns the files that it wrote.");
     m.def("suite", &python::suite_rows, py::arg("file"), py::arg("out") = "",
           py::arg("resume") = false, py::arg("jobs") = 0,
           "The cells of a suite, a dict each, its maps aside. out: the folder that keeps them, as "

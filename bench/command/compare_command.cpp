@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <sstream>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results_folder.hpp"
+#include "bench/command/results.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
@@ -16,6 +18,7 @@
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
+#include "bench/judge/judge.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "scenes/excitation.hpp"
 #include "schemes/contact/compliance.hpp"
@@ -27,9 +30,34 @@ namespace fs = std::filesystem;
 
 struct CompareCall : Running, compare::CompareRequest {
     bool resume = false;
-    std::vector<std::string> option_lists;
+    std::vector<std::string> option_lists, costs;  // NAME=S,... of a cost
     std::string modes_of_reference = "0";
 };
+
+// Of each scheme that --cost names.
+std::map<std::string, judge::Costs> costs_of(const CompareCall& r, const compare::Catalogue& all) {
+    std::map<std::string, judge::Costs> costs;
+    for (const compare::SchemeOption& o : scheme_options(r.costs)) {
+        const std::string what = fmt::format("--cost {}={}", o.name, o.value);
+        if (!*all.find(o.name).untimed)
+            throw store::UsageError(what +
+                                    ": this scheme is timed; a cost is given to one that is "
+                                    "not, as of --external");
+        if (r.modes.size() > 1) throw store::UsageError(what + ": found more than one of --modes");
+        std::istringstream values(o.value);
+        std::size_t count = 0;
+        for (std::string text; std::getline(values, text, ','); ++count) {
+            if (const std::string wrong = positive.check(text); !wrong.empty())
+                throw store::UsageError(what + ": " + wrong);
+            if (count < r.rates.size()) costs[o.name][r.rates[count]] = store::number_of(text);
+        }
+        if (count != r.rates.size())
+            throw store::UsageError(
+                fmt::format("{}: found {} costs for {} --rates, expected one each", what, count,
+                            r.rates.size()));
+    }
+    return costs;
+}
 
 bool names_compliance(const compare::SchemeOption& o) { return o.name == compliance_option.name; }
 
@@ -96,20 +124,23 @@ int compare_command(CompareCall r) {
     else r.reference_modes = static_cast<int>(store::number_of(r.modes_of_reference));
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
+    const auto costs = costs_of(r, catalogue);
     compare::note_slow_plugins(console);
     if (r.resume && r.out.empty())
         throw store::UsageError("--resume: there is no --out DIR to resume from");
     study::Kept keep;
     keep.resume = r.resume;
-    keep.folder = cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console);
+    keep.folder =
+        report::cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console);
     std::optional<store::WhenInterrupted> last_word(std::in_place,
                                                     [&] { console.note(kept_text(keep)); });
-    const compare::Comparison c = compare::compare(r, catalogue, console, keep);
+    compare::Comparison c = compare::compare(r, catalogue, console, keep);
     last_word.reset();
+    for (const auto& [scheme, by_rate] : costs) judge::report_costs(c, scheme, by_rate);
     if (r.resume)
         console.note(fmt::format("the errors of {} of {} cells were read back", c.outcome.read_back,
                                  keep.of.load()));
-    const Results results = written(c, r, console);
+    const report::Written results = report::written(c, r, console);
     const study::Cells& cells = results.cells;
     const double rate = c.reference_summary.rate;
     for (const String& string : c.scene().strings)
@@ -170,6 +201,10 @@ Act compare_verb(CLI::App& program) {
     v.option("--tap-rate", v.r.tap_rate, hertz,
              "rows per second that are compared; absent: 44100 for its multiples, the lowest rate "
              "for others. 44100 and 48000 have each their own");
+    v.option("--cost", v.r.costs, {"NAME=S,..."},
+             "of a scheme that is not timed (--external): its computing time per second of sound, "
+             "one for each of --rates; shown as reported (repeatable)")
+        ->allow_extra_args(false);
     v.option("--repeats", v.r.repeats, counting,
              "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent");
     v.jobs(v.r.jobs);

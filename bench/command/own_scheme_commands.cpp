@@ -7,7 +7,7 @@
 
 #include "bench/check/promise.hpp"
 #include "bench/command/console.hpp"
-#include "bench/command/results_folder.hpp"
+#include "bench/command/results.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
@@ -129,10 +129,10 @@ int judge_command(JudgeRequest r) {
     const Console console(r.json, r.quiet);
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
     judge::Candidate candidate = candidate_of(r);
-    study::Kept keep{cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console),
-                     true};
+    study::Kept keep{
+        report::cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console), true};
     const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
-    const Results results = written(c, r, console);
+    const report::Written results = report::written(c, r, console);
     const std::string verdict = judge::verdict_of(c);
     std::vector<study::Record> own;
     std::ranges::copy_if(c.outcome.records, std::back_inserter(own),
@@ -181,7 +181,8 @@ Act judge_verb(CLI::App& program) {
                   "over the interval that ends at the row.\n"
                   "A file that is no trace of the scene is refused with exit code 2, and nothing "
                   "is written: other row times, a missing tap, other than\n"
-                  "all rows, NaN. `jvari export` writes the problem.");
+                  "all rows. NaN is a failure at that rate, and the other rates are judged. "
+                  "`jvari export` writes the problem.");
 }
 
 // ---- jvari check: does a scheme, of this tree or of a plugin, keep what every scheme promises?
@@ -189,29 +190,38 @@ Act judge_verb(CLI::App& program) {
 namespace {
 struct CheckRequest : Running {
     std::vector<std::string> schemes;  // none: those of the plugins
+    check::Asked asked;
     std::string junit;
 };
+
+std::string promise_lines() {
+    std::string text;
+    for (const check::Promise& p : check::promises())
+        text += fmt::format("\n  {:<48}  {}", p.name, p.sentence);
+    return text;
+}
 
 int check_command(CheckRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
-    std::vector<const Descriptor*> chosen;
-    for (const std::string& name : r.schemes) chosen.push_back(&catalogue.find(name));
+    std::vector<Descriptor> chosen;
+    for (const std::string& name : r.schemes) chosen.push_back(catalogue.find(name));
     if (chosen.empty())
         for (const Guest* g : guests())
-            for (const Descriptor& d : g->schemes) chosen.push_back(&catalogue.find(d.name));
+            for (const Descriptor& d : g->schemes) chosen.push_back(catalogue.find(d.name));
     if (chosen.empty())
         throw store::UsageError(
             "check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
     if (!r.junit.empty()) store::must_be_writable(r.junit);
     std::vector<check::Checked> checked;
     bool broken = false;
-    for (const Descriptor* d : chosen) {
-        console.print(fmt::format("{}{} ({})", checked.empty() ? "" : "\n", d->name, d->source));
-        checked.push_back(
-            check::check(*d, console, [&](const check::Checked& c, const check::Promise& p) {
-                console.print(check::line_of(c, p));
-            }));
+    for (const Descriptor& one : chosen) {
+        const Descriptor d = judge::declared(one);
+        console.print(fmt::format("{}{} ({})", checked.empty() ? "" : "\n", d.name, d.source));
+        checked.push_back(check::check(d, r.asked, console,
+                                       [&](const check::Checked& c, const check::Promise& p) {
+                                           console.print(check::line_of(c, p));
+                                       }));
         console.print(check::conclusion_of(checked.back()));
         broken = broken || checked.back().broken();
     }
@@ -227,12 +237,24 @@ Act check_verb(CLI::App& program) {
                          "claims in numbers");
     v.option("schemes", v.r.schemes, {"SCHEME"},
              "schemes or references; absent: those of the plugins");
+    v.option("--only", v.r.asked.promises, {"PROMISE,..."}, "these promises alone")->delimiter(',');
+    v.option("--scene", v.r.asked.scenes, {"NAME,..."},
+             "what is promised on scenes, on these alone; without what is examined once")
+        ->delimiter(',');
     v.option("--junit", v.r.junit, {"FILE"},
              "also writes JUnit XML, as continuous integration reads it");
     return v.does(check_command,
                   "Example: jvari check --plugin build/libmy_scheme.so --junit check.xml\n"
                   "\n"
-                  "Exit code 4 where a promise is broken.");
+                  "Exit code 4 where a promise is broken. The last line counts: 19 kept, 2 not "
+                  "asked, and why.\n"
+                  "A program (--external) is called with the one word `represents`. It may print "
+                  "`represents: damping, thread` and\n"
+                  "`balance: exact`; else it is asked for everything, and refuses by exit code 3.\n"
+                  "docs/ci.md has a recipe for continuous integration.\n"
+                  "\n"
+                  "Promises" +
+                      promise_lines());
 }
 
 }  // namespace jvari::bench::command

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results_folder.hpp"
+#include "bench/command/results.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
@@ -109,7 +109,7 @@ int suite_command(SuiteRequest r) {
     study::Plan plan = suite::plan_of(suite, catalogue, r.plugins);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
-    const fs::path kept_cells = cells_folder(folder, "suite " + suite.name, console);
+    const fs::path kept_cells = report::cells_folder(folder, "suite " + suite.name, console);
     if (r.resume) note_missing_locks(folder, console);
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
     if (r.resume) study::keep_references_in(plan, folder / "references");
@@ -120,7 +120,7 @@ int suite_command(SuiteRequest r) {
     const study::Cells cells = compare::with_front(study::cells_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
     const std::vector<compare::Answer> cheapest = compare::cheapest_of(cells);
-    ResultsFolder results(folder, console);
+    report::ResultsFolder results(folder, console);
     results.files = maps.files;
     if (!plan.jobs.empty()) results.add_tables(cells);
     for (const suite::Facet& f : suite::facets())

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results_folder.hpp"
+#include "bench/command/results.hpp"
 #include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -126,12 +126,13 @@ int trim_command(TrimCall r) {
                          "; the same command goes on from there");
         });
     if (!r.out.empty())
-        must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name, console);
+        report::must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name,
+                             console);
     trim::Judge judge(request, catalogue, console);
     const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
     const auto manifest = trim::manifest_of(t, judge, request);
     const store::Table needs = trim::needs_table(t), path = trim::path_table(t, judge);
-    ResultsFolder folder(r.out, console);
+    report::ResultsFolder folder(r.out, console);
     if (t.path.within_tolerance) folder.add("trimmed.toml", trim::trimmed_toml(t, judge));
     if (t.path.within_tolerance && folder) keep_sounds(r.out, t, judge);
     folder.add("needs.csv", store::csv(needs));

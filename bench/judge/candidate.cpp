@@ -18,8 +18,6 @@
 namespace jvari::bench::judge {
 
 namespace {
-constexpr Option reported{
-    "cost", "none", "who measured it: a trace has no cost of its own", {"none", "as_reported"}};
 constexpr const char* no_cost = "not reported";
 
 std::unique_ptr<Scheme> row_player(const Descriptor& d, const Scene&, const Settings& settings) {
@@ -37,7 +35,6 @@ std::string enter(Candidate candidate) {  // as a guest; returns its path
     Descriptor d{kept->name.c_str(), "traces of another program",
                  every_feature,      Balance::none,
                  Clock::stepped,     row_player};
-    d.options = {&reported, 1};
     d.all_strings = true;
     d.own = kept;
     d.untimed = no_cost;
@@ -47,14 +44,8 @@ std::string enter(Candidate candidate) {  // as a guest; returns its path
     return path;
 }
 
-void report_costs(compare::Comparison& c, const std::map<double, double>& costs) {
-    for (study::Record& r : c.outcome.records) {
-        if (!is_candidate(r.cell) || !r.cell.ran()) continue;
-        const auto cost = costs.find(r.cell.settings.sample_rate);
-        if (cost == costs.end()) continue;
-        const double wall = cost->second * r.cell.summary.duration;
-        r.cell.clock.wall = spread_of(std::vector<double>{wall});
-    }
+const Trace& trace_of(const study::Cell& cell) {  // of a candidate
+    return *static_cast<const Candidate*>(cell.scheme->own)->traces.at(cell.settings.sample_rate);
 }
 
 // A trace does not say what compliance its string has. Where it is nearer to the scene than to a
@@ -117,8 +108,7 @@ std::string cause_sentence(const study::Cell& cell) {
 // How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two
 // programs compute the same.
 std::string beside(const compare::Comparison& c, const study::Record& own) {
-    const Trace& trace = *static_cast<const Candidate*>(own.cell.scheme->own)
-                              ->traces.at(own.cell.settings.sample_rate);
+    const Trace& trace = trace_of(own.cell);
     std::string text;
     for (const study::Record& r : c.outcome.records) {
         const Settings& settings = r.cell.settings;
@@ -137,6 +127,18 @@ std::string beside(const compare::Comparison& c, const study::Record& own) {
 }
 }  // namespace
 
+void report_costs(compare::Comparison& c, const std::string& scheme, const Costs& costs) {
+    for (study::Record& r : c.outcome.records) {
+        const auto cost = costs.find(r.cell.settings.sample_rate);
+        if (r.cell.scheme->name != scheme || !r.cell.ran() || !r.cell.needed || r.cell.added ||
+            cost == costs.end())
+            continue;
+        const double wall = cost->second * r.cell.summary.duration;
+        r.cell.clock.wall = r.cell.clock.processor = spread_of(std::vector<double>{wall});
+        r.cell.settings.options.emplace_back("cost", "as_reported");
+    }
+}
+
 bool is_candidate(const study::Cell& cell) { return cell.scheme->untimed == no_cost; }
 
 Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
@@ -152,12 +154,16 @@ compare::Comparison judge(Candidate candidate, compare::CompareRequest request,
     for (const auto& [rate, trace] : candidate.traces) request.rates.push_back(rate);
     request.schemes.insert(request.schemes.begin(), candidate.name);
     request.search = false;
-    const std::map<double, double> costs = candidate.costs;
-    if (!costs.empty()) request.options.push_back({candidate.name, reported.name, "as_reported"});
+    const std::string name = candidate.name;
+    const Costs costs = candidate.costs;
     std::vector<std::string> all = plugins;
     all.push_back(enter(std::move(candidate)));
     compare::Comparison c = compare::compare(request, compare::Catalogue(all), listener, keep);
-    report_costs(c, costs);
+    report_costs(c, name, costs);
+    for (study::Record& r : c.outcome.records)
+        if (const std::string why = is_candidate(r.cell) ? no_number_in(trace_of(r.cell)) : "";
+            !why.empty() && r.cell.status() == "diverged")
+            r.cell.reason = why;
     forget_errors_in_other_models(c);
     return c;
 }
@@ -168,14 +174,16 @@ std::string verdict_of(const compare::Comparison& c) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const study::Cell& cell = c.outcome.records[i].cell;
         if (!is_candidate(cell)) continue;
-        if (cell.status() == "diverged")
-            text += fmt::format(
-                "{}{}: it grows: {}: its taps or its own energies go beyond what ten times the "
-                "energy of the scene could make",
-                text.empty() ? "" : "\n", cells[i].run(), cell.reason);
+        text += text.empty() ? "" : "\n";
+        if (cell.status() != "diverged")
+            text += sentence_of(cells, cells[i]) + cause_sentence(cell) +
+                    beside(c, c.outcome.records[i]);
+        else if (!no_number_in(trace_of(cell)).empty()) text += cells[i].run() + ": " + cell.reason;
         else
-            text += (text.empty() ? "" : "\n") + sentence_of(cells, cells[i]) +
-                    cause_sentence(cell) + beside(c, c.outcome.records[i]);
+            text += fmt::format(
+                "{}: it grows: {}: its taps or its own energies go beyond what ten times the "
+                "energy of the scene could make",
+                cells[i].run(), cell.reason);
     }
     const std::string own = c.outcome.records.front().cell.scheme->name;
     for (const compare::Rising& r : compare::rising_with_the_rate(cells))

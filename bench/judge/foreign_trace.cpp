@@ -101,12 +101,14 @@ Trace from_csv(const std::filesystem::path& path, const Scene& scene, double tap
                     trace.energy.data() + k * t.rows.size());
     if (const auto odd =
             std::ranges::find_if_not(trace.energy, [](double x) { return std::isfinite(x); });
-        odd != trace.energy.end()) {
+        odd != trace.energy.end() && no_number_in(trace).empty()) {
         const std::size_t at = static_cast<std::size_t>(odd - trace.energy.begin());
         throw store::UsageError(fmt::format(
             "{}: column {} holds no number in row {}; leave the three energy columns out where "
             "there is none",
             path.string(), store::energy_names[at / t.rows.size()], at % t.rows.size()));
+    } else if (odd != trace.energy.end()) {
+        trace.energy.clear();  // of a scheme that failed
     }
     return trace;
 }
@@ -139,21 +141,21 @@ void check_rows(const Trace& trace, const std::string& what, long rows) {
 
 void must_be_whole(const Trace& trace, const std::string& what, long rows) {
     check_rows(trace, what, rows);
-    const auto ends = [&trace](long row) {
-        return fmt::format(
-            "To judge what comes before, leave out the rows from {} on and add --duration {:.12g}",
-            row, static_cast<double>(row - 1) / trace.tap_rate);
-    };
     if (trace.rows < rows)
-        throw store::UsageError(fmt::format("{}: has {} rows, the scene has {}: it stops early. {}",
-                                            what, trace.rows, rows, ends(trace.rows)));
-    for (long row = 0; row < rows; ++row)
-        for (std::size_t k = 0; k < trace.names.size(); ++k)
-            if (!std::isfinite(trace.tap[static_cast<std::size_t>(row) +
-                                         k * static_cast<std::size_t>(trace.stride)]))
-                throw store::UsageError(fmt::format(
-                    "{}: tap {} holds no number in row {}, at {:.6g} s. {}", what, trace.names[k],
-                    row, static_cast<double>(row) / trace.tap_rate, ends(row)));
+        throw store::UsageError(fmt::format(
+            "{}: has {} rows, the scene has {}: it stops early. To judge what is there, add "
+            "--duration {:.12g}",
+            what, trace.rows, rows, static_cast<double>(trace.rows - 1) / trace.tap_rate));
+}
+
+std::string no_number_in(const Trace& trace) {
+    for (long row = 0; row < trace.rows; ++row)
+        for (int k = 0; k < trace.taps(); ++k)
+            if (!std::isfinite(trace.column(k)[static_cast<std::size_t>(row)]))
+                return fmt::format("tap {} holds no number in row {}, at {:.6g} s",
+                                   trace.names[static_cast<std::size_t>(k)], row,
+                                   static_cast<double>(row) / trace.tap_rate);
+    return "";
 }
 
 namespace {

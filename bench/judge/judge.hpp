@@ -44,9 +44,12 @@ Trace read_trace(const std::filesystem::path&, const Scene&, double tap_rate, lo
 // other lengths.
 void check_rows(const Trace&, const std::string& what, long rows);
 
-// The same, and where it has fewer rows, or holds what is no number: such a trace cannot be judged
-// whole.
+// The same, and where it has fewer rows: such a trace cannot be judged whole.
 void must_be_whole(const Trace&, const std::string& what, long rows);
+
+// "": every tap is a number in every row; else where the first is that is none. Its scheme failed
+// there, at that rate.
+std::string no_number_in(const Trace&);
 
 // ---- A trace that another program made, as a scheme: whatever is asked of schemes is asked of it.
 
@@ -64,14 +67,20 @@ constexpr Features every_feature{(1u << feature_count) - 1};
 // the shell reads it: scripts, data, and programs on the PATH.
 std::string enter_external(const std::string& command);
 
+// With what such a program says of itself, called with the one word "represents": lines
+// "represents: damping, thread" and "balance: exact", as jvari_scheme.h has them. As it is where it
+// says nothing within 10 s, or ends with another exit code than 0. Throws UsageError: other words.
+Descriptor declared(const Descriptor&);
+
 // ---- Traces of one scheme that another program ran, one for each of its sample rates, judged as
 // `compare` judges schemes of its own.
+
+using Costs = std::map<double, double>;  // by sample rate [Hz]: computing time per second of sound
 
 struct Candidate {
     std::string name = "mine";                              // in tables and pictures
     std::map<double, std::shared_ptr<const Trace>> traces;  // by sample rate [Hz]
-    // computing time per second of sound, as reported; none: not known
-    std::map<double, double> costs;
+    Costs costs;                                            // as reported; none: not known
     // of its files: what its results depend on
     std::string contents;
 };
@@ -89,6 +98,10 @@ Rows rows_for(const compare::CompareRequest&, const Scene&);
 compare::Comparison judge(Candidate, compare::CompareRequest,
                           const std::vector<std::string>& plugins, const store::Listener&,
                           study::Kept&);
+
+// Gives cells of a scheme that is not timed the cost that somebody reports, and marks them by the
+// option cost=as_reported; those at other rates, or with modes that were added, keep none.
+void report_costs(compare::Comparison&, const std::string& scheme, const Costs&);
 
 bool is_candidate(const study::Cell&);  // a cell of the trace that is judged
 // in words: of each rate, against what ran beside it, and the observed order

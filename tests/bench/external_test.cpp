@@ -2,6 +2,7 @@
 // and how it fails.
 #include <array>
 
+#include "bench/store/records.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -81,6 +82,83 @@ TEST(External, ItsFilesAreKnownAsTheShellReadsTheCommand) {
             "the errors of 0 of 1 cells were read back\n")
             << command;
     }
+}
+
+TEST(External, CheckAsksForWhatItSaysThatItRepresents) {
+    const Scratch scratch;
+    const auto of = [&](const std::string& more, const std::string& says) {
+        std::ofstream(scratch / "mine")
+            << "if [ \"$1\" = represents ]; then " << says << "; fi\necho only free; exit 3\n";
+        return shell(scratch, "timeout 60 $J check mine --external 'sh mine' " + more);
+    };
+    const std::string named = "--only NameWhatIsMissing,KeepsItsEnergyLedgerInSum";
+    const Outcome o =
+        of(named, "echo represents: damping, initial shape; echo balance: exact; exit 0");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_TRUE(says(o.out, "NameWhatIsMissing                                 26 scenes"));
+    EXPECT_TRUE(
+        says(of("--only KeepsItsEnergyLedgerInSum,AllocatesNothingWhileStepping",
+                "echo balance: exact; exit 0")
+                 .out,
+             "\n  2 not asked: refuses it: mine: only free; it runs in a process of its own"));
+    EXPECT_TRUE(says(of(named, "exit 1").out, "it promises no balance"));
+    EXPECT_TRUE(ends(of(named, "echo represents: thred; exit 0"), 2, "did you mean \"thread\"?"));
+    EXPECT_TRUE(ends(of(named, "echo balance: mostly; exit 0"), 2, "there is \"exact\""));
+}
+
+TEST(External, ItsCostIsTheOneThatIsReported) {
+    const Scratch scratch;
+    const std::string compare = silence("mine") +
+                                "$J compare free_string --duration 0.005 --external 'sh mine' "
+                                "--schemes mine,modal_two_point --modes 20 --reference-modes 20 "
+                                "--repeats 1 --out out --rates 44100,88200 --cost mine=";
+    const Outcome o = shell(scratch, compare + "0.5,1.5");
+    EXPECT_EQ(o.code, 0) << o.err;
+    const bench::store::Table cost = bench::store::read_csv(content(scratch / "out/cost.csv"));
+    std::string found;
+    for (const auto& row : cost.rows)
+        if (row[cost.column("scheme")] == "mine")
+            for (const char* name :
+                 {"options", "rate", "cost_s_per_s", "processor_s_per_s", "untimed", "machine"})
+                found += row[cost.column(name)] + "|";
+    EXPECT_EQ(found, "cost=as_reported|44100|0.5|0.5|||cost=as_reported|88200|1.5|1.5|||");
+    EXPECT_TRUE(ends(shell(scratch, compare + "0.5"), 2, "found 1 costs for 2 --rates"));
+    EXPECT_TRUE(ends(shell(scratch, compare + "1,-1"), 2, "expected a number > 0"));
+    EXPECT_TRUE(ends(shell(scratch, compare + "1,1 --cost modal_two_point=1,1"), 2,
+                     "this scheme is timed"));
+}
+
+TEST(Judge, ATraceThatHoldsNoNumberIsAFailedRowAtItsRateAndNoMore) {
+    const Scratch scratch;
+    const std::string scene = "free_string --duration 0.01", judge = "$J judge " + scene;
+    for (const char* rate : {"44100", "88200", "176400"})
+        shell(scratch, "$J run " + scene + " --scheme modal_two_point --energy --quiet --rate " +
+                           rate + " --out " + rate + ".csv");
+    shell(scratch,
+          "awk -F, -v OFS=, 'NR > 300 { $3 = \"NaN\"; $NF = \"inf\" } 1' 88200.csv > nan.csv");
+    const std::string why = "88.2 kHz: tap ";
+    const Outcome o = shell(scratch, judge +
+                                         " --trace 44100=44100.csv --trace 88200=nan.csv "
+                                         "--trace 176400=176400.csv --out out");
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_TRUE(says(o.out, "at 44.1 kHz: errs by"));
+    EXPECT_TRUE(says(o.out, "at 176.4 kHz: errs by"));
+    EXPECT_TRUE(says(o.out, why));
+    EXPECT_TRUE(says(o.out, "holds no number in row 299, at 0.00678005 s"));
+    const bench::store::Table cells = bench::store::read_csv(content(scratch / "out/cells.csv"));
+    std::string status;
+    for (const auto& row : cells.rows) status += row[cells.column("status")] + " ";
+    EXPECT_EQ(status, "ok diverged ok ");
+    EXPECT_TRUE(ends(shell(scratch, judge + " --trace 88200=nan.csv"), 4, "")) << "nothing is left";
+}
+
+TEST(External, WhatTakesLongIsToldOfAtLeastEveryTenSeconds) {
+    const Scratch scratch;
+    std::ofstream(scratch / "mine") << "[ \"$1\" = represents ] || sleep 60\n";
+    const Outcome o = shell(scratch,
+                            "timeout 14 $J check mine --external 'sh mine' "
+                            "--only ItRunsAScene");
+    EXPECT_TRUE(says(o.err, "check mine   0 % ItRunsAScene, 10 s"));
 }
 
 TEST(External, ThatItFailsIsARowOfAMap) {

@@ -390,6 +390,14 @@ class Module(unittest.TestCase):
         self.assertTrue(np.array_equal(data["time"].values, run.time))
         self.assertEqual(data.attrs, run.facts)
 
+    def test_the_readme_runs_as_printed(self):
+        readme = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "README.md")
+        with open(readme) as file:
+            snippet = file.read().split("```python\n")[1].split("```")[0]
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-c", snippet], cwd=folder, check=True)
+            self.assertTrue(os.path.exists(folder + "/tuned/report.html"))
+
     def test_the_stubs_name_what_there_is(self):
         with open(os.path.join(os.path.dirname(jvari.__file__), "jvari.pyi")) as f:
             stubs = ast.parse(f.read())

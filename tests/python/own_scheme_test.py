@@ -17,14 +17,11 @@ import numpy as np
 TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs",
                          "own-scheme")
 sys.path.insert(0, TEMPLATES)
-from two_point import TwoPoint as Template  # noqa: E402
-
-FEATURES = ["bending stiffness", "damping", "frequency-dependent damping", "measured modes",
-            "lumped barrier", "thread", "initial shape", "pluck"]
+from two_point import REPRESENTS as FEATURES, TwoPoint as Template  # noqa: E402
 
 
 class TwoPoint(Template):
-    """The template with the energy ledger of eqs 49, 51, 52: exact in every step."""
+    """The template, and faults to be planted."""
 
     thread_sign = 1.0  # -1: the planted fault of a thread that pushes the wrong way
     kept = 1.0  # of the stored energy: another number is a planted fault
@@ -36,30 +33,8 @@ class TwoPoint(Template):
             raise ValueError("a contact without loss")
         super().__init__(p)
 
-    def reset(self):
-        super().reset()
-        self.supplied, self.lost = 0.0, 0.0
-
-    def step(self):
-        F_e = 0.5 * (self.pluck(self.n) + self.pluck(self.n + 1))
-        s = super().step()
-        self.supplied += F_e * (self.g_e @ s)
-        self.lost += self.b @ (s * s) / self.xi
-        self.lost += self.p.thread_damping / self.dt * (self.g_c @ s) ** 2
-
     def stored(self):
-        modes = (self.q @ self.q + self.a @ (self.y * self.y)) / self.xi
-        d_b, d_c = max(0.0, self.h_b - self.g_b @ self.y), self.p.thread_height - self.g_c @ self.y
-        thread = 0.5 * self.p.thread_stiffness * d_c**2 * self.p.threads
-        return modes + 0.5 * self.k_b * d_b**2 + thread
-
-    def advance(self, rows):
-        taps, energy = np.empty((rows, self.p.taps)), np.empty((rows, 3))
-        for row in range(rows):
-            energy[row] = self.kept**self.n * self.stored(), self.supplied, self.lost
-            self.supplied, self.lost = 0.0, 0.0
-            taps[row] = super().advance(1)
-        return taps, energy
+        return self.kept**self.n * super().stored()
 
 
 def registered(name, balance="exact", **faults):
@@ -118,6 +93,32 @@ class OwnScheme(unittest.TestCase):
         self.assertIsNone(own["times_real_time"])
         self.assertGreater(built_in["cost_s_per_s"], 0)
 
+    def test_it_is_in_the_page_of_its_comparison(self):
+        registered("python_two_point")
+        with tempfile.TemporaryDirectory() as folder:
+            rows = jvari.compare("free_string", ["python_two_point", "modal_two_point"],
+                                 rates=[44100], modes=20, reference_modes=20, duration=0.01,
+                                 repeats=1, out=folder + "/compared")
+            written = jvari.report(rows, folder + "/reported")
+            for name in ("compared", "reported"):
+                with open(f"{folder}/{name}/report.html") as file:
+                    self.assertIn("python_two_point", file.read())
+                with open(f"{folder}/{name}/cells.csv") as file:
+                    self.assertEqual(len(file.readlines()), 1 + len(rows))
+            self.assertIn(folder + "/reported/manifest.json", written)
+            os.remove(folder + "/compared/report.html")
+            self.assertIn("report.html", jvari.report(folder + "/compared"))
+            self.assertTrue(os.path.exists(folder + "/compared/report.html"))
+            for call in (lambda: jvari.report(rows[:1], folder), lambda: jvari.report(rows),
+                         lambda: jvari.report(folder, folder)):
+                self.assertRaisesRegex(jvari.UsageError, "expected the", call)
+            with self.assertRaisesRegex(jvari.UsageError, "comparison of free_string"):
+                jvari.compare("tanpura_c3_release", ["modal_two_point"], rates=[44100],
+                              duration=0.01, out=folder + "/compared")
+            silence = np.zeros((442, len(jvari.scene("free_string").taps)))
+            judged = jvari.judge("free_string", silence, duration=0.01)
+            self.assertIn(folder + "/judged/report.html", jvari.report(judged, folder + "/judged"))
+
     def test_check_names_each_promise_that_it_breaks(self):
         self.assertEqual(broken("modal_two_point"), set())
         registered("honest_in_python")
@@ -125,7 +126,8 @@ class OwnScheme(unittest.TestCase):
         registered("thread_turned_round", thread_sign=-1.0)
         self.assertIn("StoresNoNegativeEnergyAndDissipates", broken("thread_turned_round"))
         # without energies
-        unprobed = {"advance": lambda self, rows: Template.advance(self, rows), "thread_sign": -1.0}
+        unprobed = {"advance": lambda self, rows: Template.advance(self, rows)[0],
+                    "thread_sign": -1.0}
         registered("thread_turned_round_unprobed", balance="none", **unprobed)
         self.assertEqual(broken("thread_turned_round_unprobed"), {"ConvergesToTheReference"})
         registered("loses_energy", kept=0.999)
@@ -239,6 +241,13 @@ class Judge(unittest.TestCase):
         taps = {tap: 1.001 * free[tap] for tap in jvari.scene("free_string").taps}
         self.assertAlmostEqual(jvari.judge("free_string", taps, duration=0.02)[0]["error_l2_10ms"],
                                1e-3, delta=1e-5)
+
+    def test_a_trace_that_holds_no_number_is_a_failed_row(self):
+        broken = {tap: values.copy() for tap, values in self.taps.items()}
+        broken["nut"][300:] = np.nan
+        rows = jvari.judge(self.scene, {44100: self.taps, 88200: broken}, duration=0.01)
+        self.assertEqual([row["status"] for row in rows], ["ok", "diverged"])
+        self.assertIn("tap nut holds no number in row 300", rows[1]["reason"])
 
     def test_what_is_no_trace_is_refused(self):
         with self.assertRaisesRegex(jvari.UsageError, "tap bridge is missing"):

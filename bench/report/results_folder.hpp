@@ -13,7 +13,7 @@
 #include "bench/store/system/listener.hpp"
 #include "bench/study/record.hpp"
 
-namespace jvari::bench::command {
+namespace jvari::bench::report {
 
 // Before anything is run. Throws UsageError where the folder holds the results of something else
 // than `what` ("comparison of tanpura_c3", "suite smoke", "trim of tanpura_c3"); notes files that
@@ -51,18 +51,13 @@ private:
     std::unique_ptr<store::FileLock> lock_;
 };
 
-// The exit code of a study: done where a run of it was, or where there was nothing to run.
-int code_of(const std::vector<study::Record>&);
-
-struct Results {
+struct Written {
     nlohmann::ordered_json manifest;
     study::Cells cells;
     std::vector<compare::Answer> cheapest;
     nlohmann::ordered_json files;  // that were written
 };
 // Of a comparison, written into the folder that the request names.
-Results written(const compare::Comparison&, const compare::CompareRequest&, const store::Listener&);
-// What `compare`, `judge` and `suite` say of their results as JSON, behind what is their own.
-std::string with_results(nlohmann::ordered_json own, const Results&);
+Written written(const compare::Comparison&, const compare::CompareRequest&, const store::Listener&);
 
-}  // namespace jvari::bench::command
+}  // namespace jvari::bench::report
