@@ -237,10 +237,13 @@ Act check_verb(CLI::App& program) {
                          "claims in numbers");
     v.option("schemes", v.r.schemes, {"SCHEME"},
              "schemes or references; absent: those of the plugins");
-    v.option("--only", v.r.asked.promises, {"PROMISE,..."}, "these promises alone")->delimiter(',');
+    v.option("--only", v.r.asked.promises, {"PROMISE,..."}, "these promises alone")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     v.option("--scene", v.r.asked.scenes, {"NAME,..."},
              "what is promised on scenes, on these alone; without what is examined once")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     v.option("--junit", v.r.junit, {"FILE"},
              "also writes JUnit XML, as continuous integration reads it");
     return v.does(check_command,

@@ -66,7 +66,7 @@ TEST(Check, AsksTheNamedPromisesOnTheNamedScenesAlone) {
     const Scratch scratch;
     const auto asked = [&](const std::string& options) {
         std::set<std::string> all;
-        const Outcome o = jvari(scratch, "check modal_two_point --json " + options);
+        const Outcome o = jvari(scratch, "check --json " + options + " modal_two_point");
         const Json said = Json::parse(o.out);
         for (const Json& a : said["schemes"][0]["answers"])
             all.insert(a["promise"].get<std::string>() + " " + a["scene"].get<std::string>());
