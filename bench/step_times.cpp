@@ -1,7 +1,8 @@
 // Time of a step, scheme by scene by modes: every scheme of the registry on every scene of the
 // library that it represents, stepped as any caller does, with all taps at 44.1 kHz and the first 5
 // ms again and again. At 705.6 kHz every scheme can take the most modes here; grids and waveguides
-// follow the rate and not the modes. --benchmark_filter=modal_two_point/ picks a scheme. A Google
+// follow the rate and not the modes. Beside the table three kernels stand by a plain form of each
+// (tests/kernels): --benchmark_filter=pair/ picks them, modal_two_point/ a scheme. A Google
 // Benchmark, run by hand: build/release/step_times.
 #include <benchmark/benchmark.h>
 

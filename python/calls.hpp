@@ -1,5 +1,5 @@
-// What the module does: run, run_many, compare, report, suite, trim. Each hands its arguments to the engine
-// and its result back.
+// What the module does: run, run_many, compare, report, suite, trim. Each hands its arguments to
+// the engine and its result back.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -32,6 +32,8 @@ planted() {
     step "$3"
     [ $? = 4 ] && grep -q "$4" said || fail "$1 is not found by$3: $(cat said)"
 }
-planted "a force that is 2 % too large" 's/= contact(\(.*\));/= 1.02 * contact(\1);/' ' check ' BROKEN
-planted "a loss that is not counted" 's/s->lost += p->thread_damping/& * 0.999/' ' diff ' 'flags .*energy'
+planted "a force that is 2 % too large" \
+    's/= contact(\(.*\));/= 1.02 * contact(\1);/' ' check ' BROKEN
+planted "a loss that is not counted" \
+    's/s->lost += p->thread_damping/& * 0.999/' ' diff ' 'flags .*energy'
 exit $status
