@@ -10,7 +10,8 @@ cd "$scratch" || exit 2
 status=0
 fail() { echo "docs/ci.md: $*" >&2; status=1; }
 block() { sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/{/^\`\`\`/!p}" "$tree/docs/ci.md"; }
-mkdir -p jvari/build/release && ln -s "$tree/schemes" jvari/ && ln -s "$program" jvari/build/release/
+mkdir -p jvari/build/release
+ln -s "$tree/schemes" jvari/ && ln -s "$program" jvari/build/release/
 block toml > regression.toml
 block yaml | sed -n 's/^ *- run: //p' | grep -v 'apt-get\|\.ci/' > steps
 [ "$(wc -l < steps)" = 4 ] || fail "expected four lines that build, check, run and compare"
