@@ -164,7 +164,9 @@ void add_studies(py::module_& m) {
         "columns of cells.csv and the bounds of the errors. None where nothing is known. out: the "
         "folder that gets tables, pictures and report.html, as of `jvari compare --out`.");
     const py::type list = py::type::of(py::list());
-    m.attr("Rows") = py::type::of(list)("Rows", py::make_tuple(list), py::dict());
+    m.attr("Rows") = py::type::of(list)(
+        "Rows", py::make_tuple(list),
+        py::dict(py::arg("__doc__") = "The rows of a comparison, which `report` can draw."));
     m.def("report", &python::report_of, py::arg("of"), py::arg("out") = "",
           "Writes tables, pictures and report.html of the rows that compare or judge gave into the "
           "folder `out`: report(rows, \"rep\"). Of a folder alone, page and pictures once more, as "

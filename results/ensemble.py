@@ -100,8 +100,12 @@ table, drawn = [], collections.defaultdict(list)
 for against, (how, modes, cells) in studies.items():
     reference = ensemble("exact_contact", modes=modes, options=how)
     for name, rate, count, options in cells:
-        rows = compared(reference, ensemble(name, rate, count, options, first=N))
         text = " ".join(f"{key}={value}" for key, value in options.items())
+        try:
+            rows = compared(reference, ensemble(name, rate, count, options, first=N))
+        except jvari.Refusal as refusal:
+            print(f"against {against}: {text} {count} modes at {rate} Hz: {refusal}", flush=True)
+            continue
         exact = name == "exact_contact"
         cell = {"against": against, "scheme": name, "options": text, "modes": count,
                 "rate": "" if exact else rate}
