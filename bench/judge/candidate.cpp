@@ -161,9 +161,9 @@ compare::Comparison judge(Candidate candidate, compare::CompareRequest request,
     compare::Comparison c = compare::compare(request, compare::Catalogue(all), listener, keep);
     report_costs(c, name, costs);
     for (study::Record& r : c.outcome.records)
-        if (const std::string why = is_candidate(r.cell) ? no_number_in(trace_of(r.cell)) : "";
-            !why.empty() && r.cell.status() == "diverged")
-            r.cell.reason = why;
+        if (is_candidate(r.cell) && r.cell.status() == "diverged")
+            if (const std::string why = no_number_in(trace_of(r.cell)); !why.empty())
+                r.cell.reason = why;
     forget_errors_in_other_models(c);
     return c;
 }

@@ -147,10 +147,10 @@ std::string cause_of(const Scene& scene, const Trace& run, const Trace& referenc
     const double factor = product / std::pow(norm(r), 2), size = std::abs(factor);
     if (miss(x, r, 0, factor) >= nearly_all * error) return "";
     if (size == 0) return "is 0 throughout";
-    const std::string sign = factor < 0 ? "has the wrong sign" : "",
-                      by = size > 1 ? fmt::format("is {:.3g} times too large", size)
+    const std::string by = size > 1 ? fmt::format("is {:.3g} times too large", size)
                                     : fmt::format("is {:.3g} times too small", 1 / size);
-    return sign.empty() ? by : std::abs(size - 1) < 1e-3 ? sign : sign + " and " + by;
+    if (factor > 0) return by;
+    return std::abs(size - 1) < 1e-3 ? "has the wrong sign" : "has the wrong sign and " + by;
 }
 
 }  // namespace jvari::bench::study
