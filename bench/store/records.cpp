@@ -70,7 +70,8 @@ bool is_marked(const std::string& field) {  // in a file: "'=1+1"
 std::string quoted(const std::string& plain) {
     const bool mark = is_marked("'" + plain) && std::isnan(number_of(plain));
     const std::string field = mark ? "'" + plain : plain;
-    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+    if (field.find_first_of(",\"\r\n") == std::string::npos && !field.starts_with(byte_order_mark))
+        return field;
     std::string text = "\"";
     for (char c : field) text += c == '"' ? "\"\"" : std::string(1, c);
     return text + '"';
