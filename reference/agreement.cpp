@@ -42,13 +42,14 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
 double left_after(std::span<const double> changes, bool matched) {
     if (changes.empty()) return std::numeric_limits<double>::quiet_NaN();
     const double last = changes.back();
-    if (changes.size() == 1) return (and_further_ones - 1) * last;
+    const double further = (matched ? matched_and_further_ones : and_further_ones) - 1;
+    if (changes.size() == 1) return further * last;
     const auto earlier = changes.first(changes.size() - 1);
     const double before = earlier.back();
     if (last > 0 && last >= *std::max_element(earlier.begin(), earlier.end()))
         return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
-    if (!(ratio <= slowest)) return (and_further_ones - 1) * std::fmax(last, before);
+    if (!(ratio <= slowest)) return further * std::fmax(last, before);
     const double seen = std::max(ratio, fastest);
     return last * std::max(seen / (1 - seen), matched ? least_left_of_matched : 0);
 }

@@ -27,7 +27,8 @@ constexpr std::array windows = {10e-3, 50e-3, HUGE_VAL};  // [s], those of Trust
 // this far apart [Hz], or less, the work of `modes^2` takes the time that `budget` says; on a
 // shorter or stiffer one, that of modes times the highest frequency over this.
 constexpr double mode_spacing = 500;
-constexpr double patience = 60;  // [s] of processor, for one run that doubles the modes
+// [s] that the doublings take together, and at most as long again for own modes beside them
+constexpr double patience = 60;
 
 struct Size {
     int modes, points;  // points of a profile; 0: none, or they were asked for
@@ -229,6 +230,7 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         is_matched(choice.settings.options) || needed_by(scene).has(Feature::rigid_barrier);
     Size size{choice.settings.modes, find ? first_size(scene, choice.settings.options).points : 0};
     double unsettled = HUGE_VAL;  // by what is left out of the headline figure
+    double spent = truth.reference.run.wall_seconds;
     const int all = find ? measured(scene).value_or(0) : 0;  // that were measured; 0: no table
     const int most = all > 0 ? all : 2 * most_modes_found;
     const auto next = [&] {
@@ -238,12 +240,15 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
                       within_budget(*choice.scheme, scene, next())
                 : size.modes < modes) {
         Reference more;
+        const double left = patience - spent;
+        if (find && left <= 0) break;
         try {
             more = run_reference({sized(choice, next())}, scene, jobs, listener,
-                                 find ? std::min(time_limit, patience) : time_limit);
+                                 find ? std::min(time_limit, left) : time_limit);
+            spent += more.run.wall_seconds;
         } catch (const store::PastItsLimit&) {
             // the best so far is the answer, with the bound that it has
-            if (!find || time_limit <= patience) throw;
+            if (!find || time_limit <= left) throw;
             break;
         } catch (const BadScene&) {
             // no string has as many, or there are no more that were measured

@@ -7,8 +7,8 @@
 // nearer with the same modes. From those below 20 kHz, and from the points that stand for a profile
 // unasked, both are doubled until what is still left out moves the headline figure by less than
 // `settled`, or until the next doubling would cost more than `budget`. Where that was too hopeful
-// and a doubling computes for a minute, what was known before it stands. compare and suite do this
-// alike, and alike at every point of a sweep.
+// and they have computed for a minute together, what was known before stands. compare and suite do
+// this alike, and alike at every point of a sweep.
 //
 // What the reference leaves out follows from its own doublings, on every tap and window
 // (left_after), and where it is matched from own modes beside it (no_less). Without a doubling and
