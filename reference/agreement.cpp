@@ -12,7 +12,6 @@ namespace jvari {
 namespace {
 // ratios of a doubling to the one before: orders 1/2 and 2
 constexpr double slowest = 0.70710678118654752, fastest = 0.25;
-constexpr double least_left_of_matched = 1.2;
 }  // namespace
 
 std::span<const double> rows_from(std::span<const double> x, double seconds, double rate) {
@@ -42,7 +41,8 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
 double left_after(std::span<const double> changes, bool matched) {
     if (changes.empty()) return std::numeric_limits<double>::quiet_NaN();
     const double last = changes.back();
-    const double further = (matched ? matched_and_further_ones : and_further_ones) - 1;
+    const double of_order_half = and_further_ones - 1;
+    const double further = matched ? matched_and_further_ones - 1 : of_order_half;
     if (changes.size() == 1) return further * last;
     const auto earlier = changes.first(changes.size() - 1);
     const double before = earlier.back();
@@ -51,7 +51,7 @@ double left_after(std::span<const double> changes, bool matched) {
     const double ratio = last / before;
     if (!(ratio <= slowest)) return further * std::fmax(last, before);
     const double seen = std::max(ratio, fastest);
-    return last * std::max(seen / (1 - seen), matched ? least_left_of_matched : 0);
+    return last * std::max(seen / (1 - seen), matched ? of_order_half : 0);
 }
 
 double no_less(double left_out, double apart, double change) {

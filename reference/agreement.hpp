@@ -36,9 +36,9 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
 // two, since one pair can agree by chance. With one doubling, or where the last two do not get
 // smaller so fast, it is what a certificate says of one (and_further_ones), and the larger of them
 // counts. Where the last one is the largest of all nothing is known of a limit: NaN. Matched modes
-// converge unevenly, so at least 1.2 times the last change is left: after a doubling that changed
-// C3's bridge force by e, 1.08 e was left. With a thread of 1e3 N/m one doubling changed its
-// displacement by e, and 2.9 e was left.
+// converge unevenly: however fast they seem to, what order one half leaves is left at least. Seen
+// after doublings that changed a tap by e: 1.08 e in C3's bridge force, 1.4 e in its displacement
+// with a thread of 1e3 N/m.
 double left_after(std::span<const double> changes, bool matched);
 
 // Matched solutions are doubled from matched ones, which agree with one another also where matching

@@ -236,6 +236,15 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
     const auto next = [&] {
         return find ? size.twice(most) : Size{size.modes < modes / 2 ? modes / 2 : modes, 0};
     };
+    const auto judge = [&] {
+        truth.reference.trust = trust_of(solved, truth, size, from);
+        unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
+        const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
+        const auto free = [&](const Trace& t) {
+            return rows_from(t.column(tap), from, t.tap_rate);
+        };
+        truth.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
+    };
     while (find ? !(unsettled < settled) && next() != size &&
                       within_budget(*choice.scheme, scene, next())
                 : size.modes < modes) {
@@ -260,14 +269,17 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         size = next();
         truth.coarser.push_back(std::move(truth.reference));
         truth.reference = std::move(more);
-        truth.reference.trust = trust_of(solved, truth, size, from);
-        unsettled = truth.reference.trust.left_out[static_cast<std::size_t>(tap)][window];
-        const Trace &finer = truth.reference.run.trace, &fewer = truth.coarser.back().run.trace;
-        const auto free = [&](const Trace& t) {
-            return rows_from(t.column(tap), from, t.tap_rate);
-        };
-        truth.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
+        judge();
     }
+    // where even one doubling takes too long, half as many tell something, too
+    const Size half{all > 0 ? size.modes : size.modes / 2, size.points / 2};
+    if (find && truth.coarser.empty() && half.modes > 0 && half != size &&
+        std::isnan(truth.reference.trust.of_scene(static_cast<std::size_t>(tap), window)))
+        try {
+            truth.coarser.push_back(
+                run_reference({sized(choice, half)}, scene, jobs, listener, time_limit));
+            judge();
+        } catch (const Refusal&) {}
     if (!truth.coarser.empty() && is_matched(choice.settings.options)) {
         try {
             truth.own = own_motion(choice, scene, size, jobs, listener,
