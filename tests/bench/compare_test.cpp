@@ -651,7 +651,7 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
 }
 
 TEST(Truth, WhereOneDoublingTakesTooLongHalfAsManyTellWhatIsLeftOut) {
-    const Scene scene = bench::compare::load_scene("free_string", {}, 1000);
+    const Scene scene = bench::compare::load_scene("free_string", {}, 30);
     auto references = plan_for("free_string", {"modal_two_point"}).points.front().references;
     for (auto& c : references) c.kept = false, c.settings.tap_rate = 100;
     const auto truth = bench::study::run_truth(references, scene, 0, 1, bench::store::Listener());
