@@ -221,6 +221,15 @@ test("an overview of many schemes is as high as a screen lets it be", () => {
     assert.ok(height(n, false) <= 401, `${n} schemes: ${height(n, false)}`);
   assert.equal(height(26, true), 520); // on paper nothing is below the fold
 });
+test("a map opens on one's own scheme", () => {
+  const [head, row] = readFileSync(join(results, "maps.csv"), "utf8").split("\n"),
+    by = name => row.replace(",one,", `,${name},`),
+    names = ["modal_two_point", "mine", "modal_tension"],
+    maps = [head, ...names.map(by), ""].join("\n");
+  const of = on(report(folder_of(["manifest.json"], {"maps.csv": maps}))),
+    [menu] = section(of, "maps").charts[0].menus();
+  assert.equal(menu.choices[0][0], "mine");
+});
 test("pictures of different problems have different names", () => {
   const start = "a, " + "x".repeat(200);
   const problems = [

@@ -201,11 +201,12 @@ function map_section() {
   const names = distinct(records("maps").map(r => r.map));
   if (!names.length) return null;
   const charts = names.map(name => {
-    const series = in_order(
+    const ours = name => known().has(scheme_in(name)),
+      series = in_order(
         records("maps")
           .filter(r => r.map === name)
           .map(r => r.series),
-      ),
+      ).sort((a, b) => ours(a) - ours(b)), // one's own scheme first
       menus = () => [
         {label: name + ": scheme", key: "series_field", choices: series.map(s => [s, spoken(s)])},
       ];
