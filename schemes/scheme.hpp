@@ -90,6 +90,11 @@ class Scheme {
 public:
     virtual ~Scheme() = default;
     virtual void reset() noexcept = 0;  // back to t = 0
+    // As reset(), but from where another stands between two blocks: a string that sounds is tuned,
+    // damped or plucked again without a cut. That one is of the same scheme, with as many modes,
+    // barriers and threads. False, and as it was, where the scheme cannot; else there is no start
+    // of the scene any more that reset() could go back to. Allocates nothing.
+    virtual bool start_from(const Scheme&) noexcept { return false; }
 
     // For each row: write the state of this instant, then make the steps to the next row's
     // (sample_rate/tap_rate of them). So the first row after reset() is the initial state. Contact

@@ -63,6 +63,14 @@ public:
     // of a step; without thread, contact loss and series
     void set(std::span<const double> theta) noexcept;
     void follow(const Obstacle& first);  // after `first` made the first half step
+    // with what is in series as it stands there; the points are as many
+    bool is_like(const Obstacle& other) const {
+        return contacts() == other.contacts() && points() == other.points() &&
+               series_.has_value() == other.series_.has_value();
+    }
+    void start_from(const Obstacle& before) noexcept {
+        if (series_) series_->start_from(*before.series_);
+    }
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge.
     // Allocates nothing. in_full: moved() is asked for.

@@ -67,9 +67,10 @@ public:
     }
     void follow(const Residual& first) noexcept {  // after it made the first half step
         rest(first.steady_.data());
-        state_[1].P = first.state_[0].P;
-        state_[1].v = first.state_[0].v;
-        prepare<0>(state_[1], state_[1].P.data(), state_[1].Q.data());
+        take(state_[1], first.state_[0]);
+    }
+    void start_from(const Residual& before) noexcept {
+        for (int level = 0; level < 2; ++level) take(state_[level], before.state_[level]);
     }
     void step(const double* F) noexcept {
         points_ == 1 ? step<1>(F) : points_ == 2 ? step<2>(F) : step<0>(F);
@@ -119,6 +120,11 @@ private:
         double sum = 0;
         for (std::size_t b = 0; b < n; ++b) sum += m[a * n + b] * x[b];
         return sum;
+    }
+    void take(State& to, const State& from) noexcept {
+        to.P = from.P;
+        to.v = from.v;
+        prepare<0>(to, to.P.data(), to.Q.data());
     }
     // D, Q and H of what P and v are
     template <int few>

@@ -102,6 +102,20 @@ public:
         if constexpr (requires { string_->expect(0.0); }) string_->expect(stored());
     }
 
+    bool start_from(const Scheme& scheme) noexcept override {
+        const auto* before = dynamic_cast<const Driver*>(&scheme);
+        if (!before || obstacle_.dofs() > 0 || !masses_.empty() ||
+            !obstacle_.is_like(before->obstacle_))
+            return false;
+        if constexpr (requires(String s) { s.start_from(s); })
+            if (string_->start_from(*before->string_)) {
+                reset();
+                obstacle_.start_from(before->obstacle_);
+                return true;
+            }
+        return false;
+    }
+
     Status advance(const Block& out) noexcept override {
         impacts_ = out.impacts;
         for (int row = 0; row < out.rows && status_.outcome == Outcome::ok; ++row) {

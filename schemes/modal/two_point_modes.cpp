@@ -168,6 +168,16 @@ ModalState TwoPointModes::state() const {
     return state;
 }
 
+bool TwoPointModes::start_from(const TwoPointModes& before) noexcept {
+    if (before.m_.modes != m_.modes) return false;
+    for (int i = 0; i < m_.modes; ++i) {
+        y0_[i] = before.at(Column::y, i) / before.scale_[i] * scale_[i];
+        const double v = 2 * before.J_[i] * before.momentum_of(i) / (before.dt_ * before.scale_[i]);
+        u0_[i] = -0.5 * at(Column::c, i) * y0_[i] + dt_ / J_[i] * v * scale_[i];  // (42)
+    }
+    return true;
+}
+
 void TwoPointModes::put(Column column, const AlignedVector& values) {
     for (int i = 0; i < m_.size; ++i) stream_[two_point_at(column, i)] = values[i];
 }

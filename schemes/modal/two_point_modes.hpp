@@ -33,6 +33,7 @@ public:
 
     const StringPoints& points() const { return p_; }
     void reset() noexcept;
+    bool start_from(const TwoPointModes& before) noexcept;
     void approach(bool) noexcept;
     ReadingsBeforeStep readings() const { return {older_.data(), older_.data(), free_.data()}; }
     Spent pass(const double* force, double a, bool probed) noexcept;

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "bench/check/allocations.hpp"
 #include "scenes/columns.hpp"
 #include "scenes/excitation.hpp"
 #include "schemes/contact/compliance.hpp"
@@ -285,6 +286,63 @@ TEST(State, TwoRunsJoinedAreOne) {
     for (const char* form : {"modal_two_point compliance=matched", "modal_quadratised",
                              "modal_three_point", "exact_contact compliance=matched"})
         EXPECT_FALSE(keeps(form)) << form;
+}
+
+// ---- From where another scheme stands
+
+std::unique_ptr<Scheme> maker(const std::string& form, const Scene& scene, int modes = 133) {
+    Settings settings{44100, 44100, modes, {}};
+    const Descriptor& d = with_options(form, settings);
+    return make_scheme(d, scene, settings);
+}
+std::vector<std::vector<double>> rows_of(Scheme& scheme, const Scene& scene, int rows) {
+    std::vector<double> taps(scene.taps.size() * static_cast<std::size_t>(rows));
+    const Block out{
+        .rows = rows, .taps = int(scene.taps.size()), .stride = rows, .tap = taps.data()};
+    EXPECT_EQ(scheme.advance(out).outcome, Outcome::ok);
+    std::vector<std::vector<double>> columns;
+    for (std::size_t k = 0; k < scene.taps.size(); ++k)
+        columns.emplace_back(taps.begin() + long(k) * rows, taps.begin() + long(k + 1) * rows);
+    return columns;
+}
+
+TEST(StartFrom, AStringThatSoundsGoesOnInASchemeOfItsOwn) {
+    const Scene scene = c3_release();
+    Scene tuned = scene;  // and plucked
+    tuned.strings.front().tension *= 1.1;
+    tuned.strings.front().pluck = c3_pluck().strings.front().pluck;
+    for (const std::string form : {"modal_two_point", "modal_two_point compliance=matched"}) {
+        SCOPED_TRACE(form);
+        const bool matched = form.ends_with("matched");
+        const auto sounding = maker(form, scene), same = maker(form, scene),
+                   other = maker(form, tuned);
+        rows_of(*sounding, scene, 300);
+        bool taken = true;
+        {
+            const bench::check::Allocations allocations;
+            taken = same->start_from(*sounding) && other->start_from(*sounding);
+            EXPECT_EQ(allocations.count(), 0);
+        }
+        ASSERT_TRUE(taken);
+        const auto on = rows_of(*sounding, scene, 300), joined = rows_of(*same, scene, 300),
+                   retuned = rows_of(*other, tuned, 300);
+        for (std::size_t k = 0; k < scene.taps.size(); ++k) {
+            const std::span all(on[k]);
+            // contact forces are means since the row before
+            EXPECT_LT(largest_difference(std::span(joined[k]).subspan(1), all.subspan(1)),
+                      1e-11 * largest(all))
+                << scene.taps[k].name;
+            if (scene.taps[k].quantity != Quantity::displacement) continue;
+            // what is in series keeps its forces, and yields by them as the new string does
+            EXPECT_NEAR(retuned[k][0], on[k][0], (matched ? 1e-5 : 1e-12) * largest(all));
+            EXPECT_GT(std::abs(retuned[k][299] - on[k][299]), 1e-3 * largest(all));
+        }
+    }
+    const auto sounding = maker("modal_two_point", scene);
+    for (const std::string form : {"modal_three_point", "modal_two_point compliance=matched"})
+        EXPECT_FALSE(maker(form, scene)->start_from(*sounding)) << form;
+    EXPECT_FALSE(maker("modal_two_point", scene, 100)->start_from(*sounding));
+    EXPECT_FALSE(maker("modal_two_point", c3_free())->start_from(*sounding));
 }
 
 // ---- Forces from a file
