@@ -41,13 +41,9 @@ inline std::string text_of(const py::handle& value, int level = 0) {
 inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& options) {
     std::vector<bench::compare::SchemeOption> all;
     for (const auto& [key, value] : options) {
-        const auto name = key.cast<std::string>();
-        const auto colon = name.find(':');
-        const std::string scheme = colon == std::string::npos ? "" : name.substr(0, colon),
-                          option = name.substr(colon + 1);
-        if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
-            for (const auto& one : value) all.push_back({scheme, option, text_of(one)});
-        else all.push_back({scheme, option, text_of(value)});
+        const bool several = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
+        for (const auto& one : several ? py::list(value) : py::list(py::make_tuple(value)))
+            all.push_back(bench::compare::SchemeOption::of(key.cast<std::string>(), text_of(one)));
     }
     return all;
 }

@@ -39,48 +39,36 @@ constexpr const char* tension_keys[] = {"tension", "frequency", "note"};
 
 // ---- Which keys this table may have. Where the key that chooses an alternative is missing or
 // wrong, those of every alternative.
-struct Names {
+struct Names : Pass<Names> {
     const Value& table;
     std::vector<std::string> names{};
     std::vector<std::string> idle{};  // keys of alternatives that an override has turned from
 
-    void add(const char* key) {
+    explicit Names(const Value& of) : table(of) {}
+    void seen(const char* key) {
         if (std::find(names.begin(), names.end(), key) == names.end()) names.emplace_back(key);
     }
-    void number(const char* key, auto&&...) { add(key); }
-    void stiffness(const char* key, auto&&...) { add(key); }
     void material() {
-        add("material");
-        add("diameter");
+        seen("material");
+        seen("diameter");
     }
     void tension(auto&) {
-        for (const char* key : tension_keys) add(key);
+        for (const char* key : tension_keys) seen(key);
     }
-    void count(const char* key, auto&) { add(key); }
-    void file(const char* key, auto&) { add(key); }
-    void text(const char* key, auto&) { add(key); }
-    void optional_text(const char* key, auto&) { add(key); }
-    void choice(const char* key, auto&&...) { add(key); }
-    void string_index(const char* key, auto&) { add(key); }
-    void refused(const char* key, const char*) { add(key); }
-    void columns(const char* key, auto&&...) { add(key); }
-    void start(const char* key, auto&) { add(key); }
-    void start_table(auto&) {}
-    void force(const char* key, auto&) { add(key); }
-    void part(const char* key, auto&) { add(key); }
-    void parts(const char* key, auto&) { add(key); }
+    void part(const char* key, auto&) { seen(key); }
+    void parts(const char* key, auto&) { seen(key); }
     template <class... T>
     void one_of(const char* key, std::variant<T...>& v, std::span<const char* const> tags) {
-        add(key);
+        seen(key);
         const auto index = chosen(table.find(key), tags);
         for (std::size_t i = 0; i < sizeof...(T); ++i) {
             if (index && i != *index && table.find(key)->place > 0) continue;
             std::variant<T...> alternative;
             emplace(alternative, i);
-            Names other{table};
+            Names other(table);
             std::visit([&other](auto& a) { fields(other, a); }, alternative);
             for (const std::string& name : other.names)
-                index&& i != *index ? idle.push_back(name) : add(name.c_str());
+                index&& i != *index ? idle.push_back(name) : seen(name.c_str());
             idle.insert(idle.end(), other.idle.begin(), other.idle.end());
             if (i == index) v = std::move(alternative);
         }
@@ -97,7 +85,7 @@ public:
     void read(Part& part) {
         if (!std::holds_alternative<TomlTable>(table_.content))
             fail(table_, path_, table_.found(), "a table");
-        Names names{table_};
+        Names names(table_);
         fields(names, part);
         for (const Member& m : std::get<TomlTable>(table_.content)) refuse_unknown(m, names);
         fields(*this, part);

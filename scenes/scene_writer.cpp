@@ -10,9 +10,10 @@
 namespace jvari {
 
 namespace {
-struct Writer {
+struct Writer : Pass<Writer> {
     std::string& out;
-    std::string path{};  // "string.barrier": a header names the last entry of every array
+    // path: "string.barrier", for a header names the last entry of every array
+    Writer(std::string& text, std::string key) : Pass{std::move(key)}, out(text) {}
 
     void line(const char* key, const std::string& value) {
         out += std::string(key) + " = " + value + "\n";
@@ -30,7 +31,6 @@ struct Writer {
     void stiffness(const char* key, double k, const char* unit) {
         k == rigid ? line(key, quote("rigid")) : number(key, k, positive, unit);
     }
-    void material() {}  // what follows from it is written
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) { line(key, std::to_string(n)); }
     void string_index(const char* key, const std::optional<int>& n) {
@@ -46,14 +46,12 @@ struct Writer {
                 std::optional<std::type_identity_t<Enum>> absent = {}) {
         if (e != absent) line(key, quote(names[static_cast<std::size_t>(e)]));
     }
-    void refused(const char*, const char*) {}
     void columns(const char* key, const std::string& file, auto&&...) { text(key, file); }
     void start(const char* key, const std::optional<Start>& s) {
         if (!s) return;
         if (std::holds_alternative<RestStart>(*s)) text(key, "rest");
         if (const auto* t = std::get_if<TableStart>(&*s)) text(key, t->file);
     }
-    void start_table(const TableStart&) {}
     void force(const char* key, const Pluck& p) { optional_text(key, p.file); }
     void one_of(const char* key, const auto& variant, std::span<const char* const> names) {
         line(key, quote(names[variant.index()]));
@@ -62,10 +60,9 @@ struct Writer {
     template <class Part>
     void headed(const std::string& header, const std::string& key, const Part& p) {
         out += "\n" + header + "\n";
-        Writer inner{out, key};
+        Writer inner(out, key);
         fields(inner, p);
     }
-    std::string at(const char* key) const { return path.empty() ? key : path + "." + key; }
     template <class Part>
     void part(const char* key, const Part& p) {
         headed("[" + at(key) + "]", at(key), p);
@@ -84,24 +81,13 @@ struct Writer {
 };
 
 // The contents of the tables, for the hash.
-struct Tables {
+struct Tables : Pass<Tables> {
     std::string& out;
-    void number(auto&&...) {}
-    void stiffness(auto&&...) {}
-    void material() {}
-    void tension(auto&&...) {}
-    void count(auto&&...) {}
-    void string_index(auto&&...) {}
-    void text(auto&&...) {}
-    void optional_text(auto&&...) {}
-    void file(auto&&...) {}
-    void choice(auto&&...) {}
-    void refused(auto&&...) {}
+    explicit Tables(std::string& text) : out(text) {}
     void columns(const char*, const std::string&, const Column&, const std::vector<double>& a,
                  const Column&, const std::vector<double>& b) {
         write({&a, &b});
     }
-    void start(auto&&...) {}
     void start_table(const TableStart& t) {
         out += t.of_modes ? "modes\n" : "";
         write({&t.at, &t.displacement, &t.velocity});
@@ -115,26 +101,12 @@ struct Tables {
             out += "\n";
         }
     }
-    void one_of(const char*, const auto& variant, auto&&...) {
-        std::visit([this](const auto& alternative) { fields(*this, alternative); }, variant);
-    }
-    template <class Part>
-    void part(const char*, const Part& p) {
-        fields(*this, p);
-    }
-    template <class Part>
-    void part(const char* key, const std::optional<Part>& p) {
-        if (p) part(key, *p);
-    }
-    void parts(const char*, const auto& all) {
-        for (const auto& p : all) fields(*this, p);
-    }
 };
 }  // namespace
 
 std::string write_scene(const Scene& scene) {
     std::string text;
-    Writer writer{text};
+    Writer writer(text, "");
     fields(writer, scene);
     return text;
 }
@@ -146,7 +118,7 @@ std::string scene_hash(const Scene& scene) {
     constexpr std::string_view header = "[string.start]";
     for (std::size_t at = 0; (at = text.find(header, at)) != std::string::npos;)
         text.replace(at, header.size(), "[string.initial]");
-    Tables tables{text};
+    Tables tables(text);
     fields(tables, heard);
     std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bit
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

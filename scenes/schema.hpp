@@ -12,6 +12,8 @@
 
 #include <concepts>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "scenes/scene.hpp"
 
@@ -52,6 +54,50 @@ inline constexpr const char* barrier_names[] = {"lumped", "profile"};
 inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* shape_names[] = {"mode", "triangle"};
+
+// What a pass is that does nothing but to walk through all tables. Self derives from it and has what
+// it does with a key in place of what stands here; `seen` is told of each other key.
+template <class Self>
+struct Pass {
+    std::string path{};  // of the table in hand: "string.0.barrier.1"
+
+    Self& self() { return static_cast<Self&>(*this); }
+    std::string at(const std::string& key) const { return path.empty() ? key : path + "." + key; }
+    void seen(const char*) {}
+
+    void number(const char* key, auto&&...) { self().seen(key); }
+    void stiffness(const char* key, auto&&...) { self().seen(key); }
+    void count(const char* key, auto&) { self().seen(key); }
+    void text(const char* key, auto&) { self().seen(key); }
+    void optional_text(const char* key, auto&) { self().seen(key); }
+    void file(const char* key, auto&) { self().seen(key); }
+    void choice(const char* key, auto&&...) { self().seen(key); }
+    void string_index(const char* key, auto&) { self().seen(key); }
+    void refused(const char* key, const char*) { self().seen(key); }
+    void columns(const char* key, auto&&...) { self().seen(key); }
+    void start(const char* key, auto&) { self().seen(key); }
+    void force(const char* key, auto&) { self().seen(key); }
+    void material() {}
+    void tension(auto&) {}
+    void start_table(auto&) {}
+    void one_of(const char*, auto& variant, auto&&...) {
+        std::visit([this](auto& alternative) { fields(self(), alternative); }, variant);
+    }
+    template <class Part>
+    void part(const char* key, Part& p) {
+        if constexpr (requires { p.has_value(); }) {
+            if (p) part(key, *p);
+        } else {
+            const std::string outside = std::exchange(path, at(key));
+            fields(self(), p);
+            path = outside;
+        }
+    }
+    void parts(const char* key, auto& all) {
+        for (std::size_t i = 0; i < all.size(); ++i)
+            part((key + ("." + std::to_string(i))).c_str(), all[i]);
+    }
+};
 
 // ---- Losses
 

@@ -12,55 +12,41 @@
 namespace jvari {
 
 namespace {
-std::string joined(const std::string& path, const std::string& key) {
-    return path.empty() ? key : path + "." + key;
-}
-
-struct Ranges {
-    std::string path{};
-
+struct Ranges : Pass<Ranges> {
     void number(const char* key, double x, const Range& range, const char* unit,
                 std::optional<double> = {}) {
         if (!range.holds(x))
-            throw BadScene(joined(path, key), number_text(x),
+            throw BadScene(at(key), number_text(x),
                            range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
     }
     void stiffness(const char* key, double k, const char* unit) {
         if (k != rigid) number(key, k, positive_or_rigid, unit);
     }
-    void material() {}
     void tension(const String& s) { number("tension", s.tension, positive, "N"); }
     void count(const char* key, int n) {
-        if (n < 1) throw BadScene(joined(path, key), std::to_string(n), "a whole number >= 1");
+        if (n < 1) throw BadScene(at(key), std::to_string(n), "a whole number >= 1");
     }
-    void file(auto&&...) {}
-    void string_index(auto&&...) {}
-    void text(auto&&...) {}
-    void optional_text(auto&&...) {}
-    void choice(auto&&...) {}
-    void refused(auto&&...) {}
     void columns(const char* key, const std::string&, const Column& first,
                  const std::vector<double>& a, const Column& second, const std::vector<double>& b) {
-        const std::string at = *key ? joined(path, key) : path;
+        const std::string here = *key ? at(key) : path;
         if (a.size() != b.size())
-            throw BadScene(at,
+            throw BadScene(here,
                            std::to_string(a.size()) + " and " + std::to_string(b.size()) + " rows",
                            "columns of one length");
-        if (a.empty()) throw BadScene(at, "no rows", "at least one");
+        if (a.empty()) throw BadScene(here, "no rows", "at least one");
         for (std::size_t i = 0; i < a.size(); ++i) {
             if (!first.range.holds(a[i]) || (i > 0 && !(a[i - 1] < a[i])))
-                throw BadScene(at,
+                throw BadScene(here,
                                std::string(first.name) + " " + number_text(a[i]) + " in row " +
                                    std::to_string(i + 1),
                                std::string(first.range.says) + ", above that of the row before");
             if (!second.range.holds(b[i]))
-                throw BadScene(at,
+                throw BadScene(here,
                                std::string(second.name) + " " + number_text(b[i]) + " in row " +
                                    std::to_string(i + 1),
                                second.range.says);
         }
     }
-    void start(auto&&...) {}
     void start_table(const TableStart& t) {
         const Column at{t.of_modes ? "mode" : "x_m", "", not_negative};
         columns("", t.file, at, t.at, {"displacement_m", "", any}, t.displacement);
@@ -70,22 +56,6 @@ struct Ranges {
         if (!p.file.empty())
             columns(key, p.file, {"time_s", "", not_negative}, p.time, {"force_N", "", any},
                     p.share);
-    }
-    void one_of(const char*, const auto& variant, auto&&...) {
-        std::visit([this](const auto& alternative) { fields(*this, alternative); }, variant);
-    }
-    template <class Part>
-    void part(const char* key, const Part& p) {
-        Ranges inner{joined(path, key)};
-        fields(inner, p);
-    }
-    template <class Part>
-    void part(const char* key, const std::optional<Part>& p) {
-        if (p) part(key, *p);
-    }
-    void parts(const char* key, const auto& all) {
-        for (std::size_t i = 0; i < all.size(); ++i)
-            part((key + ("." + std::to_string(i))).c_str(), all[i]);
     }
 };
 

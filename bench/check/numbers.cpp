@@ -7,14 +7,15 @@
 namespace jvari::bench::check {
 
 namespace {
-struct Change {
+struct Change : Pass<Change> {
     int left;      // numbers before the one that is changed
     double tenth;  // its sign is the direction
-    std::string key{}, path{};
+    std::string key{};
 
+    Change(int which, double by) : left(which), tenth(by) {}
     bool is_it(const char* name) {
         if (left-- != 0) return false;
-        key = path + name;
+        key = at(name);
         return true;
     }
     double other(double x, const std::string& unit) const {
@@ -42,39 +43,12 @@ struct Change {
                 for (double& x : *values) x = other(x, x == 0 ? "m" : "");
             }
     }
-    void one_of(const char*, auto& variant, auto&&...) {
-        std::visit([this](auto& alternative) { fields(*this, alternative); }, variant);
-    }
-    void part(const char* name, auto& p) {
-        const std::string outside = path;
-        path += std::string(name) + ".";
-        if constexpr (requires { p.has_value(); }) {
-            if (p) fields(*this, *p);
-        } else {
-            fields(*this, p);
-        }
-        path = outside;
-    }
-    void parts(const char* name, auto& all) {
-        for (std::size_t i = 0; i < all.size(); ++i)
-            part((std::string(name) + "." + std::to_string(i)).c_str(), all[i]);
-    }
-    void material() {}
-    void start(auto&&...) {}
-    void start_table(auto&&...) {}
-    void force(auto&&...) {}
-    void file(auto&&...) {}
-    void text(auto&&...) {}
-    void optional_text(auto&&...) {}
-    void choice(auto&&...) {}
-    void refused(auto&&...) {}
-    void string_index(auto&&...) {}
 };
 }  // namespace
 
 std::optional<Changed> changed(const Scene& scene, int which, bool down) {
     Changed c{"", scene};
-    Change change{which, down ? -0.1 : 0.1};
+    Change change(which, down ? -0.1 : 0.1);
     fields(change, c.scene);
     if (change.key.empty()) return std::nullopt;
     c.key = change.key;
@@ -111,101 +85,70 @@ std::vector<Scene> make_scenes_of_numbers() {
         return s;
     };
     std::vector<Scene> all;
-    all.push_back(scene("free", {played}));
-    {
-        String s = played;
+    const auto add = [&](const char* name, auto... changes) {  // of the played string, each
+        std::vector<String> strings;
+        (changes(strings.emplace_back(played)), ...);
+        all.push_back(scene(name, std::move(strings)));
+    };
+    using Barriers = std::vector<Barrier>;
+    const auto over = [](Barriers b) { return [b](String& s) { s.barriers = b; }; };
+    const auto limp = [](String& s) { s.bending_stiffness = 0, s.damping = NoDamping{}; };
+    add("free", [](String&) {});
+    add("struck", [](String& s) {
         s.start.reset();
         s.velocity = TriangleShape{0.12, 2, 0.15};
-        all.push_back(scene("struck", {s}));
-    }
-    {
-        String s = played;
-        s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 0.3}};
-        all.push_back(scene("hammered", {s}));
-        all.back().taps.push_back({"z", Quantity::displacement, 0, 0, 0});
-        all.back().taps.push_back({"mass", Quantity::bridge_force, 0, 0, 0});
-    }
-    {
-        String s = played;
+    });
+    add("hammered", [](String& s) { s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 0.3}}; });
+    all.back().taps.push_back({"z", Quantity::displacement, 0, 0, 0});
+    all.back().taps.push_back({"mass", Quantity::bridge_force, 0, 0, 0});
+    add("plucked", [](String& s) {
         s.thread = Thread{0.2, 0.08, 900, 0.2, 2e-4};
         s.pluck = Pluck{0.5, 2e-3, 3, 5e-4, 0.13, 0.1};
-        all.push_back(scene("plucked", {s}));
-    }
-    {
-        String a = played, b = played;
-        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0},
-                      LumpedBarrier{0.2, 0.1, -4e-4, {1500}, 1, 0}};
-        b.tension = 25;
-        b.barriers = {LumpedBarrier{0.1, 0.08, -2e-4, {1200}, 1, 0}};
-        all.push_back(scene("two_strings", {a, b}));
-    }
-    {
-        String a = played;
-        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {3e4}, 1.5, 0.6},
-                      LumpedBarrier{0.2, 0.1, -4e-4, {8e4}, 1.6, 0.9}};
-        all.push_back(scene("power_law", {a}));
-    }
-    {
-        String a = played;
-        a.barriers = {LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0.6}};
-        all.push_back(scene("contact_loss", {a}));
-    }
-    {
-        String a = played, b = played, c = played;
-        a.barriers = {ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}};
-        b.barriers = {ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}};
-        c.barriers = {ProfileBarrier{
-            TableCurve{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}}, 0.05, 0.15, {3e4}, 1, 0}};
-        all.push_back(scene("line", {a}));
-        all.push_back(scene("parabola", {b}));
-        all.push_back(scene("table_curve", {c}));
-        for (auto one = all.end() - 3; one != all.end(); ++one) one->duration = 3e-3;
-    }
-    {
-        String a = played;
-        a.bending_stiffness = 0;
-        a.damping = NoDamping{};
-        a.barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.1, {rigid}, 1, 0}};
-        all.push_back(scene("rigid_profile", {a}));
-    }
-    {
-        String a = played, b = played, c = played;
-        a.damping = QualityFactorDamping{1e-3, 1.8e-4, 1.2, 1e-3, 0.02};
-        b.damping = PerPeriodDamping{0.8};
+    });
+    add("two_strings",
+        over({LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0},
+              LumpedBarrier{0.2, 0.1, -4e-4, {1500}, 1, 0}}),
+        [](String& s) {
+            s.tension = 25;
+            s.barriers = {LumpedBarrier{0.1, 0.08, -2e-4, {1200}, 1, 0}};
+        });
+    add("power_law", over({LumpedBarrier{0.08, 0.08, -3e-4, {3e4}, 1.5, 0.6},
+                           LumpedBarrier{0.2, 0.1, -4e-4, {8e4}, 1.6, 0.9}}));
+    add("contact_loss", over({LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0.6}}));
+    add("line", over({ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}}));
+    add("parabola", over({ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}}));
+    const TableCurve table{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}};
+    add("table_curve", over({ProfileBarrier{table, 0.05, 0.15, {3e4}, 1, 0}}));
+    for (auto one = all.end() - 3; one != all.end(); ++one) one->duration = 3e-3;
+    add("rigid_profile", [&](String& s) {
+        limp(s);
+        s.barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.1, {rigid}, 1, 0}};
+    });
+    add("quality_factor", [](String& s) {
+        s.damping = QualityFactorDamping{1e-3, 1.8e-4, 1.2, 1e-3, 0.02};
+    });
+    add("per_period", [](String& s) { s.damping = PerPeriodDamping{0.8}; });
+    add("measured", [](String& s) {
         TableDamping t;
         t.file = "measured";
         for (int i = 1; i <= 48; ++i)
             t.frequency_hz.push_back(430.0 * i * (1 + 1e-3 * i)),
                 t.decay_rate.push_back(30.0 + 5 * i);
-        c.damping = t;
-        c.bending_stiffness = 0;
-        all.push_back(scene("quality_factor", {a}));
-        all.push_back(scene("per_period", {b}));
-        all.push_back(scene("measured", {c}));
-    }
-    {
-        String a = played, b = played;
-        a.barriers = {LumpedBarrier{0.1, 0.1, -3e-4, {900}, 1, 0}};
-        a.bending_stiffness = b.bending_stiffness = 1e-4;
-        b.tension = 25;
-        all.push_back(scene("body", {a, b}));
-        all.back().body = Body{"", "", {{0.02, 2.5e4, 3}, {0.05, 2e5, 10}}};
-        all.back().duration = 2.5e-3;
-        all.back().taps.push_back({"support", Quantity::velocity, 0, 0});
-    }
-    {
-        String a = played;
-        a.axial_stiffness = 5e4;
-        all.push_back(scene("stretching", {a}));
-    }
-    {
-        String a = played;
-        a.bending_stiffness = 0;
-        a.damping = NoDamping{};
-        a.polarisation = Polarisation{0.3, 0.4};
-        all.push_back(scene("two_planes", {a}));
-        all.back().taps.resize(1);
-    }
+        s.damping = t;
+        s.bending_stiffness = 0;
+    });
+    add("body", over({LumpedBarrier{0.1, 0.1, -3e-4, {900}, 1, 0}}),
+        [](String& s) { s.tension = 25; });
+    for (String& s : all.back().strings) s.bending_stiffness = 1e-4;
+    all.back().body = Body{"", "", {{0.02, 2.5e4, 3}, {0.05, 2e5, 10}}};
+    all.back().duration = 2.5e-3;
+    all.back().taps.push_back({"support", Quantity::velocity, 0, 0});
+    add("stretching", [](String& s) { s.axial_stiffness = 5e4; });
+    add("two_planes", [&](String& s) {
+        limp(s);
+        s.polarisation = Polarisation{0.3, 0.4};
+    });
+    all.back().taps.resize(1);
     return all;
 }
 }  // namespace

@@ -15,7 +15,6 @@
 // the whole string, and the reference has some modes. Nodes of a profile add what they leave out
 // (scenes.hpp).
 #include <fmt/core.h>
-#include <algorithm>
 
 #include <algorithm>
 #include <cmath>

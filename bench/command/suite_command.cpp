@@ -1,5 +1,5 @@
 // jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv,
-// errors.csv, cost.csv, a file per row facet, manifest.json and the report.
+// errors.csv, cost.csv, sounds/, manifest.json and the report.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -123,12 +123,7 @@ int suite_command(SuiteRequest r) {
     report::ResultsFolder results(folder, console);
     results.files = maps.files;
     if (!plan.jobs.empty()) results.add_tables(cells);
-    for (const suite::Facet& f : suite::facets())
-        if (const store::Table rows = study::rows_of(f.name, plan, run.records);
-            !rows.rows.empty() && results) {
-            if (f.rows == suite::sound_rows) suite::write_sound_rows(folder, rows);
-            else results.add(std::string(f.name) + ".csv", store::csv(rows));
-        }
+    if (results) suite::write_sounds(folder, plan, run.records);
     results.add_manifest(manifest);
     if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
     // Files first: nothing is lost where nobody reads this.

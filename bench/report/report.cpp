@@ -8,7 +8,6 @@
 #include "bench/report/page.hpp"
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
-#include "bench/store/base64.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/study/errors.hpp"
 #include "bench/study/record.hpp"
@@ -24,8 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What parts of a page may weigh [bytes].
-constexpr std::size_t page_limit = 4'900'000, sounds_limit = 3'000'000, pictures_limit = 1'500'000,
-                      table_limit = 1'500'000;
+constexpr std::size_t page_limit = 4'900'000, sounds_limit = 3'000'000, table_limit = 1'500'000;
 constexpr double longest_heard = 4;  // [s]
 
 }  // namespace
@@ -130,32 +128,6 @@ Json data_of(const Results& r) {
     data["levels"] = kept_levels(r);
     return data;
 }
-
-// SVGs of the folder that are none of these
-void add_pictures(Json& data, const fs::path& folder, const std::vector<std::string>& own) {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.path().extension() == ".svg" &&
-            std::find(own.begin(), own.end(), entry.path().filename()) == own.end())
-            files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    std::size_t size = 0;
-    std::string left_out;
-    for (const fs::path& file : files) {
-        const std::string svg = store::read_whole(file);
-        if (size + svg.size() > pictures_limit) {
-            left_out += " " + file.filename().string();
-            continue;
-        }
-        size += svg.size();
-        data["pictures"].push_back({{"name", file.stem().string()},
-                                    {"data", "data:image/svg+xml;base64," + store::base64(svg)}});
-    }
-    if (!left_out.empty())
-        data["left_out"]["figures"].push_back(
-            "Left out for the page's size, they lie beside it:" + left_out + ".");
-}
 }  // namespace
 
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about) {
@@ -169,8 +141,8 @@ nlohmann::ordered_json empty_data(const std::string& title, const std::string& a
               {"tables", Json::object()},
               {"manifest", Json::object()}};
     for (const char* text : {"source", "command", "missing"}) data[text] = "";
-    for (const char* list : {"measures", "sounds", "levels", "pictures"}) data[list] = none;
-    for (const char* of : {"cells", "sounds", "figures"}) data["left_out"][of] = none;
+    for (const char* list : {"measures", "sounds", "levels"}) data[list] = none;
+    for (const char* of : {"cells", "sounds"}) data["left_out"][of] = none;
     return data;
 }
 
@@ -178,18 +150,16 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
     const std::string html = page_of(data, scripts);
     std::size_t excess = html.size() > limit ? html.size() - limit + 2000 : 0;
     if (excess == 0) return html;
-    for (const auto& [list, field, key, what] :
-         {std::tuple("pictures", "data", "figures", "pictures"),
-          std::tuple("sounds", "samples", "sounds", "more sounds")}) {
-        std::size_t count = 0;
-        for (Json& parts = data[list]; excess > 0 && !parts.empty(); ++count) {
-            excess -= std::min(excess, parts.back().at(field).get_ref<const std::string&>().size());
-            parts.erase(parts.size() - 1);
-        }
-        if (count > 0)
-            data["left_out"][key].push_back(fmt::format(
-                "{} {} are left out for the page's size; they lie beside it.", count, what));
+    Json& sounds = data["sounds"];
+    std::size_t count = 0;
+    for (; excess > 0 && !sounds.empty(); ++count) {
+        excess -=
+            std::min(excess, sounds.back().at("samples").get_ref<const std::string&>().size());
+        sounds.erase(sounds.size() - 1);
     }
+    if (count > 0)
+        data["left_out"]["sounds"].push_back(fmt::format(
+            "{} more sounds are left out for the page's size; they lie beside it.", count));
     return page_of(data, scripts);
 }
 
@@ -215,7 +185,6 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
         listener.note(vega.missing);
         data["missing"] = vega.missing;
     }
-    add_pictures(data, folder, written);
     store::write_fresh(folder / "report.html",
                        fitting_page_of(std::move(data), scripts, page_limit));
     written.emplace_back("report.html");

@@ -24,14 +24,13 @@ std::vector<std::string> write_report(const std::filesystem::path& folder, const
 // A table that is too large goes without the columns that take most room, those that charts need
 // excepted.
 store::Table fitting(store::Table, nlohmann::ordered_json& left_out);
-// The page in less than `limit` bytes: pictures, then sounds are left out from the last on, and the
-// page says so.
+// The page in less than `limit` bytes: sounds are left out from the last on, and the page says so.
 std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts,
                             std::size_t limit);
 
 // The data of a page with nothing in it: a title, what it is about, the schemes and references that
-// there are (name, is it a control; in the order of their registry), and empty tables, sounds,
-// levels and pictures.
+// there are (name, is it a control; in the order of their registry), and empty tables, sounds and
+// levels.
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
 
 }  // namespace jvari::bench::report

@@ -79,7 +79,7 @@ Drawn draw(const Vega& v, const Json& data) {
     };
     const std::string program =
         "const page = JSON.parse(require(\"fs\").readFileSync(\"page.json\", \"utf8\"));\n" +
-        shared_program() + page_text("plot.js") + page_text("draw.js") + "draw_all();\n";
+        shared_program() + page_text("draw.js") + "draw_all();\n";
     if (scratch.path.empty() || !write(file("draw.js"), program) ||
         !write(file("page.json"), data.dump(-1, ' ', false, Json::error_handler_t::replace))) {
         drawn.notes.push_back("no picture: cannot write to " + store::Scratch::place().string());

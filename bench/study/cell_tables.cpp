@@ -170,27 +170,6 @@ store::Table errors_table(const Cells& cells) {
     return t;
 }
 
-store::Table rows_of(const std::string& facet, const Plan& plan,
-                     const std::vector<Record>& records) {
-    const store::Table all = table_of(cells_of(plan, records), Contents::cost);
-    Texts names(all.columns.begin(), all.columns.begin() + all.column("options") + 1);
-    names.insert(names.end(), {"rate", "modes"});
-    const store::Table named = all.only(names);
-    store::Table t{named.columns, {}};
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        const auto own = records[i].rows.find(facet);
-        if (own == records[i].rows.end()) continue;
-        if (t.columns.size() == names.size())
-            t.columns.insert(t.columns.end(), own->second.columns.begin(),
-                             own->second.columns.end());
-        for (const auto& fields : own->second.rows) {
-            t.rows.push_back(named.rows[i]);
-            t.rows.back().insert(t.rows.back().end(), fields.begin(), fields.end());
-        }
-    }
-    return t;
-}
-
 // ---- Read back
 
 namespace {

@@ -101,10 +101,6 @@ store::Table errors_table(const Cells&);
 // cost.csv has other cells.
 Cells read_cells(const std::filesystem::path& folder, bool whole);
 
-// The rows of one facet over all jobs, each behind what names its cell: cell, scene, swept keys,
-// scheme, options, rate, modes.
-store::Table rows_of(const std::string& facet, const Plan&, const std::vector<Record>&);
-
 // ---- Cells gathered by what they have in common: the series that fits and charts are made of.
 
 using Rows = std::vector<std::size_t>;

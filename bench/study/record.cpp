@@ -99,9 +99,6 @@ Levels levels_in(const Json& j) {
 std::string json_of(const Record& r, const std::string& identity) {
     const Cell& c = r.cell;
     const Against& a = r.against;
-    Json rows = Json::object();
-    for (const auto& [facet, table] : r.rows)
-        rows[facet] = {{"columns", table.columns}, {"rows", table.rows}};
     return store::kept_text(identity, {{"failure", c.failure},
                                        {"reason", c.reason},
                                        {"cause", c.cause},
@@ -117,8 +114,8 @@ std::string json_of(const Record& r, const std::string& identity) {
                                          {"left_out", numbers(a.trust.left_out)},
                                          {"certificate_in_model", numbers(a.model_trust.figure)}}},
                                        {"sound", sound_json(c.sound)},
-                                       {"levels", levels_json(r.levels)},
-                                       {"rows", rows}});
+                                       {"reference_sound", sound_json(r.reference_sound)},
+                                       {"levels", levels_json(r.levels)}});
 }
 
 std::optional<Record> read_record(const std::filesystem::path& path, const std::string& identity,
@@ -140,13 +137,8 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         r.against.trust.figure = figures_in(a.at("certificate"));
         r.against.trust.left_out = figures_in(a.at("left_out"));
         r.against.model_trust.figure = figures_in(a.at("certificate_in_model"));
+        r.reference_sound = sound_in(j.at("reference_sound"));
         r.levels = levels_in(j.at("levels"));
-        for (const auto& [facet, kept] : j.at("rows").items()) {
-            const store::Table& table = r.rows[facet] = {kept.at("columns"), kept.at("rows")};
-            for (const auto& fields : table.rows)
-                if (fields.size() != table.columns.size())
-                    throw std::runtime_error("a row without a field for each column");
-        }
         return r;
     });
 }

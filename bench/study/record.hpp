@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,7 +42,7 @@ struct Record {
     Against against;
     // of the spectrogram; none where it was not asked for
     Levels levels;
-    std::map<std::string, store::Table> rows;  // of each facet that makes rows and was asked for
+    store::Sound reference_sound;  // of the tap of the cell's; none likewise
     bool timed() const { return cell.clock.wall.count > 0; }
 };
 

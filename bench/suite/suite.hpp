@@ -16,7 +16,8 @@
 namespace jvari::bench::suite {
 
 namespace measured {  // facets that more than their own file knows
-inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram";
+inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram",
+                            *sound = "sound";
 }
 
 struct SweptKey {

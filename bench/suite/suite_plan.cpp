@@ -12,24 +12,18 @@ namespace jvari::bench::suite {
 namespace {
 using Json = nlohmann::ordered_json;
 
-bool makes_rows(const CellSet& set) {
-    return std::ranges::any_of(facets(),
-                               [&set](const Facet& f) { return f.rows && set.measures(f.name); });
-}
-
-// Spectrogram and rows of a job's accuracy run, and what they are made of as JSON.
+// Spectrogram and sound of a job's accuracy run, and what they are made of as JSON.
 void add_facets(study::Job& job, const CellSet& set, int tap) {
     Json measured = Json::array();
     for (const Facet& f : facets())
         if (set.measures(f.name)) measured.push_back(f.name);
-    if (set.measures(measured::spectrogram) || makes_rows(set))
+    if (set.measures(measured::spectrogram) || set.measures(measured::sound))
         measured.push_back({{"tap", job.point->scene.taps.at(tap).name}});
     job.measured = measured.dump();
     job.measure = [&set, tap](const study::Ran& ran, study::Record& into) {
         if (set.measures(measured::spectrogram))
             into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);
-        for (const Facet& f : facets())
-            if (set.measures(f.name) && f.rows) into.rows[f.name] = f.rows(ran);
+        if (set.measures(measured::sound)) keep_sounds(ran, into);
     };
 }
 }  // namespace

@@ -28,9 +28,9 @@ struct MadeUp : Scratch {  // some of the files
             fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
     }
 };
-const std::vector<std::string> every_file{"manifest.json",  "facts.csv",       "errors.csv",
-                                          "cost.csv",       "convergence.csv", "maps.csv",
-                                          "boundaries.csv", "others.svg"};
+const std::vector<std::string> every_file{"manifest.json", "facts.csv",       "errors.csv",
+                                          "cost.csv",      "convergence.csv", "maps.csv",
+                                          "boundaries.csv"};
 
 Json data_of(const std::string& page) {
     const auto from = page.find("id=\"data\">") + 10;
@@ -46,15 +46,13 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     const Json data = data_of(content(folder / "report.html"));
     EXPECT_TRUE(says(data.at("missing").get<std::string>(), "npm ci"));
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");
-    EXPECT_EQ(data.at("pictures").at(0).at("name"), "others");
     for (const char* name : {"convergence", "maps", "boundaries"}) {
         const auto kept = bench::store::read_csv(data.at("tables").at(name)),
                    file = bench::store::read_csv(content(folder / (std::string(name) + ".csv")));
         EXPECT_EQ(kept.only(file.columns).rows, file.rows) << name;  // the files' own rows, whole
     }
     for (const auto& entry : fs::directory_iterator(folder.path))
-        EXPECT_TRUE(entry.path().extension() != ".svg" || entry.path().filename() == "others.svg")
-            << entry.path();
+        EXPECT_NE(entry.path().extension(), ".svg") << entry.path();
 }
 
 TEST(Report, AFolderWithoutResultsIsRefused) {
@@ -224,10 +222,8 @@ Json a_page() {
     return {{"title", "<b>"},
             {"manifest", {{"note", "<!-- </script>"}}},
             {"tables", {{"cells", "</script><script>"}}},
-            {"pictures", Json::array()},
             {"sounds", Json::array()},
-            {"left_out",
-             {{"cells", Json::array()}, {"sounds", Json::array()}, {"figures", Json::array()}}}};
+            {"left_out", {{"cells", Json::array()}, {"sounds", Json::array()}}}};
 }
 
 TEST(Report, NothingInThePageEndsAScriptEarly) {
@@ -246,14 +242,10 @@ TEST(Report, WhatDoesNotFitIsLeftOutFromTheLastOnAndThePageSaysSo) {
     Json page = a_page();
     for (int k = 0; k < 10; ++k)
         page["sounds"].push_back({{"row", k}, {"samples", std::string(40000, 'x')}});
-    for (int k = 0; k < 2; ++k)
-        page["pictures"].push_back({{"name", "b"}, {"data", std::string(40000, 'y')}});
     const std::string whole = bench::report::page_of(page, "");
     EXPECT_EQ(bench::report::fitting_page_of(page, "", whole.size()), whole);
-    // two pictures and two sounds of 40 kB
-    const Json data = data_of(bench::report::fitting_page_of(page, "", whole.size() - 150000));
-    EXPECT_EQ(data.at("pictures").size(), 0u);
-    EXPECT_EQ(data.at("left_out").at("figures").size(), 1u);
+    // two sounds of 40 kB
+    const Json data = data_of(bench::report::fitting_page_of(page, "", whole.size() - 70000));
     EXPECT_EQ(data.at("sounds").size(), 8u);
     EXPECT_EQ(data.at("sounds").back().at("row"), 7);
     EXPECT_TRUE(says(data.at("left_out").at("sounds")[0].get<std::string>(), "2 more sounds"));

@@ -20,7 +20,6 @@ const files = [
   "sound_charts",
   "run",
   "verdict",
-  "plot",
 ].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
 const css = readFileSync(join(sources, "page.css"), "utf8");
 let folders = 0,
@@ -53,7 +52,6 @@ const every_file = [
   "convergence.csv",
   "maps.csv",
   "boundaries.csv",
-  "others.svg",
 ];
 const whole = () => on(report(folder_of(every_file)));
 // facts.csv, errors.csv and cost.csv of a table of both, in which an error of the headline's tap
@@ -161,7 +159,7 @@ test("sections stand in their order, and those without data do not appear", () =
   const of = whole();
   assert.deepEqual(
     of("sections_of()").map(s => s.id),
-    ["work-precision", "sweep", "convergence", "overview", "maps", "figures", "cells"],
+    ["work-precision", "sweep", "convergence", "overview", "maps", "cells"],
   );
   assert.deepEqual(
     on(report(folder_of(["manifest.json", "maps.csv"])))("sections_of()").map(s => s.id),
@@ -171,17 +169,7 @@ test("sections stand in their order, and those without data do not appear", () =
   const bare = on({...report(folder_of(every_file)), missing: "no charts"})("sections_of()");
   assert.deepEqual(
     bare.map(s => s.heading),
-    ["Convergence", "How often each scheme stays sound", "Where methods fail", "Figures", "Cells"],
-  );
-});
-test("pictures of others stand in the page and its own do not", () => {
-  const [drawn] = whole()("sections_of()").flatMap(s =>
-    s.charts.flatMap(c => c.twins.map(t => t.file)),
-  );
-  const folder = folder_of(every_file, {[drawn]: "<svg/>"});
-  assert.deepEqual(
-    section(on(report(folder)), "figures").pictures.map(p => p.name),
-    ["others"],
+    ["Convergence", "How often each scheme stays sound", "Where methods fail", "Cells"],
   );
 });
 test("an overview counts sound runs among those that were not refused", () => {
@@ -904,7 +892,6 @@ test("a trace is drawn from where its reference is liveliest, with the differenc
     left_out: {sounds: []},
     manifest: {},
     levels: [],
-    pictures: [],
   });
   const {charts} = of("waveform_section()"),
     {spec} = charts[0].spec({...first(charts[0]), sound_field: "a.wav"}, false),
@@ -971,22 +958,6 @@ test(
     );
   },
 );
-
-test("plot.py draws the lines of the chart", () => {
-  const of = sample(),
-    text = of("plot_program()"),
-    [, lines] = text.match(/# scene: [^]*?\n(SCENES = {[^]*?\n})\n/);
-  assert.match(
-    lines,
-    /\["a","#[0-9a-f]{6}","[a-zA-Z^<>]",\[1,0\],\[\[0\.01,0\.009,0\.011,0\.01\],/,
-  );
-  assert.ok(!lines.includes('"c"'));
-  assert.equal(
-    spawnSync("python3", ["-c", "import ast, sys; ast.parse(sys.stdin.read())"], {input: text})
-      .status,
-    0,
-  );
-});
 
 // ---- And Vega draws them
 if (!existsSync(join(modules, "vega/build/vega.min.js")))

@@ -1,6 +1,5 @@
 // Under node, after the other files: node draw.js makes of page.json beside it every picture of the
-// charts, and plot.py, which draws the first chart with matplotlib. drawn.json lists what was
-// written, and what could not be drawn with the reason.
+// charts. drawn.json lists what was written, and what could not be drawn with the reason.
 // A picture as wide as it was asked for, to the point: what stands beside the plot makes it a
 // little wider or narrower than planned.
 function sized(svg) {
@@ -38,10 +37,5 @@ async function draw_all() {
     for (const chart of section.charts)
       for (const twin of chart.twins)
         await draw(twin.file, () => chart.spec(twin.choice, true).spec);
-  const plot = page.run ? "" : plot_program();
-  if (plot) {
-    fs.writeFileSync("plot.py", plot);
-    drawn.push("plot.py");
-  }
   fs.writeFileSync("drawn.json", JSON.stringify({drawn, failed}));
 }

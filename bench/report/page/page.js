@@ -3,17 +3,6 @@
 const drawings = [];
 const report = {}; // what is made of the tables: {sections, scenes, judged: scenes with an answer}
 
-function pictures_of(pictures) {
-  return (pictures ?? []).map(p =>
-    element(
-      "figure",
-      {},
-      element("img", {src: p.data, alt: p.name, loading: "lazy"}),
-      element("figcaption", {className: "soft small"}, p.name),
-    ),
-  );
-}
-
 // What stands in a section below its heading.
 function parts_of(s) {
   const parts = s.notes.map(note);
@@ -22,7 +11,7 @@ function parts_of(s) {
     parts.push(...drawn);
     drawings.push({id: s.id, draw});
   }
-  parts.push(...pictures_of(s.pictures), ...s.left_out.map(note));
+  parts.push(...s.left_out.map(note));
   if (s.table) parts.push(...table_of(s.table, s.heading));
   return parts;
 }

@@ -194,7 +194,7 @@ function score_text(right, guesses) {
   return `so far ${right} of ${guesses}: ${heard} (p = ${digits(p, 2)})`;
 }
 
-// ---- The tables and pictures at the end
+// ---- The table at the end
 const first_columns = [
   "scheme",
   "options",
@@ -246,19 +246,6 @@ function cell_section() {
     },
   };
 }
-function picture_section(drawn) {
-  // SVGs in the folder that are none of the page's own
-  const pictures = page.pictures.filter(p => !drawn.includes(p.name + ".svg"));
-  return {
-    id: "figures",
-    heading: "Figures",
-    notes: [],
-    charts: [],
-    pictures,
-    left_out: page.left_out.figures,
-  };
-}
-
 // All that stands on the page, in this order; a section without data does not appear.
 function sections_of() {
   const drawn = [
@@ -274,13 +261,7 @@ function sections_of() {
     waveform_section(),
   ].filter(Boolean);
   if (page.missing) for (const s of drawn) s.charts = [];
-  const all = [
-    ...drawn,
-    picture_section(drawn.flatMap(s => s.charts.flatMap(c => c.twins.map(t => t.file)))),
-    cell_section(),
-  ];
+  const all = [...drawn, cell_section()];
   for (const s of all) s.left_out = s.left_out ?? [];
-  return all.filter(
-    s => s.charts.length || s.pictures?.length || s.left_out.length || s.table?.rows.length,
-  );
+  return all.filter(s => s.charts.length || s.left_out.length || s.table?.rows.length);
 }
