@@ -222,13 +222,13 @@ const shows = {
   unreferenced() {
     clear_answers(
       "No exact solution of this string is in the page",
-      `It needs SUNDIALS, which the page leaves out. ${the_program_has_it()}`,
+      `The page has closed forms alone. ${ask_the_program()}`,
     );
   },
   late() {
     clear_answers(
       `No exact solution of this string within ${late_seconds} s`,
-      `A browser takes longer for it. ${the_program_has_it()}`,
+      `A browser takes longer for it. ${ask_the_program()}`,
     );
   },
   point({point}) {
@@ -266,8 +266,8 @@ function forget_motion() {
   by_id("hear").disabled = true;
   draw_picture();
 }
-const the_program_has_it = () =>
-  `The program has it: jvari compare ${state.text === null ? state.scene : "FILE"}.`;
+const ask_the_program = () =>
+  `The program takes its time, or another reference: jvari compare ${state.text === null ? state.scene : "FILE"}.`;
 const scheme_name = () => {
   const {scheme, compliance} = state;
   return label_of({scheme, compliance: options_of(scheme, compliance).length ? compliance : ""});
@@ -278,7 +278,7 @@ function sentence_of(v) {
     after = shown.scene.free_from ? " after the pluck" : "",
     error = error_text(v);
   if (error === "not known")
-    return ` cannot be judged here: the exact solution is known to ${percent(v.uncertainty)} only`;
+    return ` cannot be judged here: the exact solution is itself uncertain by ${percent(v.uncertainty)}`;
   if (error.endsWith("?"))
     return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}${after}`;
   return (

@@ -169,7 +169,11 @@ function draw_grips(pen, v) {
     pen.setLineDash([]);
     const right = x < v.width - 90;
     pen.textAlign = right ? "left" : "right";
-    pen.fillText(name, x + (right ? 11 : -11), y + (name === "pull here" ? -4 : 16));
+    pen.fillText(
+      name,
+      x + (right ? 11 : -11),
+      y + (name === "pull here" ? -4 : y > v.height - 30 ? 4 : 16),
+    );
     pen.textAlign = "left";
     pen.fillStyle = colour("paper");
     pen.lineWidth = 2;
@@ -223,7 +227,8 @@ function draw_graphs() {
         for (const y of series) if (Number.isFinite(y)) most = Math.max(most, Math.abs(y * times));
     most = most || 1;
     pen.fillStyle = colour("soft");
-    pen.fillText(`${line.title} up to ${two_digits(most)} ${line.unit}`, left, 12);
+    const to = each < 150 ? "" : " up to";
+    pen.fillText(`${line.title}${to} ${two_digits(most)} ${line.unit}`, left, 12);
     pen.strokeStyle = colour("line");
     pen.lineWidth = 1;
     (pen.beginPath(), pen.moveTo(left, bottom), pen.lineTo(right, bottom), pen.stroke());
