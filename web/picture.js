@@ -167,13 +167,14 @@ function draw_grips(pen, v) {
     pen.setLineDash([2, 4]);
     (pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, v.y(0)), pen.stroke());
     pen.setLineDash([]);
-    const right = x < v.width - 90;
+    const right = x < v.width - 90,
+      down = name === "pull here" ? -4 : y > v.height - 30 ? 4 : 16,
+      place = [name, x + (right ? 11 : -11), y + down];
     pen.textAlign = right ? "left" : "right";
-    pen.fillText(
-      name,
-      x + (right ? 11 : -11),
-      y + (name === "pull here" ? -4 : y > v.height - 30 ? 4 : 16),
-    );
+    pen.strokeStyle = colour("paper");
+    pen.lineWidth = 4;
+    (pen.strokeText(...place), pen.fillText(...place));
+    pen.strokeStyle = colour("key");
     pen.textAlign = "left";
     pen.fillStyle = colour("paper");
     pen.lineWidth = 2;

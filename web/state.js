@@ -72,7 +72,7 @@ function read_address(hash) {
 const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined),
   pulled = s => (s.start?.shape === "triangle" ? s.start.position : undefined),
   within = (low, high) => (v, s) => [low * s.length, high * s.length],
-  times = (low, high) => v => [low * v, high * v],
+  times = (low, high) => v => [low * v, high * v].sort((a, b) => a - b),
   near_end = (high, most) => (v, s) => [0.3 * v, Math.min(high * v, most * s.length)];
 const handles = [
   ["bridge_height", "barrier.0.height", "mm", s => point_of(s)?.height, v => [v - 2e-3, v + 2e-3]],
