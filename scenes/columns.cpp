@@ -64,7 +64,9 @@ struct ColumnLine {
             header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos;
         throw SceneFileError(
             place + ": header: found no column " + quote(c.name) +
-            (semicolons ? "; expected commas between columns, and points in numbers, as 0.5" : ""));
+            (semicolons ? "; expected commas between columns, and points in numbers, as 0.5"
+             : header.size() > 12 ? ""
+                                  : " among " + list_of({header.begin(), header.end()})));
     }
 
     void read(const std::vector<std::string_view>& cells, std::size_t i, const ColumnTo& c) const {

@@ -60,7 +60,15 @@ Scene parse_scene(std::string_view text, const std::string& file_name,
         throw SceneFileError(file_name + ":1: found " + std::to_string(text.size()) +
                              " bytes, expected at most " + std::to_string(largest_scene));
     const Document document = parse_document(text, file_name, overrides);
-    Scene scene = scene_of(document);
+    Scene scene;
+    try {
+        scene = scene_of(document);
+    } catch (const SceneFileError& e) {  // --set string.1.tension=40 of one string begins another
+        const std::string why = e.what();
+        if (why.starts_with("--set ") && why.find(": found nothing") != std::string::npos)
+            throw SceneFileError(why + "; strings, barriers and taps are counted from 0");
+        throw;
+    }
     try {
         validate(scene);
     } catch (const BadScene& e) {

@@ -145,8 +145,11 @@ Modes modes_of(const String& string, const Settings& s) {
     if (count > 0 && count <= most_modes) return modes_of(string, count);
     const std::string limit = std::to_string(std::llround(default_limit(s))) + " Hz";
     if (count == 0)
-        throw Refusal("the string has no mode below " + limit +
-                      ", where a scheme stops unasked: say how many it is to carry");
+        throw Refusal(
+            "the string has no mode below " + limit +
+            (s.sample_rate > 0 && s.sample_rate < 1000
+                 ? ": is the sample rate of " + number_text(s.sample_rate) + " Hz meant in kHz?"
+                 : ": say how many modes it is to carry"));
     throw Refusal(
         "the string has " +
         (s.modes > 0 ? std::to_string(count) + " modes" : "too many modes below " + limit) +
@@ -159,13 +162,20 @@ std::string option(const Settings& s, const Option& o) {
     return o.fallback;
 }
 
+namespace {
+std::string did_you_mean(const std::string& text, std::span<const char* const> words) {
+    const std::string near = nearest(text, {words.begin(), words.end()});
+    return near.empty() ? "" : "; did you mean " + quote(near) + "?";
+}
+}  // namespace
+
 std::string choice_option(const Settings& s, const Option& o) {
     const std::string text = option(s, o);
     const auto words = o.words();
     if (std::find(words.begin(), words.end(), text) == words.end())
-        throw Refusal("option " + std::string(o.name) + ": found \"" + text +
-                      "\", expected one of " +
-                      listed(words, [](const char* word) { return word; }));
+        throw Refusal(
+            "option " + std::string(o.name) + ": found \"" + text + "\", expected one of " +
+            listed(words, [](const char* word) { return word; }) + did_you_mean(text, words));
     return text;
 }
 

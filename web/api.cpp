@@ -79,7 +79,7 @@ Settings settings_of(const Descriptor& d, double rate, double tap_rate, int mode
 // is drawn from.
 void add_shape(Scene& scene, const char* places) {
     for (const std::string& place : lines_of(places))
-        scene.taps.push_back({"at " + place, Quantity::displacement, 0,
+        scene.taps.push_back({"at_" + place, Quantity::displacement, 0,
                               scene.strings[0].length * number_of(place).value_or(0.5)});
 }
 }  // namespace

@@ -1,6 +1,6 @@
 // Error against cost, recomputed for the string as it stands: a line for each scheme, a point for
 // each sample rate. Costs are of this browser.
-const chart = {points: [], own: []};
+const chart = {points: [], own: [], cells: 0, whole: false, why: ""};
 const chart_schemes = [
   ["modal_two_point", "own"],
   ["modal_two_point", "matched"],
@@ -10,8 +10,7 @@ const chart_schemes = [
   ["finite_difference_theta", "own"],
   ["sitar_waveguide", "own"],
 ];
-const chart_lines = 5,
-  chart_rates = [1, 2, 4, 8].map(k => 44100 * k);
+const chart_rates = [1, 2, 4, 8].map(k => 44100 * k);
 const colours = {
   modal_two_point: "#0072b2",
   modal_quadratised: "#7a4fb5",
@@ -23,21 +22,17 @@ const colours = {
 };
 const colour_of = name => colours[name] ?? "#777";
 
-// Twenty cells: five lines that the scene allows, the chosen scheme among them, at four rates.
-function chart_cells() {
-  const able = new Set(shown.scene?.able ?? chart_schemes.map(([name]) => name)),
-    lines = chart_schemes.filter(([name]) => able.has(name)).slice(0, chart_lines);
-  const chosen = [state.scheme, state.compliance];
-  const same = ([name, compliance]) =>
-    name === chosen[0] && (compliance === chosen[1] || !options_of(name, compliance).length);
-  if (!lines.some(same)) lines.splice(Math.min(lines.length, chart_lines - 1), 1, chosen);
-  return lines.flatMap(([scheme, compliance]) =>
-    chart_rates.map(rate => ({scheme, compliance, rate})),
+const first_able = () =>
+  [...chart_schemes.map(([name]) => name), ...shown.scene.able].find(
+    name => shown.scene.able.includes(name) && !descriptor(name).control,
   );
-}
 
-const error_text = p =>
-  p.uncertainty > 0.1 * p.error ? `\u2264 ${percent(p.error + p.uncertainty)}` : percent(p.error);
+// As in the program's tables (bench/compare/bound.hpp).
+function error_text({error, uncertainty}) {
+  if (uncertainty <= 0.1 * error) return percent(error);
+  if (!Number.isFinite(uncertainty)) return `${percent(error)}?`;
+  return error + uncertainty < 1 ? `\u2264 ${percent(error + uncertainty)}` : "not known";
+}
 const sound_point = p => p.outcome === "ok" && Number.isFinite(p.error);
 const label_of = p => p.scheme + (p.compliance === "matched" ? ", matched" : "");
 function percent(x) {
@@ -69,8 +64,8 @@ async function verdict(points, accuracy) {
 const run_name = p => `${label_of(p)} at ${p.rate / 1e3} kHz`,
   run_names = list => list.map(run_name).join("; ");
 
-function answer_of({best, ties, perhaps}, done) {
-  if (!best && !done) return ["…"];
+function answer_of({best, ties, perhaps}) {
+  if (!best && !chart.whole) return ["computing …"];
   if (!best)
     return perhaps.length
       ? [
@@ -87,19 +82,21 @@ function answer_of({best, ties, perhaps}, done) {
     perhaps.length && `perhaps for less ${run_names(perhaps)}`,
   ].filter(Boolean);
 }
-async function draw_answers(done) {
+async function draw_answers() {
   const asked = ++draw_answers.count,
     accuracies = [0.1, 0.01, 0.001];
-  const told = await Promise.all(accuracies.map(accuracy => verdict(chart.points, accuracy))).catch(
-    error => {
-      if (!(error instanceof Stale_question)) throw error;
-    },
-  );
+  const points = chart.points,
+    told =
+      points.length === 0
+        ? accuracies.map(() => ({}))
+        : await Promise.all(accuracies.map(accuracy => verdict(points, accuracy))).catch(error => {
+            if (!(error instanceof Stale_question)) throw error;
+          });
   // the worker was replaced, or there are newer points
   if (!told || asked !== draw_answers.count) return;
   document.getElementById("answers").replaceChildren(
-    ...told.map((v, k) => {
-      const [found, ...more] = answer_of(v, done),
+    ...(chart.why ? [] : told).map((v, k) => {
+      const [found, ...more] = answer_of(v),
         card = element("div", {className: "card"});
       card.append(
         element("p", {className: "soft"}, `within ${100 * accuracies[k]} %`),
@@ -120,10 +117,12 @@ function svg(name, attributes, ...inside) {
   return made;
 }
 
-function draw_chart(done) {
-  draw_answers(done);
-  const box = document.getElementById("chart"),
-    width = Math.max(300, box.clientWidth),
+function draw_chart() {
+  draw_answers();
+  const box = document.getElementById("chart");
+  if (chart.why)
+    return box.replaceChildren(element("p", {className: "soft"}, "Nothing to compare: see above."));
+  const width = Math.max(300, box.clientWidth),
     height = Math.min(380, Math.max(260, width * 0.55)),
     points = [...chart.points, ...chart.own].filter(sound_point);
   const left = 52,
@@ -151,37 +150,19 @@ function draw_chart(done) {
     role: "img",
     "aria-label": "error against computing time: the table below has the numbers",
   });
-  for (let k = y0; k <= y1; ++k)
-    art.append(
-      svg("line", {x1: left, x2: width - right, y1: Y(10 ** k), y2: Y(10 ** k), class: "grid"}),
-      svg(
-        "text",
-        {x: left - 6, y: Y(10 ** k) + 4, "text-anchor": "end"},
-        `${digits(100 * 10 ** k)} %`,
-      ),
-    );
-  for (let k = Math.ceil(x0); k <= x1; ++k)
-    art.append(
-      svg("line", {
-        x1: X(10 ** k),
-        x2: X(10 ** k),
-        y1: top,
-        y2: height - bottom,
-        class: k === 0 ? "real-time" : "grid",
-      }),
-      svg(
-        "text",
-        {x: X(10 ** k), y: height - bottom + 16, "text-anchor": "middle"},
-        time_text(10 ** k),
-      ),
-    );
-  art.append(
-    svg(
-      "text",
-      {x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle"},
-      "computing time for one second of sound, in this browser",
-    ),
-  );
+  const grid = (x1, x2, y1, y2, name = "grid") =>
+      art.append(svg("line", {x1, x2, y1, y2, class: name})),
+    words = (x, y, anchor, text) => art.append(svg("text", {x, y, "text-anchor": anchor}, text)),
+    middle = (left + width - right) / 2;
+  for (let k = y0; k <= y1; ++k) {
+    grid(left, width - right, Y(10 ** k), Y(10 ** k));
+    words(left - 6, Y(10 ** k) + 4, "end", `${digits(100 * 10 ** k)} %`);
+  }
+  for (let k = Math.ceil(x0); k <= x1; ++k) {
+    grid(X(10 ** k), X(10 ** k), top, height - bottom, k === 0 ? "real-time" : "grid");
+    words(X(10 ** k), height - bottom + 16, "middle", time_text(10 ** k));
+  }
+  words(middle, height - 6, "middle", "computing time for a second of sound, in this browser");
   const uncertainty = points[0]?.uncertainty;
   if (uncertainty > 10 ** y0)
     art.append(
@@ -239,7 +220,7 @@ function draw_chart(done) {
   const legend = element("p", {className: "legend"});
   for (const [label, line] of lines)
     legend.append(element("span", {}, swatch(line[0]), label), " ");
-  box.replaceChildren(art, legend, table_of_points(done));
+  box.replaceChildren(art, legend, table_of_points());
 }
 
 function swatch(p) {
@@ -266,33 +247,22 @@ function swatch(p) {
   );
 }
 
-function table_of_points(done) {
+function table_of_points() {
   const rows = [...chart.points, ...chart.own].map(p => [
     label_of(p),
     `${p.rate / 1e3} kHz`,
     p.refused ?? (p.outcome !== "ok" ? p.outcome.replace("_", " ") : percent(p.error)),
     p.cost ? time_text(p.cost) : "",
   ]);
-  const table = element(
-    "table",
-    {},
-    element(
-      "thead",
+  const row = (kind, texts, more = {}) =>
+      element("tr", {}, ...texts.map(text => element(kind, more, text))),
+    heads = ["scheme", "sample rate", "error", "time per second"],
+    table = element(
+      "table",
       {},
-      element(
-        "tr",
-        {},
-        ...["scheme", "sample rate", "error", "time per second"].map(t =>
-          element("th", {scope: "col"}, t),
-        ),
-      ),
-    ),
-    element(
-      "tbody",
-      {},
-      ...rows.map(row => element("tr", {}, ...row.map(t => element("td", {}, t)))),
-    ),
-  );
+      element("thead", {}, row("th", heads, {scope: "col"})),
+      element("tbody", {}, ...rows.map(texts => row("td", texts))),
+    );
   const was_open = document.querySelector("#chart details")?.open,
     scroll = element("div", {className: "scroll", tabIndex: 0}, table);
   (scroll.setAttribute("role", "region"),
@@ -303,7 +273,9 @@ function table_of_points(done) {
     element(
       "summary",
       {},
-      `${chart.points.length} points as a table${done ? "" : ", more to come"}`,
+      chart.whole
+        ? `${chart.points.length} points as a table`
+        : `computing … ${chart.points.length} of ${chart.cells || "the"} points`,
     ),
     scroll,
   );

@@ -9,8 +9,10 @@ const client = {
   ready: null,
   list: null,
   since: 0,
+  told: new Set(), // what the worker has said of the newest state
 };
-const patience = 1500; // [ms]
+const patience = 1500, // [ms]
+  late_seconds = 8; // for a verdict
 
 async function unpacked(base64) {
   const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
@@ -51,7 +53,9 @@ function start_worker() {
         else waiting?.resolve(data.answer);
       } else if (data.id === client.id) {
         if (["charted", "refused", "unreferenced"].includes(data.kind)) client.busy = false;
-        shows[data.kind]?.(data);
+        if (["reference", "refused", "unreferenced"].includes(data.kind)) clearTimeout(client.late);
+        client.told.add(data.kind);
+        shows[data.kind](data);
       }
     };
   });
@@ -64,6 +68,12 @@ async function send_state() {
   if (client.busy && performance.now() - client.since > patience) start_worker();
   client.busy = true;
   client.since = performance.now();
+  client.told.clear();
+  clearTimeout(client.late);
+  client.late = setTimeout(() => {
+    start_worker();
+    shows.late();
+  }, 1e3 * late_seconds);
   client.worker.postMessage({
     id: ++client.id,
     state: {
@@ -76,7 +86,9 @@ async function send_state() {
       window: window_seconds,
       heard: heard_seconds,
       shape: shape_points,
-      chart: chart_cells(),
+      compliance: state.compliance,
+      lines: chart_schemes,
+      rates: chart_rates,
     },
   });
 }

@@ -173,6 +173,7 @@ std::string scene_text(const Scene& scene) {
         .raw("tap", array(scene.taps, tap))
         .raw("able", array(able, quote))
         .with("reference", reference ? reference->name : "")
+        .with("matched", reference && matched(*reference, scene, {}))
         .text();
 }
 

@@ -15,6 +15,11 @@ const failed = text =>
 // ---- Controls.
 
 function fill_choices() {
+  by_id("instruments").append(
+    ...Object.entries(instruments).map(([name, scene]) =>
+      element("button", {type: "button", value: scene, onclick: choose_scene}, name),
+    ),
+  );
   by_id("scene").replaceChildren(
     ...Object.keys(library).map(name => element("option", {value: name}, name)),
     element("option", {value: "", hidden: true}, "a text of your own"),
@@ -26,29 +31,13 @@ function fill_choices() {
 }
 
 function fill_schemes() {
-  const able = new Set(shown.scene.able),
-    group = (label, list) => {
-      const made = element("optgroup", {label});
-      made.append(
-        ...list.map(d =>
-          element(
-            "option",
-            {value: d.name, disabled: !able.has(d.name)},
-            d.name + (able.has(d.name) ? "" : " (not this scene)"),
-          ),
-        ),
-      );
-      return made;
-    };
+  const {able} = shown.scene,
+    option = ({name}) => element("option", {value: name, disabled: !able.includes(name)}, name),
+    group = (label, list) => element("optgroup", {label}, ...list.map(option)),
+    of_control = wanted => client.list.schemes.filter(d => d.control === wanted);
   by_id("scheme").replaceChildren(
-    group(
-      "schemes",
-      client.list.schemes.filter(d => !d.control),
-    ),
-    group(
-      "controls, known to be wrong somewhere",
-      client.list.schemes.filter(d => d.control),
-    ),
+    group("schemes (grey: not this string)", of_control(false)),
+    group("controls, known to be wrong somewhere", of_control(true)),
   );
   by_id("scheme").value = state.scheme;
   by_id("scheme_note").textContent = descriptor(state.scheme)?.source ?? "";
@@ -65,13 +54,13 @@ async function fill_handles() {
       string: (await ask("scene", {text: scene_text(), overrides: []})).string[0],
     };
     by_id("handles").replaceChildren(
-      ...handles.filter(h => h.of(base.string) !== undefined).map(handle_row),
+      ...handles.filter(h => Number.isFinite(h.of(base.string))).map(handle_row),
     );
   }
   for (const h of handles) {
     const input = by_id(`handle_${h.id}`),
       value = h.of(shown.scene.string[0]);
-    if (!input || value === undefined) continue;
+    if (!input) continue;
     if (document.activeElement !== input || film.dragged)
       input.value = h.log ? Math.log10(value) : value;
     input.setAttribute("aria-valuetext", `${shown_value(h, value)} ${h.unit}`);
@@ -81,7 +70,11 @@ async function fill_handles() {
 function handle_row(h) {
   const value = h.of(base.string),
     [from, to] = h.range(value, base.string),
-    of = x => (h.log ? Math.log10(x) : x);
+    of = x => (h.log ? Math.log10(x) : x),
+    label = h.id
+      .replace("_", " ")
+      .replace("bridge", called("bridge_force", "bridge"))
+      .replace("thread", called("thread_force", "thread"));
   const input = element("input", {
     type: "range",
     id: `handle_${h.id}`,
@@ -94,7 +87,7 @@ function handle_row(h) {
   return element(
     "label",
     {className: "handle"},
-    element("span", {}, h.label),
+    element("span", {}, label),
     input,
     element("output", {id: `value_${h.id}`}),
   );
@@ -111,6 +104,8 @@ function move_handle(id, value) {
 
 function show_controls() {
   by_id("scene").value = state.text === null ? state.scene : "";
+  for (const button of by_id("instruments").children)
+    button.setAttribute("aria-pressed", String(button.value === by_id("scene").value));
   by_id("rate").value = state.rate;
   by_id("modes").value = state.modes || "";
   by_id("compliance").value = state.compliance;
@@ -118,6 +113,13 @@ function show_controls() {
   if (client.list && shown.scene) fill_schemes();
 }
 
+// Another string, by the scheme that is shown first where that takes it (`shows.scene`).
+function choose_scene({target}) {
+  state.tour = "";
+  take_step();
+  const first = {scheme: "modal_two_point", compliance: "own", modes: 0};
+  choose({scene: target.value, text: null, set: {}, ...first});
+}
 function choose(more) {
   Object.assign(state, more);
   if (more.scheme || more.scene) map.around = undefined;
@@ -151,28 +153,46 @@ function show_state() {
     settle = resolve;
   });
   show_controls();
+  clear_answers("computing …");
   send_state();
+}
+
+// No number of another state stays on the page.
+function clear_answers(title, why = "") {
+  const string = JSON.stringify([scene_text(), state.set]);
+  if (why || string !== chart.string) Object.assign(chart, {points: [], own: [], whole: false});
+  Object.assign(chart, {string, why, timed: false});
+  shown.verdict = null;
+  sound.cost = 0;
+  by_id("title").textContent = title;
+  say(why);
+  by_id("facts").replaceChildren();
+  draw_chart();
+  if (why) settle();
 }
 
 // ---- What the worker answers.
 
 const shows = {
-  scene({scene}) {
+  scene({scene, cells, kept}) {
     const new_string = JSON.stringify(scene.string) !== JSON.stringify(shown.scene?.string);
     shown.scene = scene;
-    if (new_string)
-      ((shown.reference = shown.verdict = null),
-        (sound.buffers.reference = null),
-        (chart.own = []));
-    chart.coming = [];
-    chart.timed = false;
-    say("");
-    fill_schemes();
-    fill_handles();
+    if (new_string) forget_motion();
     by_id("about").textContent =
       `${scene.name}: ` +
       (scene.string.length > 1 ? `the first of ${scene.string.length} strings, ` : "") +
       `${scene.string[0].pitch.toFixed(1)} Hz (${scene.string[0].note}). ${scene.source}.`;
+    fill_handles();
+    chart.cells = cells;
+    if (!kept) Object.assign(chart, {points: [], whole: false});
+    draw_chart();
+    // another scheme where the chosen one does not take the string
+    const able = first_able();
+    if (!scene.able.includes(state.scheme) && able) {
+      Object.assign(state, {scheme: able, compliance: "own", modes: 0});
+      return show_state();
+    }
+    fill_schemes();
   },
   motion({picture}) {
     shown.motion = picture;
@@ -183,10 +203,12 @@ const shows = {
     if (by_id("map_part").open) fill_map();
   },
   sound(message) {
+    const again = sound.playing || sound.wanted === "scheme";
+    stop_sound();
     sound.buffers.scheme = buffer_of(message);
     sound.cost = message.cost;
-    by_id("hear_scheme").disabled = by_id("hear_reference").disabled = false;
-    if (sound.wanted === "scheme") play_sound("scheme");
+    by_id("hear").disabled = !sound.buffers.scheme;
+    if (again) play_sound("scheme");
     show_run();
   },
   reference({picture, verdict: told}) {
@@ -194,30 +216,30 @@ const shows = {
     shown.verdict = told;
     new_pictures();
     show_run();
+    mark_sound();
     settle();
   },
   unreferenced() {
-    shown.reference = shown.verdict = null;
-    by_id("title").textContent = `No exact solution of this scene is in the page`;
-    say(
-      "Its reference needs SUNDIALS, which the page leaves out. The program has it: jvari " +
-        `compare ${state.scene}`,
+    clear_answers(
+      "No exact solution of this string is in the page",
+      `The page has closed forms alone. ${ask_the_program()}`,
     );
-    chart.points = [];
-    draw_chart(true);
-    settle();
+  },
+  late() {
+    clear_answers(
+      `No exact solution of this string within ${late_seconds} s`,
+      `A browser takes longer for it. ${ask_the_program()}`,
+    );
   },
   point({point}) {
-    chart.coming.push(point);
-    const whole = chart_cells().length;
-    if (chart.coming.length > 3 || chart.points.length === 0)
-      chart.points = chart.coming.concat(chart.points.slice(chart.coming.length, whole));
-    draw_chart(false);
+    chart.points.push(point);
+    draw_chart();
   },
-  charted() {
-    chart.points = chart.coming;
+  charted({kept}) {
     chart.done = performance.now();
-    draw_chart(true);
+    chart.whole = true;
+    chart.timed = kept;
+    draw_chart();
   },
   timed({costs, last}) {
     for (const p of chart.points)
@@ -228,51 +250,61 @@ const shows = {
         ),
       );
     chart.timed = last;
-    draw_chart(true);
+    draw_chart();
   },
   refused({why}) {
-    say(why);
-    by_id("title").textContent = "The scheme or the scene refuses";
-    settle();
+    const {told} = client;
+    if (!told.has("motion")) (forget_motion(), stop_sound());
+    if (told.has("motion")) clear_answers("The exact solution of this string is refused", why);
+    else if (!told.has("scene")) clear_answers("This text is not a scene", why);
+    else clear_answers(`${scheme_name()} does not take this string`, why);
   },
 };
+function forget_motion() {
+  shown.motion = shown.reference = null;
+  sound.buffers = {};
+  by_id("hear").disabled = true;
+  draw_picture();
+}
+const ask_the_program = () =>
+  `The program takes its time, or another reference: jvari compare ${state.text === null ? state.scene : "FILE"}.`;
+const scheme_name = () => {
+  const {scheme, compliance} = state;
+  return label_of({scheme, compliance: options_of(scheme, compliance).length ? compliance : ""});
+};
+
+function sentence_of(v) {
+  const over = ` over the first ${1e3 * window_seconds} ms`,
+    after = shown.scene.free_from ? " after the pluck" : "",
+    error = error_text(v);
+  if (error === "not known")
+    return ` cannot be judged here: the exact solution is itself uncertain by ${percent(v.uncertainty)}`;
+  if (error.endsWith("?"))
+    return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}${after}`;
+  return (
+    ` is ${error.replace("\u2264", "at most")} wrong${over}${after}` +
+    (sound.cost ? `, and ${two_digits(1 / sound.cost)} times faster than real time` : "")
+  );
+}
 
 function show_run() {
   const {motion, verdict: v} = shown,
-    facts = [];
-  const name = label_of({
-    scheme: state.scheme,
-    compliance: options_of(state.scheme, state.compliance).length ? state.compliance : "",
-  });
+    facts = [],
+    run = `${scheme_name()} at ${state.rate / 1e3} kHz`;
   if (!motion) return;
   if (motion.outcome !== "ok")
     by_id("title").textContent =
-      `${name} at ${state.rate / 1e3} kHz: ${motion.outcome.replace("_", " ")} at step ` +
-      `${motion.step}`;
-  else if (v)
-    by_id("title").textContent =
-      `${name} at ${state.rate / 1e3} kHz is ${percent(v.error)} wrong over the first ` +
-      `${1e3 * window_seconds} ms${shown.scene.free_from ? " after the pluck" : ""}` +
-      (sound.cost
-        ? `, and ${digits(1 / sound.cost).toPrecision(2) * 1} times faster than real time`
-        : "");
-  if (v)
+      `${run}: ${motion.outcome.replace("_", " ")} at step ${motion.step}`;
+  else if (v) by_id("title").textContent = run + sentence_of(v);
+  if (v) {
+    const agree =
+      v.horizon < window_seconds * 0.999 ? time_text(v.horizon) : `all ${1e3 * window_seconds} ms`;
     facts.push(
       ["error of the force on the nut", percent(v.error)],
-      [
-        "agrees within 10 % for",
-        v.horizon >= window_seconds * 0.999
-          ? `all ${1e3 * window_seconds} ms`
-          : time_text(v.horizon),
-      ],
-      [
-        "reference",
-        `${v.reference}, ${v.modes} modes, ` +
-          (Number.isFinite(v.uncertainty)
-            ? `known to ${percent(v.uncertainty)}`
-            : "its uncertainty is not known"),
-      ],
+      ["agrees within 10 % for", agree],
+      ["reference", `${v.reference}, ${v.modes} modes, uncertain by ${percent(v.uncertainty)}`],
     );
+  }
   if (Number.isFinite(motion.residual))
     facts.push(["energy not accounted for", motion.residual.toExponential(1)]);
   if (sound.cost) facts.push(["time per second, in this browser", time_text(sound.cost)]);
@@ -289,59 +321,38 @@ function show_run() {
 const lacking = () =>
   ["WebAssembly", "Worker", "DecompressionStream"].filter(name => !(name in window));
 function without_the_module(why) {
-  say(
-    `${why}: below are two recorded sounds of a tanpura string, and the rest needs a newer ` +
-      "browser, or the program (./demo).",
-  );
-  by_id("recorded").hidden = false;
-  for (const part of document.querySelectorAll("#live, .bar label, .bar button"))
+  by_id("title").textContent = "The string in the page needs a newer browser";
+  say(`${why}. The program itself runs without one: ./demo`);
+  for (const part of document.querySelectorAll("#stage, #hear, #live, .bar label, .bar .tools"))
     part.hidden = true;
 }
 
 function watch_controls() {
-  by_id("scene").onchange = e => {
-    state.tour = "";
-    take_step();
-    choose({
-      scene: e.target.value,
-      text: null,
-      set: {},
-      scheme: "modal_two_point",
-      compliance: "own",
-      modes: 0,
-    });
-  };
+  by_id("scene").onchange = choose_scene;
   by_id("scheme").onchange = e => choose({scheme: e.target.value});
   by_id("compliance").onchange = e => choose({compliance: e.target.value});
   by_id("rate").onchange = e => choose({rate: Number(e.target.value)});
   by_id("modes").onchange = e => choose({modes: whole_modes(e.target.value)});
   by_id("undo").onclick = () => choose({set: {}});
-  by_id("hear_scheme").onclick = () => toggle_sound("scheme");
-  by_id("hear_reference").onclick = () => toggle_sound("reference");
-  by_id("film").onclick = () => {
-    film.playing = !film.playing;
-    by_id("film").textContent = film.playing ? "pause" : "move";
-    by_id("film").setAttribute("aria-pressed", String(!film.playing));
-  };
-  by_id("zoom").onclick = () => {
-    film.zoomed = !film.zoomed;
-    by_id("zoom").setAttribute("aria-pressed", String(film.zoomed));
-    draw_picture();
-  };
-  by_id("slowed").onchange = e => {
-    film.slowed = Number(e.target.value);
-  };
-  by_id("tour_choice").onchange = e => {
-    Object.assign(state, {tour: e.target.value, step: 0});
+  by_id("hear").onclick = toggle_sound;
+  by_id("stop").onclick = stop_sound;
+  for (const id of ["paused", "zoomed"])
+    by_id(id).onclick = () => {
+      by_id(id).setAttribute("aria-pressed", String((film[id] = !film[id])));
+      draw_picture();
+    };
+  by_id("slowed").onchange = e => (film.slowed = Number(e.target.value));
+  by_id("tour_choice").onchange = () => {
+    Object.assign(state, {tour: by_id("tour_choice").value, step: 0});
     take_step();
   };
   by_id("tour_back").onclick = () => walk(-1);
-  by_id("tour_next").onclick = () => walk(1);
+  by_id("tour_next").onclick = () => (state.tour ? walk(1) : by_id("tour_choice").onchange());
   by_id("tour_end").onclick = () => {
     state.tour = "";
     take_step();
     show_state();
-    by_id("tour_choice").focus();
+    by_id("tour_next").focus();
   };
   by_id("apply").onclick = () => choose({text: by_id("text").value, set: {}});
   by_id("own_text").value = own_example;
@@ -351,19 +362,14 @@ function watch_controls() {
     by_id("copy").textContent = "copied";
   };
   document.onkeydown = e => {
-    if (
-      e.target.matches("input, select, textarea, button, summary") ||
-      e.ctrlKey ||
-      e.metaKey ||
-      e.altKey
-    )
-      return;
-    if (e.key === " " || e.key === "1") (toggle_sound("scheme"), e.preventDefault());
-    else if (e.key === "2") toggle_sound("reference");
+    const typed = e.target.matches("input, select, textarea, button, summary");
+    if (typed || e.ctrlKey || e.metaKey || e.altKey) return;
+    if (e.key === " ") (toggle_sound(), e.preventDefault());
+    else if (e.key === "Escape") stop_sound();
   };
   window.onresize = () => {
     draw_picture();
-    draw_chart(true);
+    draw_chart();
     if (by_id("map_part").open) draw_map();
   };
   window.onhashchange = () => {
@@ -381,7 +387,7 @@ async function begin() {
   watch_controls();
   watch_grips();
   watch_map();
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) by_id("film").click();
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) by_id("paused").click();
   try {
     client.module = await unpacked(by_id("module").textContent);
     await start_worker();
@@ -390,7 +396,7 @@ async function begin() {
   }
   if (!client.list.schemes.some(d => d.name === state.scheme)) state.scheme = "modal_two_point";
   show_state();
-  if (state.tour) take_step();
+  take_step();
   requestAnimationFrame(film_frame);
 }
 begin();

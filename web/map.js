@@ -93,22 +93,23 @@ function draw_map(note = "") {
     count = kind => cells.filter(c => c === kind).length,
     found = Object.keys(kinds).filter(count);
   const told =
-    note ||
-    `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs of ` +
-      `${1e3 * map_seconds} ms. ` +
-      `${found.map(kind => `${kind.replace("_", " ")}: ${count(kind)}`).join("; ")}.`;
+      note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs. `,
+    counted = found.map(kind => [kind, `${kind.replace("_", " ")}: ${count(kind)}; `]);
   document
-    .getElementById("map_legend")
+    .getElementById("map_said")
     .replaceChildren(
-      ...found.flatMap(kind => [
+      told,
+      ...counted.flatMap(([kind, text]) => [
         element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
-        ` ${kind.replace("_", " ")} `,
+        text,
       ]),
     );
-  document.getElementById("map_said").textContent = told;
   document
     .getElementById("map")
-    .setAttribute("aria-label", `map of outcomes over stiffness and sample rate. ${told}`);
+    .setAttribute(
+      "aria-label",
+      `map of outcomes over stiffness and sample rate. ${told}${counted.map(([, text]) => text).join("")}`,
+    );
 }
 
 function watch_map() {

@@ -147,5 +147,5 @@ async function judge_own() {
       break;
     }
   }
-  draw_chart(true);
+  draw_chart();
 }

@@ -1,7 +1,7 @@
 // The string over its bridge, slowed down: the scheme's in colour, the exact solution in black; and
 // the force, the energy and the error of that moment.
 const shown = {scene: null, motion: null, reference: null, verdict: null};
-const film = {at: 0, playing: true, slowed: 200, last: 0, zoomed: false, dragged: null};
+const film = {at: 0, paused: false, slowed: 200, last: 0, zoomed: false, dragged: null};
 const colour = name =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
@@ -50,10 +50,9 @@ function zoom_length(s) {
       )
     : 0.1 * s.length;
 }
-function largest_deflection(pictures) {
+function largest_deflection({shape}) {
   let most = 1e-6;
-  for (const p of pictures)
-    if (p) for (const y of p.shape) if (Math.abs(y) > most && Math.abs(y) < 1) most = Math.abs(y);
+  for (const y of shape) if (Math.abs(y) > most && Math.abs(y) < 1) most = Math.abs(y);
   return most;
 }
 
@@ -135,39 +134,51 @@ function draw_force(pen, v, picture, row) {
   pen.fillText(`${digits(force)} N`, x + 8, y - length + 4);
 }
 
-// ---- Handles that are dragged on the picture: each moves a slider in x and another in y.
+// ---- Handles that are dragged on the picture: each moves a slider in x and another in y. A thread
+// is held below the string, beside the bridge's own.
 
+// as the scene's tap of its force calls it: bridge, fret, bolt
+const called = (quantity, otherwise) =>
+  shown.scene.tap.find(t => t.quantity === quantity)?.name ?? otherwise;
 function grips(v) {
   const s = shown.scene.string[0],
     b = point_of(s),
-    all = [];
-  if (b)
-    all.push({
-      x: b.position,
-      y: b.height,
-      across: "bridge_position",
-      up: "bridge_height",
-      name: "bridge",
-    });
+    all = [],
+    grip = (x, y, name, across, up) => x <= v.length && all.push({x: v.x(x), y, name, across, up});
+  if (b) grip(b.position, v.y(b.height), called("bridge_force", "bridge"), ...bridge_handles);
   if (s.thread)
-    all.push({x: s.thread.position, y: s.thread.height, across: "thread_position", name: "thread"});
-  if (s.pluck) all.push({x: s.pluck.position, y: 0, across: "pluck_position", name: "pluck"});
+    grip(s.thread.position, v.height - 16, called("thread_force", "thread"), "thread_position");
+  if (s.pluck) grip(s.pluck.position, v.y(0), "pull here", "pluck_position");
   if (s.start?.amplitude !== undefined)
-    all.push({
-      x: s.start.position ?? s.length / 2,
-      y: s.start.amplitude,
-      across: s.start.position ? "corner_position" : null,
-      up: "start_amplitude",
-      name: "release",
-    });
-  return all.filter(g => g.x <= v.length);
+    grip(
+      s.start.position ?? s.length / 2,
+      v.y(s.start.amplitude),
+      "pull here",
+      s.start.position && "release_position",
+      "release_height",
+    );
+  return all;
 }
+const bridge_handles = ["bridge_position", "bridge_height"];
 function draw_grips(pen, v) {
-  for (const g of grips(v)) {
+  for (const {x, y, name} of grips(v)) {
+    pen.strokeStyle = pen.fillStyle = colour("key");
+    pen.lineWidth = 1;
+    pen.setLineDash([2, 4]);
+    (pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, v.y(0)), pen.stroke());
+    pen.setLineDash([]);
+    const right = x < v.width - 90,
+      down = name === "pull here" ? -4 : y > v.height - 30 ? 4 : 16,
+      place = [name, x + (right ? 11 : -11), y + down];
+    pen.textAlign = right ? "left" : "right";
+    pen.strokeStyle = colour("paper");
+    pen.lineWidth = 4;
+    (pen.strokeText(...place), pen.fillText(...place));
     pen.strokeStyle = colour("key");
+    pen.textAlign = "left";
     pen.fillStyle = colour("paper");
     pen.lineWidth = 2;
-    (pen.beginPath(), pen.arc(v.x(g.x), v.y(g.y), 6, 0, 7), pen.fill(), pen.stroke());
+    (pen.beginPath(), pen.arc(x, y, 6, 0, 7), pen.fill(), pen.stroke());
   }
 }
 
@@ -199,28 +210,16 @@ function draw_graphs() {
   const least = (a, b) => (reference ? Float64Array.from(a, (x, n) => Math.abs(x - b[n])) : null);
   const most_nut = reference ? reference.nut.reduce((m, x) => Math.max(m, Math.abs(x)), 0) : 1;
   const lines = [
-    {title: "force of the obstacle [N]", scheme: motion.force, exact: reference?.force},
-    {
-      title: "energy stored [mJ]",
-      scheme: motion.stored,
-      exact: reference?.stored,
-      times: 1e3,
-      from_zero: true,
-    },
-    {
-      title: "error of the force on the nut [%]",
-      scheme: least(motion.nut, reference?.nut),
-      times: 100 / most_nut,
-      from_zero: true,
-    },
+    {title: "force", unit: "N", scheme: motion.force, exact: reference?.force},
+    {title: "energy", unit: "mJ", scheme: motion.stored, exact: reference?.stored, times: 1e3},
+    {title: "error", unit: "%", scheme: least(motion.nut, reference?.nut), times: 100 / most_nut},
   ].filter(l => l.scheme?.length);
   const each = width / lines.length,
-    rows = motion.rows,
-    title = text => (each < 190 ? text.replace(/ (of the|stored).* \[/, " [") : text);
+    rows = motion.rows;
   lines.forEach((line, k) => {
     const left = k * each + 6,
       right = (k + 1) * each - 14,
-      top = 24,
+      top = 20,
       bottom = height - 16,
       times = line.times ?? 1;
     let most = 0;
@@ -229,8 +228,8 @@ function draw_graphs() {
         for (const y of series) if (Number.isFinite(y)) most = Math.max(most, Math.abs(y * times));
     most = most || 1;
     pen.fillStyle = colour("soft");
-    pen.fillText(title(line.title), left, 12);
-    pen.fillText(String(digits(most).toPrecision(2) * 1), left + 2, top + 9);
+    const to = each < 150 ? "" : " up to";
+    pen.fillText(`${line.title}${to} ${two_digits(most)} ${line.unit}`, left, 12);
     pen.strokeStyle = colour("line");
     pen.lineWidth = 1;
     (pen.beginPath(), pen.moveTo(left, bottom), pen.lineTo(right, bottom), pen.stroke());
@@ -266,7 +265,7 @@ function draw_graphs() {
 function film_frame(now) {
   const passed = Math.min(100, now - film.last);
   film.last = now;
-  if (film.playing && shown.motion && !document.hidden) {
+  if (!film.paused && shown.motion && !document.hidden) {
     film.at += (passed * 1e-3 * shown.motion.rate) / film.slowed;
     if (film.at >= shown.motion.rows - 1) film.at = 0;
     draw_picture();
@@ -276,13 +275,9 @@ function film_frame(now) {
 
 function new_pictures() {
   // what the scales are taken from
-  film.most = largest_deflection([shown.reference ?? shown.motion]);
-  film.most_force = Math.max(
-    1e-9,
-    ...[shown.reference ?? shown.motion].map(
-      p => p?.force?.reduce((m, x) => Math.max(m, x), 0) ?? 0,
-    ),
-  );
+  const picture = shown.reference ?? shown.motion;
+  film.most = largest_deflection(picture);
+  film.most_force = picture.force?.reduce((most, x) => Math.max(most, x), 1e-9) ?? 1e-9;
   draw_picture();
 }
 
@@ -292,7 +287,7 @@ function grip_near(event) {
     v = view_of(box.width, box.height);
   const x = event.clientX - box.left,
     y = event.clientY - box.top;
-  return grips(v).find(g => Math.hypot(v.x(g.x) - x, v.y(g.y) - y) < 18);
+  return grips(v).find(g => Math.hypot(g.x - x, g.y - y) < 18);
 }
 function drag(event) {
   const box = event.target.getBoundingClientRect(),

@@ -1,38 +1,50 @@
-// What is heard: the worker's force on the nut as an AudioBuffer. Both sounds are as loud as the
-// reference, and one goes over into the other.
-const sound = {context: null, buffers: {}, source: null, playing: "", wanted: "", started: null};
+// What is heard: the force on the nut, the scheme's and the exact one, each at its own peak. Both
+// run at once and over again, one of them muted: a press goes over to the other in mid-sound, and
+// both end some seconds after the last press.
+const sound = {context: null, buffers: {}, parts: {}, playing: "", wanted: "", started: null};
+const rounds_heard = 4,
+  fade = 0.01; // [s]
 
 // null where the run failed before its first sample
 function buffer_of({rate, sound: samples}) {
   if (samples.length === 0) return null;
   const loudest = samples.reduce((most, x) => Math.max(most, Math.abs(x)), 1e-12),
     buffer = new AudioBuffer({length: samples.length, sampleRate: rate, numberOfChannels: 1});
-  const fade = Math.min(400, samples.length >> 3);
+  const end = Math.min(400, samples.length >> 3);
   buffer.copyToChannel(
-    samples.map((x, n) => ((0.7 * x) / loudest) * Math.min(1, (samples.length - 1 - n) / fade)),
+    samples.map((x, n) => ((0.7 * x) / loudest) * Math.min(1, (samples.length - 1 - n) / end)),
     0,
   );
   return buffer;
 }
 
 function stop_sound() {
-  if (sound.source) ((sound.source.onended = null), sound.source.stop());
-  sound.source = null;
-  sound.playing = "";
+  for (const {source} of Object.values(sound.parts)) ((source.onended = null), source.stop());
+  sound.parts = {};
+  sound.playing = sound.wanted = "";
   mark_sound();
 }
 
 async function play_sound(which) {
   sound.wanted = which;
-  if (which === "reference" && !sound.buffers.reference) return fetch_reference_sound();
-  if (!sound.buffers[which]) return; // it plays when it comes
-  sound.context ??= new AudioContext();
-  await sound.context.resume();
-  stop_sound();
-  sound.source = new AudioBufferSourceNode(sound.context, {buffer: sound.buffers[which]});
-  sound.source.connect(sound.context.destination);
-  sound.source.onended = stop_sound;
-  sound.source.start();
+  if (which === "reference" && !sound.buffers.reference) fetch_reference_sound();
+  if (!sound.buffers[which]) return mark_sound(); // it plays when it comes
+  const context = (sound.context ??= new AudioContext());
+  await context.resume();
+  if (!sound.playing) sound.began = context.currentTime;
+  for (const [name, buffer] of Object.entries(sound.buffers)) {
+    if (!buffer || sound.parts[name]) continue;
+    const gain = new GainNode(context, {gain: 0}),
+      source = new AudioBufferSourceNode(context, {buffer, loop: true});
+    source.connect(gain).connect(context.destination);
+    source.onended = stop_sound;
+    source.start(0, (context.currentTime - sound.began) % buffer.duration);
+    sound.parts[name] = {source, gain};
+  }
+  const end = context.currentTime + rounds_heard * heard_seconds;
+  for (const {source} of Object.values(sound.parts)) source.stop(end);
+  for (const [name, {gain}] of Object.entries(sound.parts))
+    gain.gain.setTargetAtTime(Number(name === which), context.currentTime, fade / 3);
   sound.started ??= performance.now();
   sound.changed = performance.now();
   sound.playing = which;
@@ -40,37 +52,40 @@ async function play_sound(which) {
   mark_sound();
 }
 
+// The second of the exact solution, asked for once, at the first press.
 async function fetch_reference_sound() {
-  const name = shown.scene?.reference;
-  if (!name)
-    return say(
-      "There is no exact solution of this scene in the page. The program has one: jvari run " +
-        state.scene +
-        " --scheme sundials --out sound.wav",
-    );
-  say("The exact solution of a whole second is being computed.");
+  const of = shown.verdict;
+  if (!of || sound.buffers.reference || sound.fetching === of) return;
+  sound.fetching = of;
+  const {reference: scheme, options} = of;
   try {
     const {run} = await ask("pair", {
-      run: run_of({
-        scheme: name,
-        modes: 0,
-        options: options_of(name, "matched"),
-        duration: heard_seconds,
-      }),
+      run: run_of({scheme, modes: 0, options, duration: heard_seconds}),
     });
+    if (shown.verdict !== of) return;
     sound.buffers.reference = buffer_of({rate: run.rate, sound: Float32Array.from(run.nut)});
-    say("");
-    play_sound("reference");
+    if (sound.wanted === "reference") play_sound("reference");
   } catch (error) {
     if (!(error instanceof Stale_question)) say(error.message);
   }
 }
 
 function mark_sound() {
-  for (const which of ["scheme", "reference"]) {
-    const button = document.getElementById(`hear_${which}`);
-    button.setAttribute("aria-pressed", String(sound.playing === which));
-    button.querySelector("span").textContent = sound.playing === which ? "\u25a0" : "\u25b6";
-  }
+  const button = document.getElementById("hear"),
+    [now, next] = {
+      "": ["\u25b6 play", "the scheme"],
+      scheme: ["\u25b6 scheme", shown.verdict ? "press for exact" : "press to stop"],
+      reference: ["\u25b6 exact", "press for scheme"],
+    }[sound.playing];
+  button.setAttribute("aria-pressed", String(Boolean(sound.playing)));
+  button.classList.toggle("exact", sound.playing === "reference");
+  button.querySelector("b").textContent = now;
+  button.querySelector("span").textContent =
+    sound.playing && sound.wanted === "reference" ? "computing the exact one …" : next;
+  document.getElementById("stop").hidden = !sound.playing;
 }
-const toggle_sound = which => (sound.playing === which ? stop_sound() : play_sound(which));
+function toggle_sound() {
+  if (sound.playing === "scheme" && !shown.verdict) return stop_sound();
+  play_sound(sound.playing === "scheme" ? "reference" : "scheme");
+  fetch_reference_sound();
+}

@@ -11,6 +11,14 @@ const state = {
   tour: "",
   step: 0,
 };
+// Those that stand before the list of all.
+const instruments = {
+  Tanpura: "tanpura_c3_release",
+  Sitar: "sitar_c5",
+  Guitar: "guitar_over_fret",
+  Bass: "slap_bass",
+  Piano: "prepared_piano",
+};
 const window_seconds = 0.05,
   heard_seconds = 1,
   rates = [1, 2, 4, 8, 16].map(k => 44100 * k);
@@ -24,15 +32,8 @@ const overrides_of = set => Object.entries(set).map(([key, value]) => `${key}=${
 
 // ---- The address.
 
-const plain = {
-  scene: String,
-  scheme: String,
-  rate: Number,
-  modes: Number,
-  compliance: String,
-  tour: String,
-  step: Number,
-};
+const texts = {scene: String, scheme: String, compliance: String, tour: String},
+  plain = {...texts, rate: Number, modes: Number, step: Number};
 const longest_address = 20000; // a scene's text that is longer stays out of it
 
 function address() {
@@ -65,103 +66,42 @@ function read_address(hash) {
   );
 }
 
-// ---- Handles: keys of the scene with a range. `of` finds the value in what the scene says;
-// undefined: it has none.
+// ---- Handles: a name, the key of the scene, a unit, the value in what the scene says (undefined: it
+// has none), a range, and whether that is logarithmic.
 
-const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined);
-const corner_of = s => (s.start?.shape === "triangle" ? s.start : undefined);
+const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined),
+  pulled = s => (s.start?.shape === "triangle" ? s.start.position : undefined),
+  within = (low, high) => (v, s) => [low * s.length, high * s.length],
+  times = (low, high) => v => [low * v, high * v].sort((a, b) => a - b),
+  near_end = (high, most) => (v, s) => [0.3 * v, Math.min(high * v, most * s.length)];
 const handles = [
-  {
-    id: "bridge_height",
-    key: "string.0.barrier.0.height",
-    label: "bridge height",
-    unit: "mm",
-    times: 1e3,
-    of: s => point_of(s)?.height,
-    range: v => [v - 2e-3, v + 2e-3],
-  },
-  {
-    id: "bridge_position",
-    key: "string.0.barrier.0.position",
-    label: "bridge position",
-    unit: "mm",
-    times: 1e3,
-    of: s => point_of(s)?.position,
-    range: (v, s) => [0.3 * v, Math.min(4 * v, 0.9 * s.length)],
-  },
-  {
-    id: "bridge_stiffness",
-    key: "string.0.barrier.0.stiffness",
-    label: "bridge stiffness",
-    unit: "",
-    log: true,
-    of: s => s.barrier[0]?.stiffness,
-    range: v => [v / 1e3, v * 100],
-  },
-  {
-    id: "thread_position",
-    key: "string.0.thread.position",
-    label: "thread position",
-    unit: "mm",
-    times: 1e3,
-    of: s => s.thread?.position,
-    range: (v, s) => [0.3 * v, Math.min(3 * v, 0.5 * s.length)],
-  },
-  {
-    id: "pluck_position",
-    key: "string.0.pluck.position",
-    label: "pluck position",
-    unit: "mm",
-    times: 1e3,
-    of: s => s.pluck?.position,
-    range: (v, s) => [0.1 * s.length, 0.9 * s.length],
-  },
-  {
-    id: "pluck_strength",
-    key: "string.0.pluck.amplitude",
-    label: "pluck strength",
-    unit: "N",
-    times: 1,
-    of: s => s.pluck?.amplitude,
-    range: v => [0.1 * v, 3 * v],
-  },
-  {
-    id: "corner_position",
-    key: "string.0.start.position",
-    label: "release position",
-    unit: "mm",
-    times: 1e3,
-    of: s => corner_of(s)?.position,
-    range: (v, s) => [0.05 * s.length, 0.95 * s.length],
-  },
-  {
-    id: "start_amplitude",
-    key: "string.0.start.amplitude",
-    label: "release height",
-    unit: "mm",
-    times: 1e3,
-    of: s => s.start?.amplitude,
-    range: v => [0.1 * v, 3 * v],
-  },
-  {
-    id: "tension",
-    key: "string.0.tension",
-    label: "tension",
-    unit: "N",
-    times: 1,
-    of: s => s.tension,
-    range: v => [0.5 * v, 2 * v],
-  },
-  {
-    id: "bending",
-    key: "string.0.bending_stiffness",
-    label: "bending stiffness",
-    unit: "N m²",
-    log: true,
-    of: s => s.bending_stiffness || undefined,
-    range: v => [v / 10, v * 10],
-  },
-];
+  ["bridge_height", "barrier.0.height", "mm", s => point_of(s)?.height, v => [v - 2e-3, v + 2e-3]],
+  ["bridge_position", "barrier.0.position", "mm", s => point_of(s)?.position, near_end(4, 0.9)],
+  [
+    "bridge_stiffness",
+    "barrier.0.stiffness",
+    "",
+    s => s.barrier[0]?.stiffness,
+    times(1e-3, 100),
+    1,
+  ],
+  ["thread_position", "thread.position", "mm", s => s.thread?.position, near_end(3, 0.5)],
+  ["pluck_position", "pluck.position", "mm", s => s.pluck?.position, within(0.1, 0.9)],
+  ["pluck_strength", "pluck.amplitude", "N", s => s.pluck?.amplitude, times(0.1, 3)],
+  ["release_position", "start.position", "mm", pulled, within(0.05, 0.95)],
+  ["release_height", "start.amplitude", "mm", s => s.start?.amplitude, times(0.1, 3)],
+  ["tension", "tension", "N", s => s.tension, times(0.5, 2)],
+  [
+    "bending",
+    "bending_stiffness",
+    "N m²",
+    s => s.bending_stiffness || undefined,
+    times(0.1, 10),
+    1,
+  ],
+].map(([id, key, unit, of, range, log]) => ({id, key: `string.0.${key}`, unit, of, range, log}));
 const digits = x => Number(x.toPrecision(4));
 const shown_value = (h, v) =>
-  h.log ? digits(v).toExponential(2).replace("e+", "e") : String(digits(v * (h.times ?? 1)));
+  h.log
+    ? digits(v).toExponential(2).replace("e+", "e")
+    : String(digits(v * (h.unit === "mm" ? 1e3 : 1)));

@@ -87,8 +87,8 @@ const tours = {
       },
       {
         say:
-          "Listen to both with the two buttons under the picture. The scheme has more high " +
-          "partials.",
+          "Listen with the large button under the picture: each further press goes over to the " +
+          "other of the two. The scheme has more high partials.",
         number: brightness,
       },
       {
@@ -294,20 +294,30 @@ const sensitivity = async () => (await twice_exact(0.25)).horizon;
 
 // ---- Walking.
 
+const invitation = {
+  title: "Take the tour: why the published scheme sounds brighter",
+  steps: [
+    {say: "Five steps, five minutes: see it, hear it, find the cause at the bridge, mend it."},
+  ],
+};
 async function take_step() {
-  const part = document.getElementById("tour"),
-    tour = tours[state.tour];
-  part.hidden = !tour;
-  document.getElementById("tour_choice").value = tour ? state.tour : "";
-  if (!tour) return;
+  const set = (id, values) => Object.assign(document.getElementById(id), values),
+    tour = tours[state.tour] ?? invitation,
+    walks = tour !== invitation;
   state.step = Math.max(0, Math.min(state.step, tour.steps.length - 1));
   const step = tour.steps[state.step],
-    told = document.getElementById("tour_number");
-  document.getElementById("tour_title").textContent =
-    `${tour.title}: step ${state.step + 1} of ${tour.steps.length}`;
-  document.getElementById("tour_text").textContent = step.say;
-  document.getElementById("tour_back").disabled = state.step === 0;
-  document.getElementById("tour_next").disabled = state.step === tour.steps.length - 1;
+    place = walks ? `: step ${state.step + 1} of ${tour.steps.length}` : "",
+    told = set("tour_number", {textContent: ""});
+  set("tour_choice", {value: state.tour || "brighter"});
+  set("tour_title", {textContent: tour.title + place});
+  set("tour_text", {textContent: step.say});
+  set("tour_back", {disabled: state.step === 0, hidden: !walks});
+  set("tour_next", {
+    disabled: walks && state.step === tour.steps.length - 1,
+    textContent: walks ? "next" : "begin",
+  });
+  set("tour_end", {hidden: !walks});
+  if (!walks) return;
   told.textContent = "…";
   // also where the address begins in the middle
   for (const before of tour.steps.slice(0, state.step + 1))

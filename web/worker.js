@@ -93,20 +93,20 @@ async function reference_of(state, scene, go_on) {
   const key = JSON.stringify([state.text, state.overrides, state.window, state.shape]);
   if (reference?.key === key) return reference;
   forget();
-  if (!scene.reference) return null;
   const {nut} = headline_of(scene),
-    options = options_of(scene.reference, "matched"),
-    matched = options.length,
+    profile = scene.string.some(s => s.barrier.some(b => b.shape === "profile")),
     runs = [];
+  // matched where the program takes it so and the reference does not refuse
+  let options = options_of(scene.reference, scene.matched ? "matched" : "");
   // its energy costs eight times as much as its motion, and half of the modes hold all of it but
   // 0.2 %
-  const run = (modes, more = {}) => {
+  const run = (modes, more = {}, points = []) => {
     const made = jvari.run({
       scene: state.text,
       overrides: state.overrides,
       scheme: scene.reference,
       modes,
-      options,
+      options: [...options, ...points],
       duration: state.window,
       ...more,
     });
@@ -114,11 +114,22 @@ async function reference_of(state, scene, go_on) {
     return made;
   };
   try {
-    const change = (fine, coarse) => jvari.error(fine, coarse, nut),
-      base = run(0, {shape: state.shape}),
+    const change = (fine, coarse) => jvari.error(fine, coarse, nut);
+    let base;
+    try {
+      base = run(0, {shape: state.shape});
+    } catch (error) {
+      if (options.length === 0) throw error;
+      options = [];
+      base = run(0, {shape: state.shape});
+    }
+    // a rigid barrier is matched unasked
+    const rigid = scene.string.some(s => s.barrier.some(b => b.stiffness === Infinity)),
+      matched = rigid || options.length > 0,
       modes = (base.dofs / 2) | 0;
     await go_on();
-    const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)});
+    // half of its modes, and of the points that stand for a profile
+    const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)}, profile ? ["nodes=16"] : []);
     await go_on();
     let best = base,
       left = jvari.left_after(change(base, half), NaN, matched);
@@ -128,7 +139,10 @@ async function reference_of(state, scene, go_on) {
       await go_on();
     }
     const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};
-    reference = {key, runs, run: best, modes: (best.dofs / 2) | 0, uncertainty: left, picture};
+    reference = {
+      ...{key, runs, run: best, options, picture},
+      ...{modes: (best.dofs / 2) | 0, uncertainty: left},
+    };
     return reference;
   } catch (error) {
     runs.forEach(r => r.free());
@@ -144,6 +158,7 @@ function judged(run, scene, state) {
     horizon: jvari.horizon(run, reference.run, nut),
     uncertainty: reference.uncertainty,
     reference: scene.reference,
+    options: reference.options,
     modes: reference.modes,
   };
 }
@@ -177,11 +192,23 @@ function quartiles(costs) {
   return {lower: at(0.25), cost: at(0.5), upper: at(0.75)};
 }
 
+// Twenty cells: five lines that the scene allows, the chosen scheme among them, at four rates.
+const chart_lines = 5;
+function cells_of({scheme, compliance, lines, rates}, scene) {
+  const told = ([name, of]) => JSON.stringify([name, options_of(name, of)]),
+    chosen = [scheme, compliance],
+    able = lines.filter(([name]) => scene.able.includes(name)).slice(0, chart_lines);
+  if (!able.some(line => told(line) === told(chosen)))
+    able.splice(Math.min(able.length, chart_lines - 1), 1, chosen);
+  return able.flatMap(([scheme, compliance]) => rates.map(rate => ({scheme, compliance, rate})));
+}
+let charted = ""; // the last whole chart, which need not be computed again
+
 // Each cell once for its error; then rounds through all cells for their costs, as the program times
 // them: a browser compiles anew what it runs often.
-async function chart(state, scene, post, go_on) {
+async function chart(state, scene, chosen, post, go_on) {
   const cells = [];
-  for (const {scheme, compliance, rate} of state.chart) {
+  for (const {scheme, compliance, rate} of chosen) {
     const options = options_of(scheme, compliance),
       told = {scheme, compliance: options.length ? compliance : "", rate};
     try {
@@ -229,7 +256,10 @@ async function show(asked, post, go_on) {
   ]);
   // errors are of what follows the pluck
   const state = {...asked, window: scene.free_from + asked.window};
-  post({kind: "scene", scene});
+  const cells = cells_of(state, scene),
+    key = JSON.stringify([state.text, state.overrides, cells]),
+    kept = key === charted;
+  post({kind: "scene", scene, cells: cells.length, kept});
   const points = state.shape.length,
     run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
   try {
@@ -247,13 +277,16 @@ async function show(asked, post, go_on) {
     });
     sound.free();
     await go_on();
-    if (!(await reference_of(state, scene, go_on))) return post({kind: "unreferenced"});
+    if (!scene.reference) return post({kind: "unreferenced"});
+    await reference_of(state, scene, go_on);
     post({kind: "reference", picture: reference.picture, verdict: judged(run, scene, state)});
     await go_on();
   } finally {
     run.free();
   }
-  await chart(state, scene, post, go_on);
+  if (kept) return post({kind: "charted", kept});
+  await chart(state, scene, cells, post, go_on);
+  charted = key;
 }
 
 // ---- Single questions, answered in their turn: of the player, the map and the tours.

@@ -235,9 +235,8 @@ int certify_command(CertifyRequest r) {
 }  // namespace
 
 Act certify_verb(CLI::App& program) {
-    Verb<CertifyRequest> v(
-        program, "certify",
-        "how far the references agree on a scene: what an error can be believed to");
+    Verb<CertifyRequest> v(program, "certify",
+                           "how well the reference solution of a scene is known");
     v.scene(v.r.scene);
     v.set(v.r.set);
     v.modes(v.r.modes);

@@ -194,6 +194,8 @@ std::unique_ptr<store::Progress> Console::begin(const std::string& job) const {
 // ---- The program: its help, and the verb of its command line.
 
 namespace {
+constexpr std::size_t widest = 100;  // columns of help
+
 constexpr const char* about =
     "jvari: numerical schemes for strings against obstacles, compared by speed and accuracy on the "
     "same scenes.";
@@ -211,7 +213,7 @@ constexpr const char* examples =
     "where it was stopped\n"
     "  jvari trim tanpura_c3_release --within 1% --out trimmed  no more than the scene needs: the "
     "cheapest model within 1 %\n"
-    "  jvari certify tanpura_c3_release --duration 0.1         how far the references agree there\n"
+    "  jvari certify tanpura_c3_release --duration 0.1         how well its reference is known\n"
     "  jvari report report                                     its page and picture once more\n"
     "  jvari diff results/smoke report                         what got worse, what got better\n"
     "  jvari judge tanpura_c3_release --trace 44100=mine.csv    how wrong is a trace of another "
@@ -244,6 +246,22 @@ std::vector<std::string> words_of(int argc, const char* const* argv) {
 }
 }  // namespace
 
+std::string wrapped(const std::string& text) {
+    std::string all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line); all += line + "\n") {
+        const std::size_t indent = std::min(line.find_first_not_of(' '), line.size()),
+                          gap = line.find("  ", indent),
+                          column = gap < widest / 2 ? line.find_first_not_of(' ', gap) : indent;
+        for (std::size_t end; line.size() > widest && (end = line.rfind(' ', widest)) > column &&
+                              end != std::string::npos;) {
+            all += line.substr(0, end) + "\n";
+            line = std::string(column, ' ') + line.substr(end + 1);
+        }
+    }
+    return all.substr(0, all.find_last_not_of('\n') + 1);
+}
+
 int call(int argc, const char* const* argv) {
     CLI::App program(about, "jvari");
     program.footer(examples);
@@ -272,7 +290,8 @@ int call(int argc, const char* const* argv) {
     } catch (const CLI::Success& help) {
         std::ostringstream text, nothing;
         program.exit(help, text, nothing);
-        Console(false, false).print(text.str().substr(0, text.str().find_last_not_of('\n') + 1));
+        Console(false, false)
+            .print(wrapped(text.str().substr(0, text.str().find_last_not_of('\n') + 1)));
         return exit_code::done;
     } catch (const CLI::ParseError& e) {
         const std::vector<std::string> all = words_of(argc, argv);

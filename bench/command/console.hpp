@@ -23,6 +23,9 @@ void hold_standard_streams();
 // A line to standard error. A failure to write it is ignored.
 void write_error(const std::string& line);
 
+// Lines of at most 100 columns; one that is broken goes on below its own second column.
+std::string wrapped(const std::string& text);
+
 class Console : public store::Listener {
 public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}

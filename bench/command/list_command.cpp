@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bench/command/console.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/json.hpp"
+#include "bench/store/usage.hpp"
 #include "bench/study/cells.hpp"
 #include "bench/suite/facet.hpp"
 #include "bench/suite/suite.hpp"
@@ -22,8 +24,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Schemes = std::vector<const Descriptor*>;
 
+const std::vector<std::string> kinds{"schemes", "scenes", "references", "options", "facts",
+                                     "taps",    "suites", "keys",       "columns"};
+
 struct ListRequest : Common {
-    std::string what;  // "": everything
+    std::string what;  // "": everything; one of the lists; a name that stands in one
 };
 
 // ---- The lists as JSON
@@ -223,8 +228,11 @@ Json keys_json() {  // of a suite file
 
 std::string field_text(const std::string& key, const Json& value) {
     if (value.is_boolean() || value.is_null()) return value == true ? key : "";
-    if (!value.is_array()) return value.is_string() ? value.get<std::string>() : value.dump();
-    return fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), ", "));
+    if (!value.is_structured()) return value.is_string() ? value.get<std::string>() : value.dump();
+    std::string text;
+    for (const Json& one : value)
+        text += (text.empty() ? "" : value.is_array() ? ", " : " ") + field_text(key, one);
+    return text;
 }
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -273,8 +281,65 @@ std::string text_of(const std::string& title, const Json& list) {
     return fmt::format("{}: {}\n{}", title, fmt::join(fields, ", "), text);
 }
 
+// ---- One thing by its name
+
+template <class Visit>  // each entry of a list, with the list's name
+void each_entry(const std::string& list, const Json& entries, const Visit& visit) {
+    for (const auto& [key, entry] : entries.items()) {
+        if (entries.is_object()) each_entry(list + " of " + key, entry, visit);
+        else visit(list, entry);
+        if (entry.is_object() && entry.contains("keys")) each_entry(list, entry["keys"], visit);
+    }
+}
+
+std::vector<std::string> names_of(const Json& entry) {  // "a, b" are two
+    std::istringstream text(entry.value("name", entry.value("key", "")));
+    std::vector<std::string> names;
+    for (std::string name; std::getline(text >> std::ws, name, ',');) names.push_back(name);
+    return names;
+}
+
+// The entries of that name, each with its list; of a scheme the scenes that it represents, of a
+// scene the schemes.
+Json named(const Json& lists, const std::string& name) {
+    Json found = Json::array();
+    std::vector<std::string> known = kinds;
+    for (const auto& [list, entries] : lists.items())
+        each_entry(list, entries, [&](const std::string& of, const Json& entry) {
+            const std::vector<std::string> names = names_of(entry);
+            known.insert(known.end(), names.begin(), names.end());
+            if (std::ranges::find(names, name) == names.end()) return;
+            Json& one = found.emplace_back(entry);
+            one["list"] = of;
+            const std::string self = of == "scenes" ? "scene" : "scheme",
+                              other = of == "scenes" ? "scheme" : "scene";
+            if (of == "scenes" || of == "schemes" || of == "references")
+                for (const Json& m : lists["matrix"])
+                    if (m[self] == name && m["represents"]) one[other + "s"].push_back(m[other]);
+        });
+    if (found.empty())
+        throw store::UsageError(
+            store::unknown("list or name", name, nearest(name, known).empty() ? kinds : known));
+    return found;
+}
+
+std::string described(const Json& found, const std::string& name) {
+    std::string text;
+    for (const Json& entry : found) {
+        text +=
+            (text.empty() ? "" : "\n") + name + ", of " + entry["list"].get<std::string>() + "\n";
+        for (const auto& [key, value] : entry.items())
+            if (const std::string of = field_text(key, value);
+                !of.empty() && key != "list" && of != name)
+                text += fmt::format("  {:<14}{}\n", key, of);
+    }
+    return wrapped(text);
+}
+
 int list_command(ListRequest r) {
     const Console console(r.json, false);  // --quiet leaves the list, which is all there is
+    const bool one = !r.what.empty() && std::ranges::find(kinds, r.what) == kinds.end();
+    const std::string name = one ? std::exchange(r.what, "") : "";
     const compare::Catalogue catalogue;
     Schemes both = catalogue.schemes;
     both.insert(both.end(), catalogue.references.begin(), catalogue.references.end());
@@ -294,8 +359,9 @@ int list_command(ListRequest r) {
     add("keys", "keys", keys_json);
     add("columns", "columns", columns_json);
     add("matrix", "scenes", [&] { return matrix_json(scenes, both); });
-    std::string text;
-    for (const auto& [what, list] : json.items())
+    if (one) json = {{name, named(json, name)}};
+    std::string text = one ? described(json[name], name) : "";
+    for (const auto& [what, list] : one ? Json::object().items() : json.items())
         text += (text.empty() ? "" : "\n") +
                 (what == "matrix" ? text_of("which scheme represents which scene", by_scheme(list))
                                   : text_of(what, list));
@@ -308,12 +374,13 @@ int list_command(ListRequest r) {
 
 Act list_verb(CLI::App& program) {
     Verb<ListRequest> v(program, "list", "what exists, and which scheme represents which scene");
-    v.option("what", v.r.what,
-             {"WHAT", CLI::IsMember({"schemes", "scenes", "references", "options", "facts", "taps",
-                                     "suites", "keys", "columns"})},
+    v.option("what", v.r.what, {"WHAT"},
              "schemes, scenes, references, options, facts, taps, suites, keys (of suite files) or "
-             "columns (of tables of cells); absent: all, and the matrix");
-    return v.does(list_command, "Example: jvari list schemes\n\n--json has all that is known.");
+             "columns (of tables of cells); or the name of one thing, which is described; absent: "
+             "all, and the matrix");
+    return v.does(list_command,
+                  "Example: jvari list schemes; jvari list modal_two_point\n\n"
+                  "--json has all that is known.");
 }
 
 }  // namespace jvari::bench::command

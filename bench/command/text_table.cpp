@@ -136,7 +136,7 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
             return c.figure(study::measure(measure)).value;
         };
         for (const std::string& text :
-             {formatted(value("horizon_s"), "{:.4f} s"),
+             {std::isnan(value("horizon_s")) ? "-" : compare::time_text(value("horizon_s")),
               formatted(value("third_octave_db"), "{:.2f} dB"),
               formatted(c.energy_residual_accumulated, "{:.1e}"),
               formatted(c.cost_s_per_s, "{:.3g}"), spread_text(c),
@@ -159,10 +159,8 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
     };
     text += untimed;
     if (left_out > 0)
-        text += fmt::format(
-            "\n{} more combinations of modes, rate and compliance were run over {} alone: a "
-            "cheaper one does as well there",
-            left_out, window_name(headline) + compare::after_pluck(cells[0]));
+        text += fmt::format("\n{} further runs were ended after {}: a cheaper one is as accurate",
+                            left_out, window_name(headline) + compare::after_pluck(cells[0]));
     if (says(compare::Bound::Says::at_most))
         text +=
             "\n\u2264 upper bound: the error and the uncertainty of the reference, which is more "

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "bench/judge/judge.hpp"
@@ -67,6 +68,18 @@ const Value positive{"X", CLI::Validator([](std::string&text) { return a_number(
     seconds{"S", in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}})},
     metres{"M", in_units({{"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}, {"m", 1}})};
 
+void Arguments::group() {
+    static const std::set<std::string> fine{
+        "--modes",    "--reference-modes", "--rate", "--rates", "--tap-rate",
+        "--duration", "--repeats",         "--jobs", "--resume"},
+        where{"--out",    "--plot",  "--width", "--state", "--impacts",   "--junit",
+              "--energy", "--facts", "--json",  "--quiet", "--playground"};
+    for (CLI::Option* o : verb_.get_options())
+        o->group(fine.contains(o->get_name())    ? "How long and how finely"
+                 : where.contains(o->get_name()) ? "What comes out, and where to"
+                                                 : "What");
+}
+
 void Arguments::common(Common& c) {
     flag("--json", c.json, "one JSON object on standard output, nothing else there");
     flag("--quiet", c.quiet,
@@ -84,8 +97,9 @@ void Arguments::common(Running& c) {
                 for (const std::string& command : commands)
                     c.plugins.push_back(judge::enter_external(command));
             },
-            "any program as a scheme: it is called with the paths of the problem (JSON) and of the "
-            "trace that it writes (repeatable)")
+            "any program as a scheme, named after its file without the ending: it is called with "
+            "the paths of the problem (JSON) and of the trace that it writes, .csv with time_s and "
+            "a column for each tap (repeatable)")
         ->type_name("COMMAND")
         ->allow_extra_args(false);
 }

@@ -55,6 +55,8 @@ public:
     void schemes(std::vector<std::string>&, const char* help);
     void comparison_folder(std::string&);
 
+    void group();  // under headings
+
 protected:
     CLI::App& verb_;
 };
@@ -69,6 +71,7 @@ public:
     Request& r = *request_;  // the arguments; an `act` gets them once they are read
     Act does(int (*act)(Request), const std::string& footer) {
         common(r);
+        group();
         verb_.footer(footer);
         return [request = request_, act] { return act(*request); };
     }

@@ -18,6 +18,7 @@ constexpr double least_length = 0.03, most_length = 4;
 constexpr double least_pitch = 10, most_pitch = 1e4;  // [Hz]
 // of the length: beyond, the equations of small motion do not hold
 constexpr double most_start = 0.1;
+constexpr double most_stiffness = 1e13;  // [N/m^exponent], a thousand times the stiffest in use
 
 bool plucked(const String& s) { return s.pluck && s.pluck->amplitude != 0; }
 bool pressed(const String& s) {  // at rest something above or below it pushes or pulls
@@ -78,6 +79,14 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
         const double start = largest_displacement(s);
         doubt(start > most_start * s.length, "start.amplitude", start, "m",
               "less than a tenth of the length");
+        for (const Barrier& b : s.barriers)
+            if (const auto* lumped = std::get_if<LumpedBarrier>(&b)) {
+                doubt(std::abs(lumped->height) > most_start * s.length, "barrier.height",
+                      lumped->height, "m", "less than a tenth of the length");
+                const double k = lumped->stiffness.k;
+                doubt(std::isfinite(k) && k > most_stiffness, "barrier.stiffness", k,
+                      "N/m^exponent", "at most 1e13, or \"rigid\"");
+            }
         doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude",
               plucked(s) ? s.pluck->amplitude : 0, "N", "less than the tension");
     }

@@ -112,7 +112,7 @@ void Untried::add(const Descriptor& d, const std::vector<double>& rates, bool at
 std::vector<std::string> Untried::notes() const {
     std::vector<std::string> all;
     for (const auto& [why, who] : who_)
-        all.push_back(fmt::format("compliance=matched was not tried with {}: {}", who, why));
+        all.push_back(fmt::format("{}: run as published only, for {}", who, why));
     return all;
 }
 

@@ -71,10 +71,10 @@ std::string sentence_of(const study::Cells& cells, const study::TabledCell& cell
             text += fmt::format("errs by {}", compare::percent(bound.error));
             break;
         case Says::at_most:
-            text += fmt::format(
-                "errs by {} at most: {} is measured, and the reference is uncertain by {}",
-                compare::percent(bound.most()), compare::percent(bound.error),
-                compare::percent(bound.certificate));
+            text +=
+                fmt::format("measured error {}, {} at most, as the reference itself may err by {}",
+                            compare::percent(bound.error), compare::percent(bound.most()),
+                            compare::percent(bound.certificate));
             break;
         case Says::unknown:
             return text + fmt::format("cannot be judged: the reference is uncertain by {}",
@@ -84,7 +84,7 @@ std::string sentence_of(const study::Cells& cells, const study::TabledCell& cell
                                 compare::percent(bound.error));
     }
     if (const double own = cell.figure(headline).in_model; std::isfinite(own))
-        text += fmt::format(", {} of it against a string of as many modes", compare::percent(own));
+        text += fmt::format("; {} against a string of as many modes", compare::percent(own));
     const double horizon = cell.figure(study::measure("horizon_s")).value,
                  octaves = cell.figure(study::measure("third_octave_db")).value;
     text += fmt::format(" ({}); within 10 % for {}{}", study::measures()[headline].column,

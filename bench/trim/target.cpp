@@ -46,6 +46,10 @@ Target target_of(const std::string& name, const std::string& within) {
     std::string unit = within.substr(end);
     unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
     const bool relative = target.unit == "%";
+    if (const auto other = std::ranges::find(all, unit, &Target::unit);
+        unit != target.unit && other != all.end())
+        throw store::UsageError(fmt::format("--within {}: that is a tolerance of {}: add --of {}",
+                                            within, other->name, other->name));
     if (!std::isfinite(x) || !(x > 0) || (!unit.empty() && unit != target.unit))
         throw store::UsageError(fmt::format("--within {}: expected a tolerance of {}, as 1{}",
                                             within, name, target.unit));

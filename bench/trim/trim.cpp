@@ -119,9 +119,8 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
     const Target& target = judge.target();
     if (!judge.certain(0))
         throw Refusal(
-            fmt::format("what is within {} cannot be decided: how far the reference {} ({}) is "
-                        "certain is {}. A shorter "
-                        "--duration or more --reference-modes may help",
+            fmt::format("what is within {} cannot be decided: the uncertainty of the reference {} "
+                        "({}) is {}. A shorter --duration or more --reference-modes may help",
                         target.text(target.most), judge.truth(0).reference.choice.name(),
                         judge.truth(0).description, target.text(judge.certificate(0), "unknown")));
     const std::vector<const Descriptor*> schemes = schemes_of(r, judge.scene(), catalogue);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -261,10 +262,12 @@ Sites sites_of(const Scene& scene) { return sites_of(scene, footprints_of(scene.
 
 namespace {
 [[noreturn]] void refuse_soft(const std::string& who, const std::string& where, double excess) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", excess * 1e6);
     throw Refusal(who + ": at the " + where + " its own string yields more than the true one, by " +
-                  std::to_string(excess * 1e6) +
-                  " um/N, so nothing can stand in series there; compliance=own always can run, "
-                  "another rate or number of modes may");
+                  text.data() +
+                  " um/N: there is nothing to add. compliance=own can run, another rate or number "
+                  "of modes may");
 }
 void refuse_soft(const std::string& who, double bb, double bc, double cc) {
     if (!(bb >= 0)) refuse_soft(who, "barrier", -bb);
@@ -287,11 +290,10 @@ void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutMo
             throw Refusal(
                 who + ": at the " + (p < m.contacts ? "barrier" : "thread") +
                 " nearly all that the string lacks is due to the step, not to modes that are cut "
-                "off; what stands for those would "
-                "swing at " +
+                "off; what stands for those would swing at " +
                 std::to_string(std::lround(swings / (2 * pi))) + " Hz, below the highest mode, " +
                 std::to_string(std::lround(last / (2 * pi))) +
-                " Hz; compliance=own always can run, another rate or number of modes may");
+                " Hz. compliance=own can run, another rate or number of modes may");
     }
 }
 

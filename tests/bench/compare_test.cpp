@@ -831,7 +831,7 @@ TEST(Search, MatchedComplianceThatWasNotTriedIsSaidOnceWithItsReason) {
     for (const auto& c : cells) EXPECT_TRUE(c.settings.options.empty());
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_EQ(notes[0],
-              "compliance=matched was not tried with modal_two_point, modal_spatial_newton: "
+              "modal_two_point, modal_spatial_newton: run as published only, for "
               "compliance=matched leaves out contact loss");
 }
 

@@ -305,7 +305,8 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,-1\n"),
               "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
     EXPECT_EQ(with("# a\nfrequency,decay_rate_per_s\n"),
-              "modes.csv:2: header: found no column \"frequency_hz\"");
+              "modes.csv:2: header: found no column \"frequency_hz\" among \"frequency\", "
+              "\"decay_rate_per_s\"");
     EXPECT_EQ(with("frequency_hz,frequency_hz,decay_rate_per_s\n100,200,1\n"),
               "modes.csv:1: header: found two columns \"frequency_hz\", expected one");
     EXPECT_EQ(with("frequency_hz;decay_rate_per_s\n100;0,5\n"),

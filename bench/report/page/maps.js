@@ -222,7 +222,7 @@ function map_section() {
       "not help. Solid lines are boundaries found by bisection, broken ones what theory says.",
     ...distinct(records("boundaries").map(b => b.theory_holds_for))
       .filter(Boolean)
-      .map(motion => `Theory is of ${motion}.`),
+      .map(motion => `Broken lines hold for ${motion}.`),
   ];
   return {
     id: "maps",
