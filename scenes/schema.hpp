@@ -55,8 +55,8 @@ inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* shape_names[] = {"mode", "triangle"};
 
-// What a pass is that does nothing but to walk through all tables. Self derives from it and has what
-// it does with a key in place of what stands here; `seen` is told of each other key.
+// What a pass is that does nothing but to walk through all tables. Self derives from it and has
+// what it does with a key in place of what stands here; `seen` is told of each other key.
 template <class Self>
 struct Pass {
     std::string path{};  // of the table in hand: "string.0.barrier.1"

@@ -267,7 +267,8 @@ function forget_motion() {
   draw_picture();
 }
 const ask_the_program = () =>
-  `The program takes its time, or another reference: jvari compare ${state.text === null ? state.scene : "FILE"}.`;
+  "The program takes its time, or another reference: jvari compare " +
+  `${state.text === null ? state.scene : "FILE"}.`;
 const scheme_name = () => {
   const {scheme, compliance} = state;
   return label_of({scheme, compliance: options_of(scheme, compliance).length ? compliance : ""});
@@ -277,8 +278,9 @@ function sentence_of(v) {
   const over = ` over the first ${1e3 * window_seconds} ms`,
     after = shown.scene.free_from ? " after the pluck" : "",
     error = error_text(v);
+  const unsure = percent(v.uncertainty);
   if (error === "not known")
-    return ` cannot be judged here: the exact solution is itself uncertain by ${percent(v.uncertainty)}`;
+    return ` cannot be judged here: the exact solution is itself uncertain by ${unsure}`;
   if (error.endsWith("?"))
     return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}${after}`;
   return (

@@ -20,14 +20,19 @@ awk -F, 'NR == FNR { said[NR] = $1; next }
     n < 9600 { want[++n] = $nut; both += $nut * said[n]; all += $nut ^ 2 }
     END {
         for (k = 1; k <= n; ++k)
-            if ((said[k] - want[k] * both / all) ^ 2 > 0.6 ^ 2) { print "sample", k, said[k]; exit 1 }
+            if ((said[k] - want[k] * both / all) ^ 2 > 0.6 ^ 2) {
+                print "sample", k, said[k]
+                exit 1
+            }
         for (k = n - 4800; k < n; ++k) step = most(step, said[k + 1] - said[k])
         for (k = n - 4800; k <= n; ++k) before = most(before, said[k])
         for (k = n + 1; (k in said); ++k) after = most(after, said[k])
         jump = most(0, said[n + 1] - said[n])
-        if (k != 19201 || jump > step || after < 1.2 * before) { print k, jump, step, before, after; exit 1 }
+        print k, "jumps", jump, "steps", step, "before", before, "after", after
+        exit k != 19201 || jump > step || after < 1.2 * before
     }
-    function most(a, b) { b = b < 0 ? -b : b; return a > b ? a : b }' "$dir/samples" "$dir/trace.csv" ||
+    function most(a, b) { b = b < 0 ? -b : b; return a > b ? a : b }
+    ' "$dir/samples" "$dir/trace.csv" ||
     fail "the host does not play what the program plays"
 # docs/host.md shows these very lines.
 here=$(dirname "$0")
