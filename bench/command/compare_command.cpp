@@ -214,7 +214,7 @@ Act compare_verb(CLI::App& program) {
     v.comparison_folder(v.r.out);
     return v.does(compare_command,
                   "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates "
-                  "44100,176400 --duration 0.1 --out report");
+                  "44100,176400 --out report");
 }
 
 }  // namespace jvari::bench::command

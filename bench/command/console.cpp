@@ -205,7 +205,7 @@ constexpr const char* examples =
     "  jvari list                                              what there is, and which scheme "
     "represents which scene\n"
     "  jvari run tanpura_c3 --scheme modal_two_point --out c3.wav\n"
-    "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --energy --set "
+    "  jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --set "
     "string.0.tension=40 --out c3.csv\n"
     "  jvari compare tanpura_c3_release --out report           every scheme that represents it, at "
     "44.1 kHz x 1 ... 64\n"
@@ -249,15 +249,16 @@ std::vector<std::string> words_of(int argc, const char* const* argv) {
 std::string wrapped(const std::string& text) {
     std::string all;
     std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line); all += line + "\n") {
+    for (std::string line; std::getline(lines, line);) {
         const std::size_t indent = std::min(line.find_first_not_of(' '), line.size()),
                           gap = line.find("  ", indent),
-                          column = gap < widest / 2 ? line.find_first_not_of(' ', gap) : indent;
+                          column = gap < widest - 40 ? line.find_first_not_of(' ', gap) : indent;
         for (std::size_t end; line.size() > widest && (end = line.rfind(' ', widest)) > column &&
                               end != std::string::npos;) {
             all += line.substr(0, end) + "\n";
             line = std::string(column, ' ') + line.substr(end + 1);
         }
+        if (!line.empty() || !all.ends_with("\n\n")) all += line + "\n";
     }
     return all.substr(0, all.find_last_not_of('\n') + 1);
 }

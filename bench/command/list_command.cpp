@@ -359,14 +359,15 @@ int list_command(ListRequest r) {
     add("keys", "keys", keys_json);
     add("columns", "columns", columns_json);
     add("matrix", "scenes", [&] { return matrix_json(scenes, both); });
+    std::string text = one ? described(named(json, name), name) : "";
     if (one) json = {{name, named(json, name)}};
-    std::string text = one ? described(json[name], name) : "";
-    for (const auto& [what, list] : one ? Json::object().items() : json.items())
-        text += (text.empty() ? "" : "\n") +
+    else
+        for (const auto& [what, list] : json.items())
+            text +=
+                (text.empty() ? "" : "\n") +
                 (what == "matrix" ? text_of("which scheme represents which scene", by_scheme(list))
                                   : text_of(what, list));
-    text.pop_back();
-    console.print(text);
+    console.print(text.substr(0, text.find_last_not_of('\n') + 1));
     console.print_json(store::indented(json));
     return exit_code::done;
 }

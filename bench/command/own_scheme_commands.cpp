@@ -175,7 +175,7 @@ Act judge_verb(CLI::App& program) {
     v.comparison_folder(v.r.out);
     return v.does(judge_command,
                   "Example: jvari judge tanpura_c3_release --duration 0.05 --trace 44100=trace.csv "
-                  "--cost 0.8 --schemes modal_two_point --out report\n"
+                  "--out report\n"
                   "\n"
                   "Row n of a trace is at n/44100 s, from the start on; contact forces are means "
                   "over the interval that ends at the row.\n"

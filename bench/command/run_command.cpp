@@ -335,7 +335,7 @@ Act run_verb(CLI::App& program) {
              "times (turns --energy on)");
     return v.does(run_command,
                   "Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration "
-                  "0.2 --energy --out c3.csv");
+                  "0.2 --out c3.csv");
 }
 
 }  // namespace jvari::bench::command

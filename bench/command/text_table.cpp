@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bench/compare/bound.hpp"
+#include "bench/compare/diagnosis.hpp"
 #include "schemes/facts.hpp"
 
 namespace jvari::bench::command {
