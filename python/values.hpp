@@ -41,9 +41,12 @@ inline std::string text_of(const py::handle& value, int level = 0) {
 inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& options) {
     std::vector<bench::compare::SchemeOption> all;
     for (const auto& [key, value] : options) {
-        const bool several = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
-        for (const auto& one : several ? py::list(value) : py::list(py::make_tuple(value)))
+        const auto add = [&](const py::handle& one) {
             all.push_back(bench::compare::SchemeOption::of(key.cast<std::string>(), text_of(one)));
+        };
+        if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
+            for (const auto& one : value) add(one);
+        else add(value);
     }
     return all;
 }

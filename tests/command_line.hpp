@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -59,6 +60,16 @@ inline Outcome jvari(const Scratch& scratch, const std::string& arguments,
         (environment + " " JVARI_PROGRAM " " + arguments + " >" + out + " 2>" + err + " </dev/null")
             .c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+}
+
+// A suite of one set of cells: its lists, with commas, and further lines.
+inline std::string suite_of(const std::string& scenes, const std::string& schemes,
+                            const std::string& rates, const std::string& more) {
+    const auto texts = [](const std::string& list) {
+        return "[\"" + std::regex_replace(list, std::regex(","), "\", \"") + "\"]\n";
+    };
+    return "[[cells]]\nscenes = " + texts(scenes) + "schemes = " + texts(schemes) + "rates = [" +
+           rates + "]\n" + more + "\n";
 }
 
 // Runs lines of bash in the folder of the test, without charts and without kept runs; $J is the

@@ -558,9 +558,8 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
 TEST(ComparedWithAStandIn, ASchemeThatASuiteAsksForEstimatesItsOwnErrorToo) {
     const Scratch scratch;
     write(scratch.path / "a.toml",
-          "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
-          "[88200]\nmodes = 10\nduration = 0.06\n"
-          "reference = \"modal_two_point\"\n");
+          suite_of("free_string", "modal_two_point", "88200",
+                   "modes = 10\nduration = 0.06\nreference = 'modal_two_point'"));
     const Json json = Json::parse(jvari(scratch, "suite " + (scratch / "a.toml") + " --json").out);
     EXPECT_EQ(json["cells"][0]["reference"], "oversampled modal_two_point");
     EXPECT_GT(certificate_in(json, "error_l2_50ms"), 0);
@@ -570,9 +569,8 @@ TEST(SuiteWithACertificate, EveryCellHasTheFigures) {
     Shelf shelf;
     shelf.put(certified(short_scene("free_string", 0.02), {10, 44100}), 0.25);
     write(shelf.path / "a.toml",
-          "[[cells]]\nscenes = [\"free_string\", \"sitar_c5_two_planes\"]\nschemes = "
-          "[\"modal_two_point\", \"sitar_waveguide\"]\n"
-          "rates = [44100]\nmodes = 10\nreference_modes = \"cell\"\nduration = 0.02\n");
+          suite_of("free_string,sitar_c5_two_planes", "modal_two_point,sitar_waveguide", "44100",
+                   "modes = 10\nreference_modes = 'cell'\nduration = 0.02"));
     const std::string out = shelf / "out";
     const Outcome o =
         jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);

@@ -258,10 +258,10 @@ TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
 }
 
 std::vector<bool> front_of(const std::vector<Sample>& samples) {
-    const bench::study::Cells cells = cells_of(samples);
-    return bench::compare::pareto_front(cells, bench::study::all_rows(cells),
-                                        bench::study::measure("error_l2_50ms"),
-                                        &bench::study::TabledCell::cost_s_per_s);
+    std::vector<bool> front;
+    for (const bench::study::TabledCell& c : bench::compare::with_front(cells_of(samples)))
+        front.push_back(c.pareto == 1);
+    return front;
 }
 
 TEST(Pareto, FlaggedFailedAndUnknownCellsAreOnNoFrontAndKeepNoneFromIt) {
@@ -318,12 +318,6 @@ std::vector<double> tone(double hertz, long rows) {
         x.push_back(std::sin(2 * M_PI * hertz * static_cast<double>(n) / 44100));
     return x;
 }
-int place_of(const char* column) {
-    for (std::size_t k = 0; k < bench::study::measures().size(); ++k)
-        if (bench::study::measures()[k].column == column) return static_cast<int>(k);
-    return -1;
-}
-
 TEST(Errors, AWindowEndsWhereItsNameSays) {
     const long rows = 4410;  // 100 ms
     const std::vector<double> truth = tone(1000, rows);
@@ -335,11 +329,12 @@ TEST(Errors, AWindowEndsWhereItsNameSays) {
     const std::pair<const char*, double> ends[] = {{"error_l2_10ms", 0.010},
                                                    {"error_l2_50ms", 0.050}};
     for (const auto& [column, end] : ends) {
-        EXPECT_GT(wrong_at(end - 1.0 / 44100)[1][place_of(column)], 0) << column;
-        EXPECT_EQ(wrong_at(end)[1][place_of(column)], 0) << column;
-        EXPECT_EQ(wrong_at(end - 1.0 / 44100)[0][place_of(column)], 0) << column;  // another tap
+        EXPECT_GT(wrong_at(end - 1.0 / 44100)[1][bench::study::measure(column)], 0) << column;
+        EXPECT_EQ(wrong_at(end)[1][bench::study::measure(column)], 0) << column;
+        EXPECT_EQ(wrong_at(end - 1.0 / 44100)[0][bench::study::measure(column)], 0)
+            << column;  // another tap
     }
-    EXPECT_GT(wrong_at(0.0999)[1][place_of("error_l2_whole")], 0);
+    EXPECT_GT(wrong_at(0.0999)[1][bench::study::measure("error_l2_whole")], 0);
 }
 
 // What is wrong before `from` is in no error, and a window is as long as its name says from there
@@ -353,10 +348,10 @@ TEST(Errors, BeginWhereTheLastExcitationEnds) {
     };
     for (const char* column :
          {"error_l2_10ms", "error_l2_50ms", "error_l2_whole", "third_octave_db", "decay_db"})
-        EXPECT_EQ(wrong_at(0.0499)[place_of(column)], 0) << column;
-    EXPECT_GT(wrong_at(0.0501)[place_of("error_l2_10ms")], 0);
-    EXPECT_EQ(wrong_at(0.0601)[place_of("error_l2_10ms")], 0);
-    EXPECT_GT(wrong_at(0.0999)[place_of("error_l2_50ms")], 0);
+        EXPECT_EQ(wrong_at(0.0499)[bench::study::measure(column)], 0) << column;
+    EXPECT_GT(wrong_at(0.0501)[bench::study::measure("error_l2_10ms")], 0);
+    EXPECT_EQ(wrong_at(0.0601)[bench::study::measure("error_l2_10ms")], 0);
+    EXPECT_GT(wrong_at(0.0999)[bench::study::measure("error_l2_50ms")], 0);
     Scene plucked = read_scene("tanpura_drone");  // at 0, 1.2, 1.8 and 2.4 s, each for 50 ms
     EXPECT_DOUBLE_EQ(free_from(plucked), 2.45);
     plucked.duration = 1.0;
@@ -372,10 +367,10 @@ TEST(Errors, OfATonePitchedAndLoudAsTheyAre) {
     for (double& v : loud) v *= 2;
     const bench::study::Errors e = bench::study::errors_of(
         trace_of({loud, tone(1500, rows)}), trace_of({tone(1000, rows), tone(1000, rows)}));
-    EXPECT_NEAR(e[0][place_of("third_octave_db")], 20 * std::log10(2), 1e-6);
-    EXPECT_NEAR(e[0][place_of("centroid_hz")], 0, 1e-6);
-    EXPECT_NEAR(e[1][place_of("centroid_hz")], 500, 1);
-    EXPECT_NEAR(e[0][place_of("error_l2_whole")], 1, 1e-12);
+    EXPECT_NEAR(e[0][bench::study::measure("third_octave_db")], 20 * std::log10(2), 1e-6);
+    EXPECT_NEAR(e[0][bench::study::measure("centroid_hz")], 0, 1e-6);
+    EXPECT_NEAR(e[1][bench::study::measure("centroid_hz")], 500, 1);
+    EXPECT_NEAR(e[0][bench::study::measure("error_l2_whole")], 1, 1e-12);
 }
 
 // ---- Flags
@@ -502,6 +497,15 @@ TEST(Facts, OfSeveralStringsTheLeastContactForceAndTheMostOfAnythingElseStand) {
 
 // ---- Equal modes
 
+bench::compare::CompareRequest request_for(std::vector<std::string> schemes,
+                                           std::vector<double> rates) {
+    bench::compare::CompareRequest r;
+    r.scene = "tanpura_c3_release";
+    r.schemes = std::move(schemes);
+    r.rates = std::move(rates);
+    return r;
+}
+
 bench::study::Plan planned(const bench::compare::CompareRequest& r, const Scene& scene) {
     static const bench::compare::Catalogue catalogue;
     bench::study::Plan plan;
@@ -513,10 +517,8 @@ bench::study::Plan planned(const bench::compare::CompareRequest& r, const Scene&
 
 bench::study::Plan plan_for(const std::string& scene, const std::vector<std::string>& schemes,
                             int modes = 0) {
-    bench::compare::CompareRequest r;
+    bench::compare::CompareRequest r = request_for(schemes, {88200, 176400});
     r.scene = scene;
-    r.schemes = schemes;
-    r.rates = {88200, 176400};
     if (modes > 0) r.modes = {modes};
     r.search = false;
     return planned(r, bench::compare::load_scene(scene, {}, {}));
@@ -555,9 +557,7 @@ TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSa
 }
 
 TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {
-    bench::compare::CompareRequest r;
-    r.scene = "tanpura_c3_release";
-    r.schemes = {"modal_two_point", "exact_contact"};
+    bench::compare::CompareRequest r = request_for({"modal_two_point", "exact_contact"}, {});
     r.search = false;
     const Scene scene = bench::compare::load_scene(r.scene, {}, 0.01);
     // rows a second, rates; 0: continuous time
@@ -583,10 +583,7 @@ TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {
 }
 
 TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
-    bench::compare::CompareRequest r;
-    r.scene = "tanpura_c3_release";
-    r.schemes = {"modal_two_point", "modal_explicit_penalty"};
-    r.rates = {44100};
+    auto r = request_for({"modal_two_point", "modal_explicit_penalty"}, {44100});
     r.options = {{"", "compliance", "matched"}};
     const Scene scene = bench::compare::load_scene(r.scene, {}, {});
     const OptionValues matched{{"compliance", "matched"}};
@@ -603,12 +600,14 @@ TEST(Plan, AnOptionInItsShortFormGoesToSchemesAndNeverToTheReference) {
 
 // ---- The truth: the modes that the reference is given
 
-bench::study::Truth truth_of(int modes, double duration = 0.01) {
-    Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, duration);
+bench::study::Truth truth_of(const Scene& scene, int modes) {
     std::vector<bench::study::ReferenceChoice> references =
-        plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
+        plan_for(scene.name, {"modal_two_point"}).points.front().references;
     for (auto& c : references) c.kept = false;
     return bench::study::run_truth(references, scene, modes, 1, bench::store::Listener());
+}
+bench::study::Truth truth_of(int modes, double duration = 0.01) {
+    return truth_of(bench::compare::load_scene("tanpura_c3_release", {}, duration), modes);
 }
 
 TEST(Truth, ModesAreDoubledUntilWhatIsLeftOutMovesTheHeadlineByLittleEnough) {
@@ -643,9 +642,7 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
         b.position = 1e-3 * (1 + k), b.width = 0, b.height = -4e-3 * b.position * b.position;
         scene.strings[0].barriers.emplace_back(b);
     }
-    const bench::study::Plan plan = plan_for("two_point_bridge", {"modal_two_point"});
-    const auto truth = bench::study::run_truth(plan.points.front().references, scene, 0, 1,
-                                               bench::store::Listener());
+    const auto truth = truth_of(scene, 0);
     EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.description;
     EXPECT_TRUE(says(truth.description, "too long"));
 }
@@ -738,9 +735,7 @@ TEST(Truth, TheForceOfASharpCornerOnAStiffStringIsUnknown) {
                                    {"string.0.start.smoothing=0", "string.0.damping={law=\"none\"}",
                                     "string.0.bending_stiffness=6e-3"},
                                    0.0105);
-    const bench::study::Plan plan = plan_for("free_string", {"modal_two_point"});
-    const auto truth = bench::study::run_truth(plan.points.front().references, scene, 1024, 1,
-                                               bench::store::Listener());
+    const auto truth = truth_of(scene, 1024);
     ASSERT_GE(truth.coarser.size(), 2u) << truth.description;
     EXPECT_TRUE(std::isnan(truth.reference.trust.left_out[0][0])) << truth.description;
     EXPECT_LT(truth.reference.trust.left_out[1][0], 1e-3);  // its displacement is known
@@ -751,11 +746,7 @@ TEST(Truth, WithoutADoublingAndACertificateItsUncertaintyIsUnknown) {
     // no certificate is of it
     const Scene scene =
         bench::compare::load_scene("tanpura_c3_release", {"string.0.tension=40"}, 1e-3);
-    const bench::study::Plan plan = plan_for("tanpura_c3_release", {"modal_two_point"});
-    const auto truth =
-        // nothing is below one mode
-        bench::study::run_truth(plan.points.front().references, scene, 1, 1,
-                                bench::store::Listener());
+    const auto truth = truth_of(scene, 1);  // nothing is below one mode
     EXPECT_TRUE(truth.coarser.empty());
     EXPECT_FALSE(truth.reference.trust.any());
     EXPECT_TRUE(std::isnan(truth.reference.trust.of_scene(0, 2)));
@@ -771,14 +762,6 @@ std::vector<bench::study::Cell> sought(bench::compare::CompareRequest r,
     std::vector<bench::study::Cell> cells;
     for (const bench::study::Job& job : plan.jobs) cells.push_back(job.cell);
     return cells;
-}
-bench::compare::CompareRequest request_for(std::vector<std::string> schemes,
-                                           std::vector<double> rates) {
-    bench::compare::CompareRequest r;
-    r.scene = "tanpura_c3_release";
-    r.schemes = std::move(schemes);
-    r.rates = std::move(rates);
-    return r;
 }
 std::vector<std::string> names_of(const std::vector<bench::study::Cell>& cells) {
     std::vector<std::string> names;
@@ -919,10 +902,7 @@ TEST(Truth, OfMeasuredModesHasAllOfThemAndIsConfirmedByAnotherSolver) {
         table.decay_rate.push_back(modes.sigma[i]);
     }
     s.damping = table;
-    std::vector<bench::study::ReferenceChoice> references =
-        plan_for("tanpura_c3_release", {"modal_two_point"}).points.front().references;
-    for (auto& c : references) c.kept = false;
-    const auto truth = bench::study::run_truth(references, scene, 0, 1, bench::store::Listener());
+    const auto truth = truth_of(scene, 0);
     EXPECT_EQ(truth.reference.choice.settings.modes, 200);
     EXPECT_EQ(truth.reference.choice.settings.options, OptionValues());
     EXPECT_TRUE(says(truth.description, "200 modes, all that were measured: what lies above"))

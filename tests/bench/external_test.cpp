@@ -49,9 +49,9 @@ TEST(External, ItsTraceIsReadOnlyWhereItCanBeOne) {
 TEST(External, ATimeLimitIsOneOnTheClock) {
     const Scratch scratch;
     std::ofstream(scratch / "mine") << "sleep 30\n";
-    std::ofstream(scratch / "s.toml") << "[[cells]]\nscenes = [\"free_string\"]\nschemes = "
-                                         "[\"mine\"]\nrates = [44100]\nduration = 0.005\n"
-                                         "modes = [20]\nreference_modes = 20\ntime_limit_s = 0.5\n";
+    std::ofstream(scratch / "s.toml")
+        << suite_of("free_string", "mine", "44100",
+                    "duration = 0.005\nmodes = 20\nreference_modes = 20\ntime_limit_s = 0.5");
     const Outcome o = shell(scratch, suite);
     EXPECT_EQ(o.code, 4);
     EXPECT_TRUE(says(o.out, "past its time limit of 0.5 s"));

@@ -108,10 +108,10 @@ int cells_in(const fs::path& folder) { return files_of(folder, ".json"); }
 TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", kept = scratch / "stopped/cells";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = "
-                           "[\"modal_two_point\", \"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
-                           "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { "
-                           "\"string.0.tension\" = [30, 31, 32, 33] }\n";
+    std::ofstream(file) << suite_of("tanpura_c3_release", "modal_two_point,sitar_fdm",
+                                    "44100, 88200, 176400",
+                                    "modes = 20\nreference_modes = 'cell'\nduration = 0.05\n"
+                                    "sweep = { 'string.0.tension' = [30, 31, 32, 33] }");
     ASSERT_EQ(Started(scratch, {"suite", file, "--jobs", "1", "--out", scratch / "whole"}).end(),
               -1);
     int before = 0;
@@ -184,9 +184,8 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
 TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = "
-                           "[\"modal_two_point\"]\nrates = [2822400]\nreference_modes = "
-                           "\"cell\"\nduration = 60\n";
+    std::ofstream(file) << suite_of("tanpura_c3", "modal_two_point", "2822400",
+                                    "reference_modes = 'cell'\nduration = 60");
     for (const auto& [arguments, said] : {
              std::pair<std::vector<std::string>, std::string>{
                  {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"},
@@ -209,12 +208,10 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
 TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", references = scratch / "all/references";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"free_string\"]\nschemes = "
-                           "[\"modal_two_point\"]\nrates = [44100]\nduration = 0.01\n"
-                           "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = "
-                           "[\"modal_two_point\"]\nrates = [44100]\nreference_modes = "
-                           "\"cell\"\nduration = 2\n"
-                           "reference = \"sundials\"\n";
+    std::ofstream(file) << suite_of("free_string", "modal_two_point", "44100", "duration = 0.01")
+                        << suite_of("tanpura_c3", "modal_two_point", "44100",
+                                    "reference_modes = 'cell'\nduration = 2\n"
+                                    "reference = 'sundials'");
     Started suite(scratch, {"suite", file, "--out", scratch / "all", "--resume", "--jobs", "2"});
     suite.once(
         [&] { return cells_in(scratch / "all/cells") == 1 && files_of(references, ".lock") == 1; });
@@ -419,8 +416,7 @@ TEST(Killed, ASuiteSweepsItsCells) {
     fs::create_directories(left / "kept/cells");
     const std::string part = left.file("kept/cells/.jvari-0123456789abcdef.part", 25);
     std::ofstream(left / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
-           "[44100]\nduration = 0.01\nrepeats = 1\n";
+        << suite_of("free_string", "modal_two_point", "44100", "duration = 0.01\nrepeats = 1");
     EXPECT_EQ(shell(left, "$J suite a.toml --out kept").code, 0);
     EXPECT_FALSE(fs::exists(part));
 }

@@ -183,12 +183,9 @@ TEST(Report, MatchedComplianceThatErrsMoreThanOwnIsTold) {
 TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReference) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"tanpura_c3_release\"]\nschemes = [\"modal_two_point\", "
-           "\"modal_explicit_penalty\"]\nrates = [44100, "
-           "88200]\n"
-           "modes = 10\nreference_modes = \"cell\"\nduration = 0.03\nmeasure = [\"errors\", "
-           "\"sound\"]\nsweep = { \"string.0.tension\" = "
-           "[30, 31] }\n";
+        << suite_of("tanpura_c3_release", "modal_two_point,modal_explicit_penalty", "44100, 88200",
+                    "modes = 10\nreference_modes = 'cell'\nduration = 0.03\n"
+                    "measure = ['errors', 'sound']\nsweep = { 'string.0.tension' = [30, 31] }");
     const std::string command = "suite " + scratch / "a.toml" + " --json --out " + scratch / "out",
                       none = "JVARI_NODE_MODULES=/nowhere";
     ASSERT_EQ(jvari(scratch, command, none).code, 0);

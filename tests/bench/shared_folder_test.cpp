@@ -57,6 +57,10 @@ duration = 0.01
 reproduce = false
 )";
 
+const std::string timed = suite_of("free_string", "modal_two_point", "44100, 88200",
+                                   "reference_modes = 'cell'\nduration = 0.01\nrepeats = 2\n"
+                                   "measure = ['errors', 'cost']");
+
 // Of what processes wrote into out1, out2 ... : the numbers before a word, as in "16 points, 4
 // boundaries: 5 run".
 std::vector<int> numbers_before(const std::string& word, const Scratch& scratch, int processes) {
@@ -149,10 +153,9 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
 TEST(SharedFolder, WhoIsKilledHoldsNobodyUp) {
     const Scratch scratch;
     std::ofstream(scratch / "a.toml")  // cells of some tenths of a second
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\", "
-           "\"modal_quadratised\"]\nrates = [1411200]\n"
-           "modes = 100\nreference_modes = \"cell\"\nduration = 0.4\nsweep = { "
-           "\"string.0.tension\" = [30, 31, 32, 33] }\n";
+        << suite_of("free_string", "modal_two_point,modal_quadratised", "1411200",
+                    "modes = 100\nreference_modes = 'cell'\nduration = 0.4\n"
+                    "sweep = { 'string.0.tension' = [30, 31, 32, 33] }");
     ASSERT_EQ(shell(scratch, "$J suite a.toml --out whole --quiet").code, 0)
         << content(scratch / "stderr");
     // One of the three is stopped while it runs a cell; the others run all that is left, say for
@@ -186,10 +189,9 @@ for p in $others; do wait $p || exit 6; done
 
 TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml") << "[[cells]]\nscenes = [\"free_string\", "
-                                         "\"two_point_bridge\"]\nschemes = [\"modal_two_point\", "
-                                         "\"modal_quadratised\"]\nrates = [44100, "
-                                         "88200]\nreference_modes = \"cell\"\nduration = 0.01\n";
+    std::ofstream(scratch / "a.toml")
+        << suite_of("free_string,two_point_bridge", "modal_two_point,modal_quadratised",
+                    "44100, 88200", "reference_modes = 'cell'\nduration = 0.01");
     const std::string suite = "$J suite a.toml --out ",
                       // another program: its plugin counts into the key
         plugin = " --plugin " JVARI_HONEST;
@@ -207,9 +209,8 @@ TEST(SharedFolder, TwoProgramsHaveEachTheirOwnCells) {
 
 TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
-           "[44100]\nreference_modes = \"cell\"\nduration = 0.01\n";
+    std::ofstream(scratch / "a.toml") << suite_of("free_string", "modal_two_point", "44100",
+                                                  "reference_modes = 'cell'\nduration = 0.01");
     const std::string suite = "timeout 60 $J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, suite).code, 0) << content(scratch / "stderr");
     const std::string table = content(scratch / "all/errors.csv");
@@ -234,10 +235,7 @@ TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
 
 TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
-           "[44100, 88200]\nreference_modes = \"cell\"\n"
-           "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
+    std::ofstream(scratch / "a.toml") << timed;
     fs::create_directories(scratch / "all/cells");
     const auto files = [&](const char* extension) {
         return std::count_if(
@@ -267,10 +265,7 @@ TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
 
 TEST(Machines, AFolderHasTheCostsOfOne) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml")
-        << "[[cells]]\nscenes = [\"free_string\"]\nschemes = [\"modal_two_point\"]\nrates = "
-           "[44100, 88200]\nreference_modes = \"cell\"\n"
-           "duration = 0.01\nrepeats = 2\nmeasure = [\"errors\", \"cost\"]\n";
+    std::ofstream(scratch / "a.toml") << timed;
     const std::string resume = "$J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, resume + " --quiet").code, 0) << content(scratch / "stderr");
     const bench::study::Plan plan =

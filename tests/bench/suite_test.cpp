@@ -507,10 +507,10 @@ TEST(SuiteCommand, ASceneWithoutTapsIsRefused) {
 TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml", none = "JVARI_NODE_MODULES=/nowhere";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"modal_two_point\", "
-                           "\"sitar_fdm\"]\nrates = [44100, 88200, 176400]\n"
-                           "modes = 20\nreference_modes = \"cell\"\nduration = 0.05\nsweep = { "
-                           "\"string.0.tension\" = [30, 31, 32, 33] }\n";
+    std::ofstream(file) << suite_of("tanpura_c3", "modal_two_point,sitar_fdm",
+                                    "44100, 88200, 176400",
+                                    "modes = 20\nreference_modes = 'cell'\nduration = 0.05\n"
+                                    "sweep = { 'string.0.tension' = [30, 31, 32, 33] }");
     const Outcome whole =
         jvari(scratch, "suite " + file + " --jobs 1 --json --out " + scratch / "whole", none);
     ASSERT_EQ(whole.code, 0) << whole.err;
@@ -541,8 +541,8 @@ TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
 TEST(SuiteCommand, ExitCodesAreThoseOfTheProgram) {
     const Scratch scratch;
     const std::string file = scratch / "a.toml";
-    std::ofstream(file) << "[[cells]]\nscenes = [\"tanpura_c3\"]\nschemes = [\"sitar_fdm\"]\nrates "
-                           "= [44100]\nmeasure = [\"spectrogram\"]\n";
+    std::ofstream(file) << suite_of("tanpura_c3", "sitar_fdm", "44100",
+                                    "measure = ['spectrogram']");
     EXPECT_EQ(jvari(scratch, "suite " + file).code, 3);
     EXPECT_EQ(jvari(scratch, "suite nowhere").code, 2);
     EXPECT_EQ(jvari(scratch, "suite " + file + " --resume").code, 2);

@@ -51,18 +51,9 @@ class OwnScheme(unittest.TestCase):
     def setUp(self):
         warnings.simplefilter("ignore", UserWarning)
 
-    def test_it_is_the_scheme_that_it_repeats(self):
-        registered("python_two_point")
-        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05, energy=True)
-               for name in ("python_two_point", "modal_two_point")}
-        for tap in run["modal_two_point"].keys():
-            own, built_in = run["python_two_point"][tap], run["modal_two_point"][tap]
-            self.assertLessEqual(np.linalg.norm(own - built_in), 1e-10 * np.linalg.norm(built_in),
-                                 tap)
-
-    def test_the_template_as_it_stands_is_a_scheme(self):
+    def test_the_template_as_it_stands_is_the_scheme_that_it_repeats(self):
         jvari.scheme("template", represents=FEATURES)(Template)
-        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05)
+        run = {name: jvari.run("tanpura_c3_release", name, duration=0.05, energy=True)
                for name in ("template", "modal_two_point")}
         for tap in run["modal_two_point"].keys():
             own, built_in = run["template"][tap], run["modal_two_point"][tap]
@@ -235,12 +226,6 @@ class Judge(unittest.TestCase):
         as_array = jvari.judge(self.scene, np.column_stack(list(self.taps.values())),
                                duration=0.01)[0]
         self.assertEqual(as_array["error_l2_10ms"], own["error_l2_10ms"])
-
-    def test_a_planted_error_is_told_at_its_right_size(self):
-        free = jvari.run("free_string", "exact_linear", modes=2000, duration=0.02)
-        taps = {tap: 1.001 * free[tap] for tap in jvari.scene("free_string").taps}
-        self.assertAlmostEqual(jvari.judge("free_string", taps, duration=0.02)[0]["error_l2_10ms"],
-                               1e-3, delta=1e-5)
 
     def test_a_trace_that_holds_no_number_is_a_failed_row(self):
         broken = {tap: values.copy() for tap, values in self.taps.items()}

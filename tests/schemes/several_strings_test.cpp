@@ -9,7 +9,6 @@
 #include <cstring>
 #include <typeinfo>
 
-#include "bench/check/allocations.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
 #include "schemes/vector_instructions.hpp"
@@ -151,24 +150,6 @@ TEST(SeveralStrings, AreTheSumOfRunsOfOneInEverySchemeToTheLastBit) {
         int dofs = 0;
         for (const jvari::Run& r : single) dofs += r.dofs;
         EXPECT_EQ(whole.dofs, dofs) << d->name;
-    }
-}
-
-TEST(SeveralStrings, GiveTheSameBitsWhateverTheBlockSizeAndAllocateNothing) {
-    for (const Descriptor* d : all_descriptors()) {
-        const Instrument i = instrument_of(scene_for(*d));
-        const jvari::Run usual = run(*d, i.whole, settings_for(*d));
-        for (const int block : {1, 70})
-            EXPECT_TRUE(same(run(*d, i.whole, settings_for(*d), {.block_rows = block}).trace.tap,
-                             usual.trace.tap))
-                << d->name << " " << block;
-        const auto scheme = make_scheme(*d, i.whole, settings_for(*d));
-        const int taps = static_cast<int>(i.whole.taps.size());
-        std::vector<double> tap(100 * taps);
-        const bench::check::Allocations allocations;
-        scheme->advance({100, taps, 100, tap.data(), nullptr});
-        scheme->reset();
-        EXPECT_EQ(allocations.count(), 0) << d->name;
     }
 }
 

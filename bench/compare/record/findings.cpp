@@ -25,16 +25,11 @@ bool beats(const Point& a, const Point& b) {
     return a.error <= b.error && a.cost < b.cost && !tie(a, b);
 }
 
-using Cell = study::TabledCell;
-
-Point point_of(const Cell& cell, std::size_t measure, double Cell::*cost, const std::string& tap) {
-    const Bound b = bound_of(cell, measure, tap);
+Point point_of(const study::TabledCell& cell, std::size_t measure) {
+    const Bound b = bound_of(cell, measure);
     const bool known = trusted(cell) && b.says() != Bound::Says::unknown;
-    // its quartiles are those of the cost per second of sound
-    const bool clock = cost == &Cell::cost_s_per_s || cost == &Cell::ns_per_step;
-    const double median = cell.cost_s_per_s, c = known ? cell.*cost : store::nan;
     return {
-        c, clock ? c * cell.cost_lower / median : c, clock ? c * cell.cost_upper / median : c,
+        known ? cell.cost_s_per_s : store::nan, cell.cost_lower, cell.cost_upper,
         std::isnan(b.error) ? store::nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
         std::isnan(b.certificate) ? 0 : b.certificate};
 }
@@ -49,17 +44,12 @@ std::vector<bool> pareto_front(std::span<const Point> points) {
     return front;
 }
 
-std::vector<bool> pareto_front(const study::Cells& cells, const study::Rows& rows,
-                               std::size_t measure, double Cell::*cost, const std::string& tap) {
-    std::vector<Point> points;
-    for (const std::size_t row : rows) points.push_back(point_of(cells[row], measure, cost, tap));
-    return pareto_front(points);
-}
-
 study::Cells with_front(study::Cells cells) {
     for (const study::Rows& rows : study::by_problem(cells, study::all_rows(cells))) {
-        const std::vector<bool> front =
-            pareto_front(cells, rows, headline_error(cells, rows), &Cell::cost_s_per_s);
+        const std::size_t error = headline_error(cells, rows);
+        std::vector<Point> points;
+        for (const std::size_t row : rows) points.push_back(point_of(cells[row], error));
+        const std::vector<bool> front = pareto_front(points);
         for (std::size_t k = 0; k < rows.size(); ++k) cells[rows[k]].pareto = front[k];
     }
     return cells;

@@ -27,13 +27,8 @@ struct Point {
 // surely less. A point without a finite cost and error is never on it.
 std::vector<bool> pareto_front(std::span<const Point>);
 
-// Which of the rows are on the front of a measure, of a tap (the headline's where absent), and a
-// cost: of those that are trusted and whose error is known.
-std::vector<bool> pareto_front(const study::Cells&, const study::Rows&, std::size_t measure,
-                               double study::TabledCell::*cost, const std::string& tap = "");
-
 // The cells with `pareto` said: 1 for those on the front of `cost_s_per_s` and the headline error
-// of their scene at their point of a sweep.
+// of their scene at their point of a sweep that are trusted and whose error is known.
 study::Cells with_front(study::Cells);
 
 // ---- Orders, per window and tap: cells fitted over their rates (analysis/convergence.hpp)
