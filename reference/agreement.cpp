@@ -10,8 +10,8 @@
 namespace jvari {
 
 namespace {
-// ratios of a doubling to the one before: orders 1/2 and 2
-constexpr double slowest = 0.70710678118654752, fastest = 0.25;
+// ratio of a doubling to the one before: order 1/2
+constexpr double slowest = 0.70710678118654752;
 }  // namespace
 
 std::span<const double> rows_from(std::span<const double> x, double seconds, double rate) {
@@ -50,8 +50,8 @@ double left_after(std::span<const double> changes, bool matched) {
         return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
     if (!(ratio <= slowest)) return further * std::fmax(last, before);
-    const double seen = std::max(ratio, fastest);
-    return last * std::max(seen / (1 - seen), matched ? of_order_half : 0);
+    const double of_order_one = 1;
+    return last * std::max(ratio / (1 - ratio), matched ? of_order_half : of_order_one);
 }
 
 double no_less(double left_out, double apart, double change) {
