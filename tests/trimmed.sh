@@ -17,7 +17,7 @@ wrong=0
 say() { echo "$1" >&2; wrong=1; }
 
 set -- $(figures tanpura_c3_release-1)
-text=$(tr '\n' ' ' <README.md | grep -o '`jvari trim` finds.*\[trim\](results')
+text=$(tr '\n' ' ' <README.md | grep -o 'By `jvari trim`.*\[trim\](results')
 khz() { awk -v hz="$1" 'BEGIN { print hz / 1000 }'; }
 wanted="$3 matched modes at $(khz "$4") kHz keep the nut force within 1 %"
 case $text in

@@ -168,7 +168,7 @@ function draw_grips(pen, v) {
     (pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, v.y(0)), pen.stroke());
     pen.setLineDash([]);
     const right = x < v.width - 90,
-      down = name === "pull here" ? -4 : y > v.height - 30 ? 4 : 16,
+      down = y > v.height - 30 ? 4 : y < v.y(0) ? -4 : 18,
       place = [name, x + (right ? 11 : -11), y + down];
     pen.textAlign = right ? "left" : "right";
     pen.strokeStyle = colour("paper");

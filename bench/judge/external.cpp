@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <wordexp.h>
 
+#include <cctype>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -175,6 +176,12 @@ std::string enter_external(const std::string& command) {
             fmt::format("\n{}: {}", word, file.empty() ? "no file" : store::hash_of_file(file));
         if (!file.empty() && file == fs::path(word)) name = file.stem().string();
     }
+    // a misspelt file, as a command's last word
+    const std::vector<std::string> words = words_in(command);
+    const std::string ending = words.empty() ? "" : fs::path(words.back()).extension().string();
+    if (name == "external" && ending.size() > 1 && ending.size() < 5 &&
+        std::isalpha(static_cast<unsigned char>(ending[1])) != 0)
+        throw store::UsageError("--external " + command + ": there is no file " + words.back());
     auto* kept = new External{command, name};  // NOLINT(cppcoreguidelines-owning-memory)
     Descriptor d{kept->name.c_str(),
                  "an external command",

@@ -143,6 +143,58 @@ TEST(CommandLine, HelpTeachesWithExamplesAndEndsWith0) {
     EXPECT_EQ(jvari(scratch, "--version").code, 0);
 }
 
+TEST(CommandLine, HelpKeepsWithin100ColumnsAndUnderThreeHeadings) {
+    const Scratch scratch;
+    for (const char* verb : {"", "new", "list", "run", "compare", "suite", "trim", "certify",
+                             "report", "diff", "check", "export", "judge"}) {
+        const std::string help = jvari(scratch, std::string(verb) + " --help").out;
+        std::istringstream lines(help);
+        for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+        for (const char* heading : {"\nWhat:\n", "\nWhat comes out, and where to:\n"})
+            EXPECT_EQ(says(help, heading), *verb != 0) << verb << heading;
+    }
+    EXPECT_TRUE(says(jvari(scratch, "run --help").out, "\nHow long and how finely:\n  --modes N"));
+}
+
+TEST(CommandLine, ListDescribesOneThingByItsName) {
+    const Scratch scratch;
+    const std::string scheme = jvari(scratch, "list modal_tension").out;
+    EXPECT_TRUE(says(scheme, "modal_tension, of schemes\n  source        Bilbao"));
+    EXPECT_TRUE(says(scheme, "\n  scenes        free_string, guitar_over_fret"));
+    EXPECT_TRUE(says(jvari(scratch, "list steel_string_glide").out, "\n  schemes       modal_ten"));
+    for (const auto& [name, of] : {std::pair{"compliance", "options"},
+                                   {"demo", "suites"},
+                                   {"spectrogram", "keys of measure"},
+                                   {"sundials", "references"},
+                                   {"nut_force", "taps"},
+                                   {"largest_contact_force", "facts"}})
+        EXPECT_TRUE(says(jvari(scratch, std::string("list ") + name).out,
+                         std::string(name) + ", of " + of + "\n"))
+            << name;
+    const auto json = nlohmann::json::parse(jvari(scratch, "list sitar_fdm --json").out);
+    EXPECT_EQ(json.at("sitar_fdm")[0].at("list"), "schemes");
+    EXPECT_TRUE(ends(jvari(scratch, "list sitar_fdn"), 2, "did you mean \"sitar_fdm\"?"));
+}
+
+TEST(CommandLine, AWordOfAnotherKindIsMetWithWhatWasMeant) {
+    const Scratch scratch;
+    const std::string run = "run tanpura_c3 --scheme modal_two_point ";
+    for (const auto& [arguments, code, words] :
+         {std::tuple{run + "--rate 48", 3, "is the sample rate of 48 Hz meant in kHz?"},
+          {run + "--option compliance=match", 3, "did you mean \"matched\"?"},
+          {run + "--set string.1.tension=3", 2, "are counted from 0"},
+          {run + "--external 'python3 none.py'", 2, "there is no file none.py"},
+          {std::string("trim tanpura_c3_release --within 1dB"), 2, "add --of third_octave_db"},
+          {std::string("compare tanpura_c3 --schemes all"), 2, "`jvari list` has all"}})
+        EXPECT_TRUE(ends(jvari(scratch, arguments), code, words)) << arguments;
+    for (const auto& [value, words] :
+         {std::pair{"height=-0.2", "barrier.height = -0.2 m; expected less than a tenth"},
+          {"stiffness=1e30", "expected at most 1e13, or \"rigid\". Is the unit right?"}})
+        EXPECT_TRUE(says(
+            jvari(scratch, run + "--duration 0.01 --set string.0.barrier.0." + value).err, words))
+            << value;
+}
+
 TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
     const Scratch scratch;
     const Outcome o = jvari(scratch, "run sitar_parabola --scheme exact_linear --json");

@@ -340,15 +340,14 @@ function overview_section() {
 function finding_of_maps() {
   const all = shares(),
     names = distinct(all.map(s => s.series)),
-    sound_maps = name => all.filter(s => s.series === name && s.sound === s.runs).length,
-    maps = name => all.filter(s => s.series === name).length;
+    sum = (name, key) => all.reduce((n, s) => n + (s.series === name ? Number(s[key]) : 0), 0),
+    share = name => sum(name, "sound") / sum(name, "runs"),
+    words = name => `in ${sum(name, "sound")} of ${sum(name, "runs")} runs`,
+    [best, ...rest] = [...names].sort().sort((a, b) => share(b) - share(a));
   if (!names.length) return "";
-  const best = [...names].sort().reduce((a, b) => (sound_maps(b) > sound_maps(a) ? b : a));
-  return (
-    `${names.filter(name => sound_maps(name) < maps(name)).length} of ${names.length} ` +
-    `schemes fail somewhere; ${best} stays sound on ${sound_maps(best)} of its ${maps(best)} ` +
-    "maps"
-  );
+  const worst = rest.at(-1),
+    most = `${best} stays sound ${words(best)}`;
+  return worst ? `of ${names.length} schemes ${most}, ${worst} ${words(worst)}` : most;
 }
 
 // ---- A trimmed scene: the path from the whole one to it, a step leaving out one thing more, and
