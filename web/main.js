@@ -267,7 +267,8 @@ function forget_motion() {
   draw_picture();
 }
 const ask_the_program = () =>
-  `The program takes its time, or another reference: jvari compare ${state.text === null ? state.scene : "FILE"}.`;
+  "The program takes its time, or another reference: jvari compare " +
+  `${state.text === null ? state.scene : "FILE"}.`;
 const scheme_name = () => {
   const {scheme, compliance} = state;
   return label_of({scheme, compliance: options_of(scheme, compliance).length ? compliance : ""});
@@ -278,9 +279,11 @@ function sentence_of(v) {
     after = shown.scene.free_from ? " after the pluck" : "",
     error = error_text(v);
   if (error === "not known")
-    return ` cannot be judged here: the exact solution is itself uncertain by ${percent(v.uncertainty)}`;
+    return (
+      " cannot be judged here: the exact solution is itself uncertain by " + percent(v.uncertainty)
+    );
   if (error.endsWith("?"))
-    return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}${after}`;
+    return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}` + after;
   return (
     ` is ${error.replace("\u2264", "at most")} wrong${over}${after}` +
     (sound.cost ? `, and ${two_digits(1 / sound.cost)} times faster than real time` : "")

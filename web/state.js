@@ -66,8 +66,8 @@ function read_address(hash) {
   );
 }
 
-// ---- Handles: a name, the key of the scene, a unit, the value in what the scene says (undefined: it
-// has none), a range, and whether that is logarithmic.
+// ---- Handles: a name, the key of the scene, a unit, the value in what the scene says (undefined:
+// it has none), a range, and whether that is logarithmic.
 
 const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined),
   pulled = s => (s.start?.shape === "triangle" ? s.start.position : undefined),
