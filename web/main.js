@@ -278,11 +278,12 @@ function sentence_of(v) {
   const over = ` over the first ${1e3 * window_seconds} ms`,
     after = shown.scene.free_from ? " after the pluck" : "",
     error = error_text(v);
-  const unsure = percent(v.uncertainty);
   if (error === "not known")
-    return ` cannot be judged here: the exact solution is itself uncertain by ${unsure}`;
+    return (
+      " cannot be judged here: the exact solution is itself uncertain by " + percent(v.uncertainty)
+    );
   if (error.endsWith("?"))
-    return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}${after}`;
+    return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}` + after;
   return (
     ` is ${error.replace("\u2264", "at most")} wrong${over}${after}` +
     (sound.cost ? `, and ${two_digits(1 / sound.cost)} times faster than real time` : "")

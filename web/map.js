@@ -108,8 +108,8 @@ function draw_map(note = "") {
     .getElementById("map")
     .setAttribute(
       "aria-label",
-      `map of outcomes over stiffness and sample rate. ${told}` +
-        counted.map(([, text]) => text).join(""),
+      "map of outcomes over stiffness and sample rate. " +
+        [told, ...counted.map(([, text]) => text)].join(""),
     );
 }
 

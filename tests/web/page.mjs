@@ -409,8 +409,8 @@ const parts = {
       )
         await pause(50);
       const told = await look.evaluate(
-        "({said: by_id('said').textContent, live: ['live', 'scene', 'stage', 'hear']" +
-          ".filter(id => by_id(id).checkVisibility())})",
+        "({said: by_id('said').textContent, " +
+          "live: ['live', 'scene', 'stage', 'hear'].filter(id => by_id(id).checkVisibility())})",
       );
       expect(
         sentence.test(told.said) && /\.\/demo$/.test(told.said) && told.live.length === 0,
