@@ -52,7 +52,7 @@ echo "$said" |
 "$jvari" run $scene --scheme modal_two_point --rate 88200 --option compliance=matched \
     --out matched.csv --quiet || exit 2
 of_it() {
-    "$jvari" judge $scene --trace "88200=$1" | grep -c "of it against a string of as many modes"
+    "$jvari" judge $scene --trace "88200=$1" | grep -c "against a string of as many modes"
 }
 [ "$(of_it own.csv) $(of_it matched.csv)" = "1 0" ] ||
     fail "an error is told from a string of another compliance, or from none"
