@@ -42,14 +42,14 @@ double left_after(std::span<const double> changes, bool matched) {
     if (changes.empty()) return std::numeric_limits<double>::quiet_NaN();
     const double last = changes.back();
     const double of_order_half = and_further_ones - 1;
-    const double further = matched ? matched_and_further_ones - 1 : of_order_half;
-    if (changes.size() == 1) return further * last;
+    if (changes.size() == 1)
+        return matched ? (matched_and_further_ones - 1) * last : of_order_half * last;
     const auto earlier = changes.first(changes.size() - 1);
     const double before = earlier.back();
     if (last > 0 && last >= *std::max_element(earlier.begin(), earlier.end()))
         return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
-    if (!(ratio <= slowest)) return further * std::fmax(last, before);
+    if (!(ratio <= slowest)) return of_order_half * std::fmax(last, before);
     const double of_order_one = 1;
     return last * std::max(ratio / (1 - ratio), matched ? of_order_half : of_order_one);
 }

@@ -32,9 +32,9 @@ struct Agreement {                                               // of one tap
 Agreement agreement(std::span<const double> a, std::span<const double> b, double rate);
 
 // What all further doublings change, by what each changed so far, the first one first; none: NaN.
-// They are a geometric series whose ratio is that of the last two. With one doubling, or where the
-// last two do not get smaller so fast as of order one half, it is what a certificate says of one
-// (and_further_ones), and the larger of them counts. Where the last one is the largest of all
+// They are a geometric series whose ratio is that of the last two. With one doubling it is what a
+// certificate says of one (and_further_ones). Where the last two do not get smaller so fast as of
+// order one half, that order and the larger of them count. Where the last one is the largest of all
 // nothing is known of a limit: NaN. They converge unevenly, and one pair can agree by chance:
 // however fast they seem to, what order one leaves is left at least, of matched modes what order
 // one half leaves. Seen after doublings that changed a tap by e: with own modes 0.6 e in the bridge
