@@ -132,10 +132,13 @@ async function reference_of(state, scene, go_on) {
     const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)}, profile ? ["nodes=16"] : []);
     await go_on();
     let best = base,
-      left = jvari.left_after(change(base, half), NaN, matched);
-    if (!dear(scene)) {
-      best = run(2 * modes, {shape: state.shape});
-      left = jvari.left_after(change(best, base), change(base, half), matched);
+      changed = change(base, half),
+      left = jvari.left_after(changed, NaN, matched);
+    for (let more = 2; more <= 4 && !dear(scene) && !(left < 1e-3); more *= 2) {
+      const finer = run(more * modes, {shape: state.shape}),
+        by = change(finer, best);
+      left = jvari.left_after(by, changed, matched);
+      [best, changed] = [finer, by];
       await go_on();
     }
     const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};

@@ -271,11 +271,15 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         truth.reference = std::move(more);
         judge();
     }
+    // without a doubling: by a certificate, or not at all
+    const auto unknown = [&] {
+        const Trust& t = truth.reference.trust;
+        return truth.coarser.empty() &&
+               std::isnan(t.of_scene(static_cast<std::size_t>(tap), window));
+    };
     // where even one doubling takes too long, half as many tell something, too
     const Size half{all > 0 ? size.modes : size.modes / 2, size.points / 2};
-    if (find && truth.coarser.empty() && half.modes > 0 && half != size &&
-        std::isnan(truth.reference.trust.of_scene(static_cast<std::size_t>(tap), window)))
-        try {
+    if (find && unknown() && half.modes > 0 && half != size) try {
             truth.coarser.push_back(
                 run_reference({sized(choice, half)}, scene, jobs, listener, time_limit));
             judge();
@@ -314,8 +318,8 @@ Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene,
         confirm(truth.reference, scene, size, jobs, listener, time_limit);
     } else if (find && !(unsettled < settled)) {
         truth.description += "; twice as many would take too long";
-        if (truth.coarser.empty()) truth.description += ", so what they leave out is unknown";
-        else if (size.points > 0 && !std::isnan(unsettled))
+        if (unknown()) truth.description += ", so what they leave out is unknown";
+        else if (size.points > 0 && std::isfinite(unsettled))
             truth.description += fmt::format(
                 ". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} "
                 "takes more",

@@ -136,7 +136,7 @@ const parts = {
           "--option",
           "exact_contact:compliance=matched",
           "--reference-modes",
-          "266",
+          "532",
           "--duration",
           "0.05",
           "--repeats",
