@@ -13,13 +13,12 @@ int main() {
     request.repeats = 1;
     const compare::Comparison c =
         compare::compare(request, compare::Catalogue(), store::Listener());
-    const store::Table cells = compare::cells_of(c);
-    bool good = cells.rows.size() == 4;
-    for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-        std::printf("%s %s %s\n", cells.at(i, "scheme").c_str(), cells.at(i, "status").c_str(),
-                    cells.at(i, "error_l2_10ms").c_str());
-        good =
-            good && cells.number(i, "error_l2_10ms") > 0 && cells.number(i, "error_l2_10ms") < 0.1;
+    const study::Cells cells = compare::cells_of(c);
+    bool good = cells.size() == 4;
+    for (const study::TabledCell& cell : cells) {
+        const double error = cell.figure(study::measure("error_l2_10ms")).value;
+        std::printf("%s %s %g\n", cell.variant().c_str(), cell.status.c_str(), error);
+        good = good && error > 0 && error < 0.1;
     }
     return good ? 0 : 1;
 }
