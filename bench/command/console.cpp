@@ -291,8 +291,7 @@ int call(int argc, const char* const* argv) {
     } catch (const CLI::Success& help) {
         std::ostringstream text, nothing;
         program.exit(help, text, nothing);
-        Console(false, false)
-            .print(wrapped(text.str().substr(0, text.str().find_last_not_of('\n') + 1)));
+        Console(false, false).print(wrapped(text.str()));
         return exit_code::done;
     } catch (const CLI::ParseError& e) {
         const std::vector<std::string> all = words_of(argc, argv);

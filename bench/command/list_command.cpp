@@ -359,9 +359,11 @@ int list_command(ListRequest r) {
     add("keys", "keys", keys_json);
     add("columns", "columns", columns_json);
     add("matrix", "scenes", [&] { return matrix_json(scenes, both); });
-    std::string text = one ? described(named(json, name), name) : "";
-    if (one) json = {{name, named(json, name)}};
-    else
+    std::string text;
+    if (one) {
+        json = {{name, named(json, name)}};
+        text = described(json[name], name);
+    } else
         for (const auto& [what, list] : json.items())
             text +=
                 (text.empty() ? "" : "\n") +

@@ -87,11 +87,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     if (matched) p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
     const ModalStart start = start_of(modes, s, yield_of(own, p_.series));
     put_start(p_, s, modes, start);
-    for (int i = 0; i < count; ++i) {
-        y0_[i] = start.displacement[i] * scale[i];
-        // (42) with q = v dt/2
-        u0_[i] = -2 * A[i] / J_[i] * y0_[i] + dt_ / J_[i] * start.velocity[i] * scale[i];
-    }
+    for (int i = 0; i < count; ++i) begin(i, start.displacement[i], start.velocity[i]);
     for (const Footprint& f : sites_of(scene).forces)
         if (g_.size() < p_.positions.size())
             g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
@@ -161,20 +157,16 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
 
 ModalState TwoPointModes::state() const {
     ModalState state;
-    for (int i = 0; i < m_.modes; ++i) {  // v = 2q/dt
-        state.displacement.push_back(at(Column::y, i) / scale_[i]);
-        state.velocity.push_back(2 * J_[i] * momentum_of(i) / (dt_ * scale_[i]));
+    for (int i = 0; i < m_.modes; ++i) {
+        state.displacement.push_back(displacement(i));
+        state.velocity.push_back(velocity(i));
     }
     return state;
 }
 
 bool TwoPointModes::start_from(const TwoPointModes& before) noexcept {
     if (before.m_.modes != m_.modes) return false;
-    for (int i = 0; i < m_.modes; ++i) {
-        y0_[i] = before.at(Column::y, i) / before.scale_[i] * scale_[i];
-        const double v = 2 * before.J_[i] * before.momentum_of(i) / (before.dt_ * before.scale_[i]);
-        u0_[i] = -0.5 * at(Column::c, i) * y0_[i] + dt_ / J_[i] * v * scale_[i];  // (42)
-    }
+    for (int i = 0; i < m_.modes; ++i) begin(i, before.displacement(i), before.velocity(i));
     return true;
 }
 

@@ -84,6 +84,14 @@ private:
                0.25 * at(TwoPointColumn::c, i) * at(TwoPointColumn::y, i);
     }
     double at(TwoPointColumn column, int i) const { return stream_[two_point_at(column, i)]; }
+    double displacement(int i) const { return at(TwoPointColumn::y, i) / scale_[i]; }  // [m]
+    double velocity(int i) const {  // 2q/dt [m/s]
+        return 2 * J_[i] * momentum_of(i) / (dt_ * scale_[i]);
+    }
+    void begin(int i, double displacement, double velocity) noexcept {  // (42) with q = v dt/2
+        y0_[i] = displacement * scale_[i];
+        u0_[i] = -0.5 * at(TwoPointColumn::c, i) * y0_[i] + dt_ / J_[i] * velocity * scale_[i];
+    }
 
     double dt_ = 0;
     StringPoints p_;
