@@ -21,6 +21,31 @@ namespace {
 constexpr double unweighted = 1e-30;  // error weight of what is not controlled
 // of steps that might have touched or left and come back, in one go
 constexpr int most_splits = 40;
+
+// The greatest value of what is known at the ends of steps: where it turned, that of the parabola
+// through the last three.
+class Peak {
+public:
+    double most = -HUGE_VAL;
+
+    void forget() noexcept { known_ = 0; }  // what follows does not go on from what was
+    void next(double t, double x) noexcept {
+        most = std::max(most, x);
+        if (known_ == 2 && x_[1] >= x_[0] && x_[1] >= x) {
+            const double slope = (x - x_[1]) / (t - t_[1]), room = t_[1] - t_[0],
+                         bend = ((x_[1] - x_[0]) / room - slope) / (t - t_[0]);
+            const double now = slope + bend * (t - t_[1]);  // at t_[1]
+            if (bend > 0) most = std::max(most, x_[1] + 0.25 * now * now / bend);
+        }
+        if (known_ == 2) t_[0] = t_[1], x_[0] = x_[1], known_ = 1;
+        t_[known_] = t, x_[known_] = x;
+        ++known_;
+    }
+
+private:
+    double t_[2], x_[2];
+    int known_ = 0;
+};
 }  // namespace
 
 struct Integrator::Library {
@@ -37,6 +62,7 @@ struct Integrator::Library {
         found.assign(e.contacts + 1, 0);
         direction.assign(e.contacts + 1, 0);
         depth.assign(e.contacts + 1, {});
+        met.resize(e.contacts);
         depth_before = depth;
         need((solver = SUNLinSolNewEmpty(context)) != nullptr);
         solver->ops->gettype = type;
@@ -78,6 +104,7 @@ struct Integrator::Library {
         apart = false;
         N_VConst(0, z);
         effort = {};
+        std::fill(met.begin(), met.end(), Met{});
         return stepped;
     }
     bool reinit(double t) noexcept {
@@ -184,8 +211,11 @@ struct Integrator::Library {
     std::vector<int> found, direction;
     struct Effort {
         double steps = 0, slopes = 0, solves = 0;
-        double deepest = 0, smallest_force = HUGE_VAL, largest_force = 0;  // [m], [N]
     } effort;
+    struct Met {
+        Peak depth, push, pull;  // [m], [N], [N]
+    };
+    std::vector<Met> met;  // [contact]
 };
 
 Integrator::Integrator(Equations& e, const Settings& s)
@@ -201,11 +231,16 @@ std::vector<Fact> Integrator::facts(double events, bool solves) const {
                              {facts::integrator_steps, l.effort.steps},
                              {facts::slope_evaluations, l.effort.slopes}};
     if (solves) all.push_back({facts::linear_solves, l.effort.solves});
-    const double smallest = l.effort.smallest_force;
+    double deepest = 0, push = 0, pull = -HUGE_VAL;
+    for (const auto& m : l.met) {
+        deepest = std::max(deepest, m.depth.most);
+        push = std::max(push, m.push.most);
+        pull = std::max(pull, m.pull.most);
+    }
     all.insert(all.end(), {{facts::integrator_tolerance, l.settings.tolerance},
-                           {facts::smallest_contact_force, smallest == HUGE_VAL ? 0 : smallest},
-                           {facts::largest_contact_force, l.effort.largest_force},
-                           {facts::deepest_penetration, l.effort.deepest}});
+                           {facts::smallest_contact_force, pull == -HUGE_VAL ? 0 : -pull},
+                           {facts::largest_contact_force, push},
+                           {facts::deepest_penetration, deepest}});
     return all;
 }
 void Integrator::reset() noexcept { library_->begin(); }
@@ -220,6 +255,7 @@ void Integrator::restart(double longest_step) noexcept {
         std::max({1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)),
                   l.equations.rounding(l.state()) / l.settings.tolerance, 1e-30});
     for (int a = 0; a < l.equations.contacts; ++a) l.direction[a] = l.equations.touched[a] ? -1 : 1;
+    for (auto& m : l.met) m.depth.forget(), m.push.forget(), m.pull.forget();
     l.look(l.depth);
     l.contact = l.reinit(0) ? -1 : -2;
 }
@@ -282,13 +318,13 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
             l.time = l.time_before;
             return Stop::crossed;
         }
-        for (int a = 0; a < contacts; ++a) {
-            if (!l.equations.touched[a]) continue;
-            l.effort.deepest = std::max(l.effort.deepest, l.depth[a].eta);
-            const double force = l.equations.contact_force(a, l.state());
-            l.effort.smallest_force = std::min(l.effort.smallest_force, force);
-            l.effort.largest_force = std::max(l.effort.largest_force, force);
-        }
+        for (int a = 0; a < contacts; ++a)
+            if (l.equations.touched[a]) {
+                const double force = l.equations.contact_force(a, l.state());
+                l.met[a].depth.next(l.time, l.depth[a].eta);
+                l.met[a].push.next(l.time, force);
+                l.met[a].pull.next(l.time, -force);
+            }
         if (l.time >= target) {
             if (target == to) break;
             target = to;

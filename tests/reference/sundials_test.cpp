@@ -173,6 +173,21 @@ TEST(Impact, LosesToHuntCrossleyWhatTheClosedFormSays) {
     }
 }
 
+// The greatest force of a soft point lies within a step: a row around it holds more than the steps'
+// ends.
+TEST(Impact, TellsItsGreatestForceAndDepthBetweenItsSteps) {
+    const Impact impact;
+    const double k = 1e5,
+                 deepest = impact.speed() / std::hypot(std::sqrt(k / impact.mass), impact.omega0);
+    for (const double rate : {1000.0, 8000.0, 44100.0}) {
+        const auto r = run(sundials, impact.scene(k, 1, 0), {0, rate, 1, {}});
+        EXPECT_NEAR(fact(r, "deepest_penetration"), deepest, 1e-5 * deepest) << rate;
+        EXPECT_NEAR(fact(r, "largest_contact_force"), k * deepest, 1e-5 * k * deepest) << rate;
+        for (const double force : r.trace.column(2))
+            EXPECT_LE(force, (1 + 1e-9) * fact(r, "largest_contact_force")) << rate;
+    }
+}
+
 // ---- Strings.
 
 Scene two_barriers() {  // of different heights, a thread, a pluck with skew
