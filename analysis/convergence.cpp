@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include "schemes/trace.hpp"
 
 namespace jvari {
 
@@ -24,7 +25,6 @@ bool serves(double rate, double error) {
 Order observed_order(std::span<const double> rate, std::span<const double> error) {
     if (rate.size() != error.size())
         throw std::invalid_argument("rates and errors differ in length");
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> x, y;
     for (std::size_t i = 0; i < rate.size(); ++i) {
         if (!serves(rate[i], error[i])) continue;
@@ -41,7 +41,7 @@ Order observed_order(std::span<const double> rate, std::span<const double> error
     const double half_width =
         n > 2 ? gsl_cdf_tdist_Pinv(0.5 * (1 + confidence), static_cast<double>(n) - 2) *
                     std::sqrt(cov11 * chisq / (static_cast<double>(n) - 2))
-              : std::numeric_limits<double>::infinity();
+              : inf;
     return {-slope, half_width, static_cast<int>(n)};
 }
 

@@ -11,8 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
+
+#include "schemes/trace.hpp"
 
 namespace jvari {
 
@@ -135,7 +136,6 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
 
 Partial strongest_near(std::span<const double> signal, double rate, double guess,
                        double half_width) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     Partial strongest{nan, nan, 0, nan};
     for (const Partial& p : partials_between(signal, rate, guess - half_width, guess + half_width))
         if (p.amplitude > strongest.amplitude) strongest = p;

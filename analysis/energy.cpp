@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace jvari {
 
 EnergyBalance energy_balance(std::span<const double> stored, std::span<const double> supplied,
                              std::span<const double> dissipated) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
-                     inf = std::numeric_limits<double>::infinity();
     if (stored.size() != supplied.size() || stored.size() != dissipated.size())
         throw std::invalid_argument("the energy columns differ in length");
     if (stored.empty()) return {nan, nan, nan, 0, nan, nan, nan};
@@ -59,7 +56,6 @@ EnergyBalance energy_balance(const Trace& trace) {
 }
 
 EnergyGain energy_gain(const Trace& t) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     if (t.energy.empty() || t.rows < 1) return {nan, nan};
     const auto stored = t.energy_column(0), supplied = t.energy_column(1),
                dissipated = t.energy_column(2);

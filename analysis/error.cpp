@@ -8,8 +8,6 @@
 namespace jvari {
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 double largest(std::span<const double> x) {  // NaN where any value is
     double most = 0;

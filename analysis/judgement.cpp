@@ -12,7 +12,6 @@
 namespace jvari {
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array verdict_names = {"sound",    "unjudged",       "flagged",       "inaccurate",
                                       "adhesive", "energy_gaining", "not_converged", "diverged",
                                       "refused",  "error"};

@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
 
 #include "analysis/squared_transform.hpp"
+#include "schemes/trace.hpp"
 
 namespace jvari {
 
 namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 // |X|^2 of real frames of n rows, scaled to one-sided mean squares.
 class Transform {

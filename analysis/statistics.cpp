@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "schemes/trace.hpp"
 
 namespace jvari {
 
 Spread spread_of(std::span<const double> values) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> sorted;
     std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
                  [](double v) { return std::isfinite(v); });

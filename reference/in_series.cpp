@@ -14,7 +14,7 @@
 namespace jvari {
 
 namespace {
-constexpr int most_points = 8;  // lumped contacts and a thread
+constexpr int most_contacts = 8;  // lumped contacts and a thread
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -68,7 +68,7 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     const Modes kept = modes_of(s, modes.count());
     series.C = modal_missing_matrix(descriptor, scene, kept, 0, own);
     series.points = series.C.contacts + (series.C.thread ? 1 : 0);
-    if (series.points > most_points) refuse("takes few contacts");
+    if (series.points > most_contacts) refuse("takes few contacts");
     if (series.points == 0) return series;
     const Matrix C = Eigen::Map<const Matrix>(series.C.C.data(), series.points, series.points);
     const Sites sites = sites_of(scene);
@@ -89,16 +89,15 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
 
 double series_rate(const InSeries& s) {
     if (s.states == 0) return 0;
-    return Eigen::EigenSolver<Matrix>(Eigen::Map<const Matrix>(s.A.data(), s.states, s.states),
-                                      false)
-        .eigenvalues()
-        .cwiseAbs()
-        .maxCoeff();
+    using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    const Long A = Eigen::Map<const Matrix>(s.A.data(), s.states, s.states).cast<long double>();
+    return static_cast<double>(
+        Eigen::EigenSolver<Long>(A, false).eigenvalues().cwiseAbs().maxCoeff());
 }
 
 void add_series(const Block& out, int row, const InSeries& series, const double* z,
                 double F_e) noexcept {
-    double P[most_points] = {};
+    double P[most_contacts] = {};
     for (int a = 0; a < series.points; ++a)
         for (int b = 0; b < series.points; ++b) P[a] += series.stiff[a * series.points + b] * z[b];
     for (int k = 0; k < out.taps; ++k)

@@ -3,11 +3,15 @@
 // measured with.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace jvari {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();  // what is not known
+inline constexpr double inf = std::numeric_limits<double>::infinity();
 
 struct Trace {
     double tap_rate = 0;             // [Hz]

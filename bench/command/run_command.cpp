@@ -145,7 +145,7 @@ store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& 
     std::vector<std::pair<int, Impact>> all;  // string
     for (const Impacts& of : of_strings)
         for (Impact i : of.all()) {
-            if (i.end >= until) i.end = i.speed_out = store::nan;
+            if (i.end >= until) i.end = i.speed_out = nan;
             if (i.start < until) all.emplace_back(&of - of_strings.data(), i);
         }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second.start; });

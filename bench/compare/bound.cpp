@@ -93,8 +93,7 @@ nlohmann::ordered_json json_of(const study::Cells& cells) {
             const Bound b = bound_of(c, m);
             const bool known =
                 b.says() == Bound::Says::measured || b.says() == Bound::Says::at_most;
-            rows[i]["bound" + study::measures()[m].column.substr(5)] =
-                known ? b.most() : store::nan;
+            rows[i]["bound" + study::measures()[m].column.substr(5)] = known ? b.most() : nan;
         }
         Json& errors = rows[i]["errors"] = Json::object();
         for (const std::string& tap : c.taps)

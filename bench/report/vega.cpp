@@ -112,7 +112,7 @@ double width_of(const std::string& text) {
                       : text.substr(unit) == "mm" ? x
                       : text.substr(unit) == "cm" ? 10 * x
                       : text.substr(unit) == "in" ? 25.4 * x
-                                                  : store::nan;
+                                                  : nan;
     if (!(mm >= 40 && mm <= 1000))
         throw store::UsageError("--width " + text +
                                 ": expected a width from 40mm to 1000mm, as 85mm, 8.5cm or 3.3in");

@@ -4,18 +4,18 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "schemes/trace.hpp"
 
 namespace jvari::bench::store {
 
 // A number as the shortest text that reads back as itself; "" for NaN, "inf" for an infinity.
 std::string text_of(double);
 double number_of(const std::string&);  // NaN for "" and for what is no number
-inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // of a scheme: name, value
 using Options = std::vector<std::pair<std::string, std::string>>;

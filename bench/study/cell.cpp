@@ -26,15 +26,15 @@ Summary summary_of(const Descriptor& d, const Scene& scene, const Settings& sett
     const bool continuous = d.clock == Clock::continuous;
     s.scheme = d.name;
     s.scene = scene.name;
-    s.rate = continuous ? store::nan : settings.sample_rate;
+    s.rate = continuous ? nan : settings.sample_rate;
     s.modes = modes_used(scene, settings, run.facts);
     s.dofs = run.dofs;
     s.steps = run.steps;
     s.rows = run.trace.rows;
     s.duration = run.trace.rows > 1 ? (run.trace.rows - 1) / run.trace.tap_rate : 0;
     s.wall_seconds = run.wall_seconds;
-    s.ns_per_step = run.steps > 0 ? run.wall_seconds * 1e9 / run.steps : store::nan;
-    s.times_real_time = run.wall_seconds > 0 ? s.duration / run.wall_seconds : store::nan;
+    s.ns_per_step = run.steps > 0 ? run.wall_seconds * 1e9 / run.steps : nan;
+    s.times_real_time = run.wall_seconds > 0 ? s.duration / run.wall_seconds : nan;
     return s;
 }
 

@@ -22,7 +22,7 @@ const Figure& TabledCell::figure(std::size_t measure, const std::string& tap) co
 
 double TabledCell::fact(const std::string& name) const {
     const auto found = std::ranges::find(facts, name, &std::pair<std::string, double>::first);
-    return found == facts.end() ? store::nan : found->second;
+    return found == facts.end() ? nan : found->second;
 }
 
 std::string TabledCell::problem() const {
@@ -43,9 +43,9 @@ std::string TabledCell::run() const {
 namespace {
 Figure figure_of(const Record& r, std::size_t tap, std::size_t measure) {
     const Against& a = r.against;
-    const auto in = [&](const Errors& e) { return tap < e.size() ? e[tap][measure] : store::nan; };
-    Figure f{in(r.cell.errors), measures()[measure].less_is_better ? in(a.floor) : store::nan,
-             store::nan, in(r.cell.in_model), store::nan};
+    const auto in = [&](const Errors& e) { return tap < e.size() ? e[tap][measure] : nan; };
+    Figure f{in(r.cell.errors), measures()[measure].less_is_better ? in(a.floor) : nan, nan,
+             in(r.cell.in_model), nan};
     const auto window =
         std::ranges::find(Trust::columns, "certificate" + measures()[measure].column.substr(5));
     if (window == Trust::columns.end()) return f;
@@ -73,7 +73,7 @@ void add_clock(TabledCell& c, const Cell& cell) {
     }
     c.repeats = t.wall.count;
     if (!(t.wall.median > 0)) return;
-    const double seconds = cell.summary.duration > 0 ? cell.summary.duration : store::nan;
+    const double seconds = cell.summary.duration > 0 ? cell.summary.duration : nan;
     const auto put = [](const Spread& s, double over, double& median, double& lower,
                         double& upper) {
         median = s.median / over;

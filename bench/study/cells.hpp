@@ -19,11 +19,11 @@
 namespace jvari::bench::study {
 
 struct Figure {  // an error, and what is known of it
-    double value = store::nan;
-    double floor = store::nan;        // of noise: of the reference started 1e-12 apart
-    double certificate = store::nan;  // the uncertainty of the reference for the scene
+    double value = nan;
+    double floor = nan;        // of noise: of the reference started 1e-12 apart
+    double certificate = nan;  // the uncertainty of the reference for the scene
     // against a reference with as many modes as the scheme, and how far that solves its model
-    double in_model = store::nan, certificate_in_model = store::nan;
+    double in_model = nan, certificate_in_model = nan;
 };
 // as errors.csv calls them
 constexpr std::pair<const char*, double Figure::*> figure_parts[] = {
@@ -38,17 +38,15 @@ struct TabledCell {
     std::vector<std::pair<std::string, std::string>> swept;  // key, value
     std::string scheme, options, status, flags, machine, load, governor, untimed, below_floor,
         reference, reason, cause, reference_doubling, headline_nut, headline_bridge;
-    double rate = store::nan, modes = store::nan;
-    double cost_s_per_s = store::nan, cost_lower = store::nan, cost_upper = store::nan,
-           processor_s_per_s = store::nan, processor_lower = store::nan,
-           processor_upper = store::nan, wall_seconds = store::nan, wall_seconds_lower = store::nan,
-           wall_seconds_upper = store::nan, ns_per_step = store::nan, times_real_time = store::nan,
-           worst_block_of_deadline = store::nan, repeats = store::nan, pareto = store::nan;
-    double energy_residual_per_step = store::nan, energy_residual_accumulated = store::nan,
-           smallest_contact_force = store::nan, deepest_penetration = store::nan, dofs = store::nan,
-           state_bytes = store::nan, steps = store::nan, failed_step = store::nan,
-           failed_at_s = store::nan, reference_modes = store::nan, free_from_s = store::nan,
-           reference_horizon_s = store::nan;
+    double rate = nan, modes = nan;
+    double cost_s_per_s = nan, cost_lower = nan, cost_upper = nan, processor_s_per_s = nan,
+           processor_lower = nan, processor_upper = nan, wall_seconds = nan,
+           wall_seconds_lower = nan, wall_seconds_upper = nan, ns_per_step = nan,
+           times_real_time = nan, worst_block_of_deadline = nan, repeats = nan, pareto = nan;
+    double energy_residual_per_step = nan, energy_residual_accumulated = nan,
+           smallest_contact_force = nan, deepest_penetration = nan, dofs = nan, state_bytes = nan,
+           steps = nan, failed_step = nan, failed_at_s = nan, reference_modes = nan,
+           free_from_s = nan, reference_horizon_s = nan;
     std::vector<std::pair<std::string, double>> facts;
     std::vector<std::string> taps;
     std::vector<std::vector<Figure>> figures;  // by tap, by measure

@@ -34,7 +34,7 @@ Certificate::ByWindow windows_of(const Json& j) {
     Certificate::ByWindow values;
     for (std::size_t w = 0; w < values.size(); ++w) {
         const auto found = j.find(window_name(w));
-        values[w] = found == j.end() || found->is_null() ? store::nan : found->get<double>();
+        values[w] = found == j.end() || found->is_null() ? nan : found->get<double>();
     }
     if (!j.contains("whole")) throw std::runtime_error("a tap without the whole window");
     return values;
@@ -78,7 +78,7 @@ Certificate::Entry entry_of(const Certificate& c, const Json& plan, const Json& 
     e.reference = plan.at(0);
     for (const auto& [name, value] : plan.at(1).items()) e.options.emplace_back(name, value);
     e.doubled = plan.at(2);
-    e.wall_seconds = store::nan;
+    e.wall_seconds = nan;
     const std::string status = outcome.at("status");
     if (status == "refused") {
         e.reason = outcome.at("reason");
@@ -127,8 +127,7 @@ std::string json_of(const Certificate& c) {
 
 std::string cost_json_of(const Certificate& c) {
     Json seconds = Json::array();
-    for (const auto& e : c.entries)
-        seconds.push_back(e.reason.empty() ? e.wall_seconds : store::nan);
+    for (const auto& e : c.entries) seconds.push_back(e.reason.empty() ? e.wall_seconds : nan);
     return store::kept_text(c.identity(), {{"wall_seconds", seconds}, {"made", store::made_by()}},
                             1);
 }
@@ -169,7 +168,7 @@ void read_costs(const std::filesystem::path& certificate, Certificate& c) {
     const auto seconds = store::read_kept(cost_path(certificate), c.identity(), [](const Json& j) {
         std::vector<double> all;
         for (const Json& x : j.at("wall_seconds"))
-            all.push_back(x.is_number() ? x.get<double>() : store::nan);
+            all.push_back(x.is_number() ? x.get<double>() : nan);
         return all;
     });
     for (std::size_t i = 0; seconds && i < std::min(seconds->size(), c.entries.size()); ++i)

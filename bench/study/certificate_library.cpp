@@ -23,14 +23,13 @@ constexpr double slack = 1e-6;  // of an instant [s]: less than a row
 
 // The instant at which a window of the comparison ends, NaN where the run is shorter.
 std::array<double, 3> window_ends(double until) {
-    return {10e-3 <= until + slack ? 10e-3 : store::nan,
-            50e-3 <= until + slack ? 50e-3 : store::nan, until};
+    return {10e-3 <= until + slack ? 10e-3 : nan, 50e-3 <= until + slack ? 50e-3 : nan, until};
 }
 
 // The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where
 // there is none.
 double covering(const Certificate::ByWindow& values, double end, double reached) {
-    if (std::isnan(end) || end > reached + slack) return store::nan;
+    if (std::isnan(end) || end > reached + slack) return nan;
     if (end > reached - slack) return values.back();
     for (std::size_t w = 0; w + 1 < values.size(); ++w)
         if (end <= agreement_windows[w] + slack && agreement_windows[w] <= reached + slack)
@@ -41,7 +40,7 @@ double covering(const Certificate::ByWindow& values, double end, double reached)
 }  // namespace
 
 double Trust::in_model(std::size_t tap, std::size_t window) const {
-    return tap < figure.size() ? figure[tap][window] : store::nan;
+    return tap < figure.size() ? figure[tap][window] : nan;
 }
 
 double Trust::of_scene(std::size_t tap, std::size_t window) const {
@@ -76,7 +75,7 @@ Trust trust_of(const Certificate& c, const std::string& reference,
         return t;
     }
     struct Largest {
-        double difference = store::nan;
+        double difference = nan;
         const Certificate::Entry* other = nullptr;
     };
     const auto largest = [&](std::size_t tap, double end) {
@@ -92,8 +91,8 @@ Trust trust_of(const Certificate& c, const std::string& reference,
         }
         return most;
     };
-    t.figure.assign(c.taps.size(), {store::nan, store::nan, store::nan});
-    std::vector<double> at_least(c.taps.size(), store::nan);
+    t.figure.assign(c.taps.size(), {nan, nan, nan});
+    std::vector<double> at_least(c.taps.size(), nan);
     // how far others confirm the same program with own compliance, before a sensitive motion
     // multiplies that
     if (is_matched(options)) {

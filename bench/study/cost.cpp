@@ -46,7 +46,7 @@ void take_off_drift(std::span<Timed> of_one_rate, int rounds) {
 Sample sample_of(const Descriptor& d, const Scene& scene, const Settings& settings,
                  double shortest) {
     const auto scheme = make_scheme(d, scene, settings);
-    Sample s{0, 0, store::nan};
+    Sample s{0, 0, nan};
     const RunOptions options{.timed = true};
     const double from = store::processor_seconds(),
                  deadline = options.block_rows / settings.tap_rate;

@@ -49,7 +49,7 @@ double decay(Pair& p) {
         sum += db * db;
         ++rows;
     }
-    return rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : store::nan;
+    return rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : nan;
 }
 }  // namespace
 
@@ -103,7 +103,7 @@ Errors errors_of(const Trace& candidate, const Trace& reference, const Measures&
                  double from) {
     Errors errors;
     for (int k = 0; k < reference.taps(); ++k) {
-        auto& of_tap = errors.emplace_back(measures().size(), store::nan);
+        auto& of_tap = errors.emplace_back(measures().size(), nan);
         const auto own =
             std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
         if (own == candidate.taps()) continue;
@@ -137,7 +137,7 @@ double headline_window(const Scene& scene) {
 }
 
 double horizon_of(const Errors& errors, const Headline& h) {
-    return errors.empty() ? store::nan : errors[h.nut][measure("horizon_s")];
+    return errors.empty() ? nan : errors[h.nut][measure("horizon_s")];
 }
 
 }  // namespace jvari::bench::study

@@ -109,10 +109,10 @@ Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double f
     const Reference &last = truth.reference, &before = truth.coarser.back();
     const Trace &more = last.run.trace, &fewer = before.run.trace;
     const auto taps = static_cast<std::size_t>(more.taps());
-    if (!t.any()) t.figure.assign(taps, {store::nan, store::nan, store::nan});
+    if (!t.any()) t.figure.assign(taps, {nan, nan, nan});
     const double until =
         static_cast<double>(std::min(more.rows, fewer.rows) - 1) / more.tap_rate - from;
-    t.left_out.assign(taps, {store::nan, store::nan, store::nan});
+    t.left_out.assign(taps, {nan, nan, nan});
     for (std::size_t k = 0; k < taps; ++k)
         for (std::size_t w = 0; w < windows.size(); ++w) {
             const double end = windows[w];
@@ -175,7 +175,7 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
         for (std::size_t w = 0; w < figure.size(); ++w) {
             const double end = windows[w];
             const bool covered = w == 2 ? whole : end <= until + 1e-6;
-            figure[w] = covered ? change(r.run.trace, run.trace, k, from, end) : store::nan;
+            figure[w] = covered ? change(r.run.trace, run.trace, k, from, end) : nan;
         }
     }
     r.trust.against = sundials.name;
@@ -189,7 +189,7 @@ double left_out(const Truth& t, const Apart& apart, double solved_to) {
         changes.push_back(
             apart(t.coarser[n].run.trace,
                   (n + 1 < t.coarser.size() ? t.coarser[n + 1] : t.reference).run.trace));
-    if (changes.empty()) return store::nan;
+    if (changes.empty()) return nan;
     double left = left_after(changes, t.matched);
     // what is no more than either is solved to does not grow
     if (std::isnan(left) && changes.back() <= solved_to)

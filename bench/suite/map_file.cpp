@@ -165,7 +165,7 @@ store::Table maps_table(const MapRun& run) {
     for (const JudgedPoint& p : run.points) {
         const study::Summary& s = p.tried.record.cell.summary;
         const bool ran = p.tried.record.cell.ran();
-        const auto number = [ran](double x) { return store::text_of(ran ? x : store::nan); };
+        const auto number = [ran](double x) { return store::text_of(ran ? x : nan); };
         t.rows.push_back({p.at.map->name, p.at.map->scene, p.at.scheme->name, p.at.map->x.key,
                           p.at.x, p.at.map->y.key, p.at.y, name_of(p.tried.judgement.verdict),
                           p.tried.judgement.detail, ran ? p.tried.record.against.reference : "",

@@ -18,7 +18,7 @@ namespace {
 constexpr double listening_points[] = {0.3, 0.437};
 
 double worst_nut(const study::Errors& errors, const Scene& scene) {
-    double worst = store::nan;
+    double worst = nan;
     for (std::size_t k = 0; k < errors.size(); ++k)
         if (scene.taps[k].quantity == Quantity::nut_force)
             worst = std::fmax(worst, errors[k][study::measure("error_l2_whole")]);

@@ -34,7 +34,7 @@ double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, 
     const study::Reference& of = t.reference;
     // the waveform's windows come first among the measures
     if (measure < study::Trust::columns.size())
-        return of.trust.any() ? of.trust.of_scene(tap, measure) : store::nan;
+        return of.trust.any() ? of.trust.of_scene(tap, measure) : nan;
     const double rate = of.run.trace.tap_rate;
     const auto column = [&](const Trace& t) {
         return rows_from(t.column(static_cast<int>(tap)), from, rate);
@@ -185,8 +185,8 @@ Judged Judge::judged(const Model& m, int start, double limit) {
     const study::Cell& cell = record.cell;
     if (cell.failure == "past_time_limit") return {};
     const bool whole = cell.ran() && cell.summary.status.outcome == Outcome::ok;
-    return judged_[job.id] = {study::judge(cell, store::nan).verdict,
-                              whole ? cell.errors.at(tap_)[measure_] : store::nan,
+    return judged_[job.id] = {study::judge(cell, nan).verdict,
+                              whole ? cell.errors.at(tap_)[measure_] : nan,
                               cell.summary.processor_seconds};
 }
 

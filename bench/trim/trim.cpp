@@ -65,7 +65,7 @@ Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
     const Judged j = judge.judged(m, start);
     return {start,
             name_of_start(started(judge.scene(), start)),
-            j.trusted() ? j.error : store::nan,
+            j.trusted() ? j.error : nan,
             judge.certificate(start),
             judge.within(j, start),
             judged_by,

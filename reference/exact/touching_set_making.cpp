@@ -11,35 +11,35 @@
 namespace jvari {
 
 namespace {
-using Real = long double;
-using Complex = std::complex<Real>;
-using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>;
+using LongReal = long double;
+using LongComplex = std::complex<LongReal>;
+using LongMatrix = Eigen::Matrix<LongReal, Eigen::Dynamic, Eigen::Dynamic>;
+using LongComplexMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
 
 // what a contact alone has in radians per window, and the slowest of what is split off
-constexpr Real stiff = 12, least = 10;
-constexpr Real most_spans = 100;  // of a window
+constexpr LongReal stiff = 12, least = 10;
+constexpr LongReal most_spans = 100;  // of a window
 // of a soft set's growth: e^9 last bits are as much as the tolerances here bear
-constexpr Real longest_span = 9;
+constexpr LongReal longest_span = 9;
 constexpr int resolvent_terms = 72;  // 9^72/72! is nothing
 
 // x^n, n < `powers`, on [0, 1] as polynomials of degree N - 1 by their Chebyshev series:
 // coefficients of x^i [i][n]. x^n = 2^(1 - 2n) (C(2n, n)/2 + sum_k C(2n, n - k) T_k(2x - 1)). Up to
 // n = N - 1 nothing changes.
-Matrix economised(int N, int powers) {
+LongMatrix economised(int N, int powers) {
     // T_k(2x - 1) = (4x - 2) T_(k-1) - T_(k-2) [i][k]
-    Matrix T = Matrix::Zero(N, N), out = Matrix::Identity(N, powers);
+    LongMatrix T = LongMatrix::Zero(N, N), out = LongMatrix::Identity(N, powers);
     T(0, 0) = 1;
     if (N > 1) T(0, 1) = -1, T(1, 1) = 2;
     for (int k = 2; k < N; ++k)
         for (int i = 0; i <= k; ++i)
             T(i, k) = (i > 0 ? 4 * T(i - 1, k - 1) : 0) - 2 * T(i, k - 1) - T(i, k - 2);
     for (int n = N; n < powers; ++n) {
-        Real c = 1;  // C(2n, n)/4^n
-        for (int i = 1; i <= n; ++i) c *= static_cast<Real>(2 * i - 1) / (2 * i);
+        LongReal c = 1;  // C(2n, n)/4^n
+        for (int i = 1; i <= n; ++i) c *= static_cast<LongReal>(2 * i - 1) / (2 * i);
         for (int k = 0; k < N; ++k) {
             out.col(n) += (k == 0 ? c : 2 * c) * T.col(k);
-            c *= static_cast<Real>(n - k) / (n + k + 1);
+            c *= static_cast<LongReal>(n - k) / (n + k + 1);
         }
     }
     return out;
@@ -50,46 +50,47 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
                          std::span<const double> stiffness)
     : window_(&w), points_(points.begin(), points.end()), k_(stiffness.begin(), stiffness.end()) {
     const int P = static_cast<int>(points_.size()), N = w.terms, size = w.size;
-    const auto h = [&](int a, int b, int j) { return static_cast<Real>(w.kernel(a, b)[j]); };
-    std::vector<Matrix> A(N + 2, Matrix::Zero(P, P));  // H_j K
+    const auto h = [&](int a, int b, int j) { return static_cast<LongReal>(w.kernel(a, b)[j]); };
+    std::vector<LongMatrix> A(N + 2, LongMatrix::Zero(P, P));  // H_j K
     for (int j = 0; j < N; ++j)
         for (int a = 0; a < P; ++a)
             for (int b = 0; b < P; ++b) A[j](a, b) = h(points_[a], points_[b], j) * k_[b];
 
     // The fast invariant subspace: (p, p')' = L (p, p')' with I^i p = [1 0] L^-i (p, p')'.
-    Matrix symmetric(P, P);
+    LongMatrix symmetric(P, P);
     // of radians; a decay is to be as fast
-    const Matrix squares = A[0].isZero(0) ? A[1] : Matrix(A[0] * stiff);
+    const LongMatrix squares = A[0].isZero(0) ? A[1] : LongMatrix(A[0] * stiff);
     for (int a = 0; a < P; ++a)
         for (int b = 0; b < P; ++b)
-            symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<Real>(k_[a]) / k_[b]);
-    const Matrix even = (symmetric + symmetric.transpose()) / 2;
+            symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<LongReal>(k_[a]) / k_[b]);
+    const LongMatrix even = (symmetric + symmetric.transpose()) / 2;
     const bool all_stiff =
-        Eigen::LLT<Matrix>(even - stiff * stiff * Matrix::Identity(P, P)).info() == Eigen::Success;
+        Eigen::LLT<LongMatrix>(even - stiff * stiff * LongMatrix::Identity(P, P)).info() ==
+        Eigen::Success;
     if (!all_stiff) {
         soften();
         return;
     }
-    Matrix first = Matrix::Zero(2 * P, 2 * P);
+    LongMatrix first = LongMatrix::Zero(2 * P, 2 * P);
     first.topRightCorner(P, P).setIdentity();
     first.bottomLeftCorner(P, P) = -A[1];
     first.bottomRightCorner(P, P) = -A[0];
-    Matrix L = first;
-    Real change = 1;
+    LongMatrix L = first;
+    LongReal change = 1;
     for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
-        const Matrix inverse = L.inverse();
-        Matrix next = first, power = inverse;
+        const LongMatrix inverse = L.inverse();
+        LongMatrix next = first, power = inverse;
         for (int j = 2; j < N; ++j, power = power * inverse)
             next.bottomRows(P) -= A[j] * power.topRows(P);
         change = (next - L).norm() / L.norm();
         L = next;
     }
     if (!(change < 1e-15L)) return;  // no part is so much faster than the others
-    const Eigen::EigenSolver<Matrix> eigen(L);
-    std::vector<Complex> rates;
-    ComplexMatrix v(P, 2 * P);
+    const Eigen::EigenSolver<LongMatrix> eigen(L);
+    std::vector<LongComplex> rates;
+    LongComplexMatrix v(P, 2 * P);
     for (int k = 0; k < 2 * P; ++k) {
-        const Complex rate = eigen.eigenvalues()(k);
+        const LongComplex rate = eigen.eigenvalues()(k);
         if (rate.real() > 0 || std::abs(rate) < least) return;
         if (rate.imag() < 0) continue;
         const int now = static_cast<int>(rates.size());
@@ -100,40 +101,40 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
     const int E = static_cast<int>(rates.size());
 
     // G: rows and columns [derivative][point].
-    Matrix operation = Matrix::Zero(P * N, P * N);
+    LongMatrix operation = LongMatrix::Zero(P * N, P * N);
     for (int n = 0; n < N; ++n) {
         if (n + 2 < N) operation.block(n * P, (n + 2) * P, P, P).setIdentity();
         for (int j = n + 1 < N ? 0 : 1; j <= n + 1 && j < N; ++j)
             operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
     }
-    const Matrix G = operation.partialPivLu().inverse();
+    const LongMatrix G = operation.partialPivLu().inverse();
 
-    ComplexMatrix q = ComplexMatrix::Zero(P * N, E);
+    LongComplexMatrix q = LongComplexMatrix::Zero(P * N, E);
     for (int k = 0; k < E; ++k)
         for (int n = 0; n < N; ++n) {
-            Complex power = Complex(1) / rates[k];
+            LongComplex power = LongComplex(1) / rates[k];
             for (int j = n + 2; j < N; ++j, power /= rates[k])
                 q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
         }
-    const ComplexMatrix Q = G * q;
+    const LongComplexMatrix Q = G * q;
 
-    Matrix start(2 * P, 2 * P);  // Re beta, and -Im beta of pairs that oscillate -> p(0), p'(0)
+    LongMatrix start(2 * P, 2 * P);  // Re beta, and -Im beta of pairs that oscillate -> p(0), p'(0)
     int column = 0;
     for (int k = 0; k < E; ++k, ++column) {
         const bool oscillates = rates[k].imag() != 0;
-        ComplexMatrix here = v.col(k);
+        LongComplexMatrix here = v.col(k);
         for (int d = 0; d < 2; ++d, here *= rates[k]) {
-            const ComplexMatrix all = here + Q.block(d * P, k, P, 1);
+            const LongComplexMatrix all = here + Q.block(d * P, k, P, 1);
             start.block(d * P, column, P, 1) = all.real();
             if (oscillates) start.block(d * P, column + 1, P, 1) = -all.imag();
         }
         if (oscillates) ++column;
     }
-    const Matrix inverse = start.inverse();
+    const LongMatrix inverse = start.inverse();
 
     pairs_ = E;
     growth_ = w.reach;
-    for (const Complex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
+    for (const LongComplex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
     beta_.assign(2 * E, 0.0);
     for (int b = 0; b < P; ++b) pushed_at_once_.push_back(static_cast<double>(A[0](b, b)));
     start_.assign(static_cast<std::size_t>(2 * E) * 2 * P, 0.0);
@@ -154,7 +155,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
         for (int a = 0; a < w.contacts; ++a) {
             const auto touching = std::find(points_.begin(), points_.end(), a);
             double* slow = slow_.data() + (static_cast<std::size_t>(a) * E + k) * 2 * size;
-            const auto add = [&](int n, Complex x) {
+            const auto add = [&](int n, LongComplex x) {
                 slow[n] += static_cast<double>(x.real());
                 slow[size + n] += static_cast<double>(x.imag());
             };
@@ -166,13 +167,14 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
             }
             // -sum_b k_b v_b sum_j h_j lambda^(-j-1) of e^(lambda u), and what I^(j+1) leaves of it
             // as powers
-            Complex sum = 0;
+            LongComplex sum = 0;
             for (int b = 0; b < P; ++b)
                 for (int j = 0; j < N; ++j) {
-                    const Complex part = -static_cast<Real>(k_[b]) * v(b, k) * h(a, points_[b], j);
-                    sum += part * std::pow(rates[k], static_cast<Real>(-j - 1));
+                    const LongComplex part =
+                        -static_cast<LongReal>(k_[b]) * v(b, k) * h(a, points_[b], j);
+                    sum += part * std::pow(rates[k], static_cast<LongReal>(-j - 1));
                     for (int n = 0; n <= j; ++n)
-                        add(n, -part * std::pow(rates[k], static_cast<Real>(n - j - 1)));
+                        add(n, -part * std::pow(rates[k], static_cast<LongReal>(n - j - 1)));
                 }
             shape_[a * E + k] = static_cast<std::complex<double>>(sum);
         }
@@ -185,32 +187,33 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
 void TouchingSet::soften() noexcept {
     const MacroWindow& w = *window_;
     const int P = static_cast<int>(points_.size()), N = w.terms;
-    std::vector<Matrix> R(resolvent_terms, Matrix::Zero(w.contacts, P));
+    std::vector<LongMatrix> R(resolvent_terms, LongMatrix::Zero(w.contacts, P));
     for (int b = 0; b < P; ++b) R[0](points_[b], b) = 1;
-    Real growth = w.reach;
+    LongReal growth = w.reach;
     for (int n = 1; n < resolvent_terms; ++n) {
         for (int j = 0; j < std::min(n, N); ++j)
             for (int a = 0; a < w.contacts; ++a)
                 for (int b = 0; b < P; ++b)
-                    R[n].row(a) -= static_cast<Real>(w.kernel(a, points_[b])[j]) * k_[b] *
+                    R[n].row(a) -= static_cast<LongReal>(w.kernel(a, points_[b])[j]) * k_[b] *
                                    R[n - 1 - j].row(points_[b]);
-        if (n >= N / 2 && n < N) growth = std::max(growth, std::pow(R[n].norm(), Real(1) / n));
+        if (n >= N / 2 && n < N) growth = std::max(growth, std::pow(R[n].norm(), LongReal(1) / n));
     }
     growth_ = static_cast<double>(growth);
-    const Real span = std::min<Real>(1, std::min<Real>(3 * w.reach, longest_span) / growth);
+    const LongReal span =
+        std::min<LongReal>(1, std::min<LongReal>(3 * w.reach, longest_span) / growth);
     span_ = static_cast<double>(span);
     if (growth > most_spans * w.reach) return;
-    Matrix shorter = economised(N, resolvent_terms);  // of derivatives over the span
+    LongMatrix shorter = economised(N, resolvent_terms);  // of derivatives over the span
     for (int n = N; n < resolvent_terms; ++n)
         for (int i = 0; i < N; ++i)
-            shorter(i, n) *= std::exp(std::lgamma(i + Real(1)) - std::lgamma(n + Real(1))) *
+            shorter(i, n) *= std::exp(std::lgamma(i + LongReal(1)) - std::lgamma(n + LongReal(1))) *
                              std::pow(span, n - i);
     resolvent_.assign(static_cast<std::size_t>(w.contacts) * P * N * w.size, 0.0);
     for (int a = 0; a < w.contacts; ++a)
         for (int b = 0; b < P; ++b)
             for (int m = 0; m < N; ++m)
                 for (int i = 0; i < N; ++i) {
-                    Real sum = i >= m ? R[i - m](a, b) : Real(0);
+                    LongReal sum = i >= m ? R[i - m](a, b) : LongReal(0);
                     for (int n = N; n < resolvent_terms; ++n) sum += shorter(i, n) * R[n - m](a, b);
                     resolvent_[((static_cast<std::size_t>(a) * P + b) * N + m) * w.size + i] =
                         static_cast<double>(sum);

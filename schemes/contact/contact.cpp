@@ -33,7 +33,7 @@ PowerQuotient power_quotient(double p, double z) {
 namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // 7 are seen at the worst up to exponent 5, 36 with exponent 50
-constexpr int most_iterations = 60;
+constexpr int newton_steps = 60;
 
 // scale = V(eta)/eta [N]
 ContactSolution stay(double p, double scale, double eta, double B, double S) {
@@ -48,7 +48,7 @@ ContactSolution stay(double p, double scale, double eta, double B, double S) {
         z = std::min(z, std::pow(B / S, 1 / (p - 1)));  // (1+z)^p - 1 > z^p
     }
     z = std::max(z, -1.0);
-    for (s.iterations = 1; s.iterations <= most_iterations; ++s.iterations) {
+    for (s.iterations = 1; s.iterations <= newton_steps; ++s.iterations) {
         const auto [value, slope] = power_quotient(p, z);
         const double residual = z - B + S * value, size = std::abs(z) + std::abs(B) + S * value;
         const double step = residual / (1 + S * slope);
@@ -74,7 +74,7 @@ ContactSolution enter(double k, double p, double gap, double free, double theta)
     const double near = gap > 0 ? (carried + std::log(gap)) / p : -HUGE_VAL,
                  deep = carried / (p - 1);
     double x = std::min(free, std::exp(std::max(near, deep)));
-    for (s.iterations = 1; s.iterations <= most_iterations; ++s.iterations) {
+    for (s.iterations = 1; s.iterations <= newton_steps; ++s.iterations) {
         // theta V(x)/(e + x)
         const double reach = gap + x, load = T * std::pow(x, p - 1) * (x / reach);
         const double residual = x + load - free;
@@ -101,7 +101,7 @@ double depth_in_series(const ContactLaw& law, double zeta, double S) {
     if (law.alpha == 1) return zeta / (1 + S * law.k);
     // both are above the root, and the function is convex
     double eta = std::min(zeta, std::pow(zeta / (S * law.k), 1 / law.alpha));
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < newton_steps; ++i) {
         const double load = S * law.k * std::pow(eta, law.alpha);
         const double step = (eta + load - zeta) / (1 + law.alpha * load / eta);
         eta -= step;

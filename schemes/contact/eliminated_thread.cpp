@@ -5,7 +5,7 @@
 namespace jvari {
 
 namespace {  // rounded once: an error here is one in the balance of every step, and of one sign
-using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 }
 
 EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts,
@@ -14,14 +14,14 @@ EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts,
     const int n = contacts, m = count(), all = n + m;
     if (m == 0) return;
     for (const Thread& t : laws_) phi_.push_back(0.5 * t.stiffness + t.damping / span);
-    Matrix give = Matrix::Identity(m, m), across(m, n);
+    LongMatrix give = LongMatrix::Identity(m, m), across(m, n);
     for (int t = 0; t < m; ++t) {
         for (int u = 0; u < m; ++u)
             give(t, u) += static_cast<long double>(phi_[t]) * theta[(n + t) * all + n + u];
         for (int a = 0; a < n; ++a)
             across(t, a) = static_cast<long double>(phi_[t]) * theta[(n + t) * all + a];
     }
-    const Matrix inverse = give.inverse(), answer = inverse * across;
+    const LongMatrix inverse = give.inverse(), answer = inverse * across;
     for (int t = 0; t < m; ++t) {
         for (int u = 0; u < m; ++u) inverse_.push_back(static_cast<double>(inverse(t, u)));
         for (int a = 0; a < n; ++a) answer_.push_back(static_cast<double>(answer(t, a)));

@@ -11,8 +11,8 @@ namespace jvari {
 
 namespace {
 constexpr int most_steps = 60;
-constexpr double rounding = 2e-15, force_change = 1e-9;  // as in contact_gram.cpp
-constexpr double no_psi = 1e-150;                        // [sqrt(J)] its square is no number
+constexpr double root_rounding = 2e-15, root_change = 1e-9;  // as in contact_gram.cpp
+constexpr double no_psi = 1e-150;                            // [sqrt(J)] its square is no number
 }  // namespace
 
 QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws,
@@ -116,8 +116,8 @@ bool QuadratisedContacts::release() noexcept {
             df_[a] = scale_[a] * work_[i];
             double reach = std::abs(free_[a]) + std::abs(eta_[a]);
             for (int b = 0; b < n; ++b) reach += std::abs(theta_[a * n + b] * f_[b]);
-            solved = solved && (std::abs(df_[a]) <= force_change * f_[a] ||
-                                std::abs(falls_short(a)) <= rounding * reach);
+            solved = solved && (std::abs(df_[a]) <= root_change * f_[a] ||
+                                std::abs(falls_short(a)) <= root_rounding * reach);
             if (f_[a] + df_[a] <= 0)
                 t = std::min(t, psi_[a] > 0 ? -0.9 * f_[a] / df_[a]
                                 : f_[a] > 0 ? -f_[a] / df_[a]

@@ -8,7 +8,7 @@
 namespace jvari {
 
 namespace {
-struct Column {
+struct RuleColumn {
     const char *name, *source;
     bool conserves, own_only;
     std::span<const Option> options;
@@ -23,7 +23,7 @@ struct Column {
      options_of<Rule>(),              \
      approximations_of<Rule>(),       \
      left_out_by<Rule>()},
-const Column columns[] = {JVARI_RULES(JVARI_ROW)};
+const RuleColumn columns[] = {JVARI_RULES(JVARI_ROW)};
 #undef JVARI_ROW
 
 const std::vector<const StringRow*>& rows() {
@@ -35,12 +35,12 @@ const std::vector<const StringRow*>& rows() {
     return all;
 }
 
-const StringRow::Known* known_cell(const StringRow& row, const Column& column) {
+const StringRow::Known* known_cell(const StringRow& row, const RuleColumn& column) {
     for (const StringRow::Known& k : row.known)
         if (k.rule && std::string(k.rule) == column.name) return &k;
     return nullptr;
 }
-std::string new_name(const StringRow& row, const Column& column) {
+std::string new_name(const StringRow& row, const RuleColumn& column) {
     return std::string(row.scheme->name) + "_" + column.name;
 }
 template <class T>
@@ -65,7 +65,7 @@ std::vector<Pairing> pairings() {
     std::vector<Pairing> all;
     for (const StringRow* row : rows()) {
         all.push_back({row->scheme->name, "gradient", row->scheme->name, ""});
-        for (const Column& column : columns) {
+        for (const RuleColumn& column : columns) {
             const StringRow::Known* known = known_cell(*row, column);
             all.push_back({row->scheme->name, column.name,
                            known ? known->scheme->name : new_name(*row, column),

@@ -19,12 +19,12 @@
 // Leaves out: a stability limit of several contacts, rigid barriers, compliance=matched,
 // polarisation, a body that moves.
 #include <cmath>
-#include <limits>
 
 #include "schemes/contact/explicit_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal/three_point_modes.hpp"
+#include "schemes/trace.hpp"
 
 namespace jvari {
 
@@ -32,7 +32,6 @@ extern const Descriptor modal_explicit_penalty;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Option options[] = {profile_points_option};
 
 class PenalisedModes : public ThreePointModes {

@@ -97,7 +97,7 @@ void lay_bridge(SitarString& s, double plucked) {
 namespace {
 // How much a Hann window of full width s rounds |u|/2 off, h = (1 + cos(2 pi u/s))/s: its second
 // integral less |u|/2. 0 beyond the window.
-double rounding(double u, double s) {
+double corner(double u, double s) {
     if (std::abs(u) >= 0.5 * s) return 0;
     return u * u / (2 * s) - s / (4 * pi * pi) * std::cos(2 * pi * u / s) + s / 8 -
            s / (4 * pi * pi) - 0.5 * std::abs(u);
@@ -114,8 +114,8 @@ struct ShapeAt {
         const double x0 = t.position, kink = t.amplitude * L / (x0 * (L - x0));
         const double sharp = t.amplitude * (x < x0 ? x / x0 : (L - x) / (L - x0));
         // of opposite sign beyond each end
-        const double image = rounding(x + x0, t.smoothing) + rounding(2 * L - x - x0, t.smoothing);
-        return sharp - kink * (rounding(x - x0, t.smoothing) - image);
+        const double image = corner(x + x0, t.smoothing) + corner(2 * L - x - x0, t.smoothing);
+        return sharp - kink * (corner(x - x0, t.smoothing) - image);
     }
 };
 }  // namespace

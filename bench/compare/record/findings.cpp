@@ -28,10 +28,9 @@ bool beats(const Point& a, const Point& b) {
 Point point_of(const study::TabledCell& cell, std::size_t measure) {
     const Bound b = bound_of(cell, measure);
     const bool known = trusted(cell) && b.says() != Bound::Says::unknown;
-    return {
-        known ? cell.cost_s_per_s : store::nan, cell.cost_lower, cell.cost_upper,
-        std::isnan(b.error) ? store::nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
-        std::isnan(b.certificate) ? 0 : b.certificate};
+    return {known ? cell.cost_s_per_s : nan, cell.cost_lower, cell.cost_upper,
+            std::isnan(b.error) ? nan : std::fmax(b.error, std::fmax(b.floor, b.certificate)),
+            std::isnan(b.certificate) ? 0 : b.certificate};
 }
 }  // namespace
 
@@ -91,7 +90,7 @@ std::vector<ObservedOrder> convergence_of(const Cells& cells) {
                 ObservedOrder o{rows.front(), m,        tap, cells[fall.rows.front()].modes,
                                 fall.order,   HUGE_VAL, 0};
                 for (const std::size_t i : fall.rows) {
-                    if (cells[i].modes != o.modes) o.modes = store::nan;
+                    if (cells[i].modes != o.modes) o.modes = nan;
                     o.from_hz = std::min(o.from_hz, cells[i].rate);
                     o.to_hz = std::max(o.to_hz, cells[i].rate);
                 }
@@ -152,7 +151,7 @@ double median_spread(const study::Cells& cells) {
         const double spread = 0.5 * (c.cost_upper - c.cost_lower) / c.cost_s_per_s;
         if (std::isfinite(spread)) spreads.push_back(spread);
     }
-    return spreads.empty() ? store::nan : spread_of(spreads).median;
+    return spreads.empty() ? nan : spread_of(spreads).median;
 }
 
 std::string busy_text(const study::Cells& cells) {
