@@ -16,11 +16,10 @@
 
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare.hpp"
-#include "bench/compare/record/compare_record.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/report/report.hpp"
-#include "bench/report/results_folder.hpp"
+#include "bench/report/results.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/cells.hpp"

@@ -5,7 +5,7 @@
 #include "bench/check/promise.hpp"
 #include "bench/compare/compare_plan.hpp"
 #include "bench/judge/judge.hpp"
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "python/calls.hpp"
 #include "python/own_schemes.hpp"
 

@@ -31,7 +31,7 @@ public:
     void forget() noexcept { known_ = 0; }  // what follows does not go on from what was
     void next(double t, double x) noexcept {
         most = std::max(most, x);
-        if (known_ == 2 && x_[1] >= x_[0] && x_[1] >= x) {
+        if (known_ == 2 && x_[1] > 0 && x_[1] >= x_[0] && x_[1] >= x) {
             const double slope = (x - x_[1]) / (t - t_[1]), room = t_[1] - t_[0],
                          bend = ((x_[1] - x_[0]) / room - slope) / (t - t_[0]);
             const double now = slope + bend * (t - t_[1]);  // at t_[1]

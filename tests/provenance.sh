@@ -32,7 +32,7 @@ plant() {  # plant FILE NAME other|same: a line more in FILE makes hash NAME ano
 }
 for file in bench/trim/target.cpp bench/suite/difference_rules.cpp \
     bench/check/claims.cpp bench/store/keys.hpp bench/study/errors.cpp bench/suite/trial.cpp \
-    bench/suite/facets.cpp bench/study/kept_run.cpp bench/new_room/new.cpp analysis/error.cpp \
+    bench/suite/facets.cpp bench/study/reference.cpp bench/new_room/new.cpp analysis/error.cpp \
     reference/sundials.cpp schemes/modal/modal_two_point.cpp schemes/schemes.def \
     schemes/modal/kernels/modal_two_point_pass-inl.hpp scenes/damping.cpp; do
     plant $file JVARI_CELL_SOURCES other

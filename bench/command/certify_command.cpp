@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
-#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -18,7 +17,7 @@
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/certificate_library.hpp"
-#include "bench/study/kept_run.hpp"
+#include "bench/study/reference.hpp"
 
 namespace jvari::bench::command {
 

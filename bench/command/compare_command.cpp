@@ -10,11 +10,8 @@
 #include <sstream>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results.hpp"
-#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
-#include "bench/compare/diagnosis.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"

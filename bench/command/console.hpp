@@ -1,10 +1,16 @@
 // The terminal: results on standard output, messages and progress on standard error.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "bench/report/results.hpp"
 #include "bench/store/system/listener.hpp"
+#include "bench/study/cells.hpp"
+#include "bench/study/record.hpp"
 
 namespace jvari::bench::command {
 
@@ -51,5 +57,41 @@ private:
 
 // Returns the exit code, or throws: UsageError, BadScene, SceneFileError (2), Refusal (3).
 int call(int argc, const char* const* argv);
+
+// ---- A table for the terminal: columns as wide as what stands in them.
+//
+// Where it is wider than the terminal, columns are left out, those of the highest rank first; one
+// of rank 0 stays.
+
+struct TextTable {
+    struct Column {
+        std::string head;
+        bool left = false;  // where its fields stand in it
+        int rank = 0;
+    };
+    struct Row {
+        char mark;  // in front of the line
+        std::vector<std::string> fields;
+    };
+    std::vector<Column> columns;
+    std::vector<Row> rows;
+
+    // each line with its end; a last one says what was left out
+    std::string text(std::size_t width) const;
+};
+
+// ---- The table of a comparison for the terminal.
+
+// The front marked, and what is not to be trusted; in lines of that width, cost and headline error
+// always.
+std::string headline_text(const study::Cells&, std::size_t width);
+
+// ---- What the verbs that compare schemes say of their results.
+
+// The exit code of a study: done where a run of it was, or where there was nothing to run.
+int code_of(const std::vector<study::Record>&);
+
+// What `compare`, `judge` and `suite` say of their results as JSON, behind what is their own.
+std::string with_results(nlohmann::ordered_json own, const report::Written&);
 
 }  // namespace jvari::bench::command

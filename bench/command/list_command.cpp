@@ -11,7 +11,6 @@
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
 #include "bench/study/cells.hpp"
-#include "bench/suite/facet.hpp"
 #include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/controls.hpp"

@@ -7,8 +7,6 @@
 
 #include "bench/check/promise.hpp"
 #include "bench/command/console.hpp"
-#include "bench/command/results.hpp"
-#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/judge/judge.hpp"

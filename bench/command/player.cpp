@@ -13,7 +13,7 @@
 
 #include "analysis/convolution.hpp"
 #include "bench/store/fresh_file.hpp"
-#include "bench/store/sound.hpp"
+#include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
 
 namespace jvari::bench::command {

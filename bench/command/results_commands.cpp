@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/findings.hpp"
-#include "bench/report/page.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"

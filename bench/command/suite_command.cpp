@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results.hpp"
-#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/record/cheapest.hpp"
@@ -20,7 +18,6 @@
 #include "bench/store/system/interruption.hpp"
 #include "bench/study/cells.hpp"
 #include "bench/study/run.hpp"
-#include "bench/suite/facet.hpp"
 #include "bench/suite/maps.hpp"
 #include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"

@@ -1,4 +1,4 @@
-#include "bench/command/text_table.hpp"
+#include "bench/command/console.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/diagnosis.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "schemes/facts.hpp"
 
 namespace jvari::bench::command {

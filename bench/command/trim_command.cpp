@@ -8,13 +8,11 @@
 #include <optional>
 
 #include "bench/command/console.hpp"
-#include "bench/command/results.hpp"
-#include "bench/command/text_table.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
-#include "bench/store/sound.hpp"
 #include "bench/store/system/interruption.hpp"
+#include "bench/store/trace_file.hpp"
 #include "bench/trim/trim.hpp"
 #include "schemes/run.hpp"
 

@@ -1,5 +1,5 @@
 // Modes: unasked, every cell carries the modes below 20 kHz and below half the lowest rate, and the
-// reference starts from as many. What more is tried is in variants.hpp. Two kinds of schemes take
+// reference starts from as many. What more is tried is in variants.cpp. Two kinds of schemes take
 // others: a grid takes its nodes from the rate, and one whose points of contact are nodes of its
 // modes may need more of them, which a note says. Several strings have each as many as lie below 20
 // kHz.
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 
-#include "bench/compare/variants.hpp"
 #include "bench/study/cell.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"

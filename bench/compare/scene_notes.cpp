@@ -1,14 +1,18 @@
 #include "bench/compare/scene_notes.hpp"
 
 #include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
 
+#include "analysis/convergence.hpp"
+#include "bench/compare/bound.hpp"
 #include "scenes/barrier.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/start.hpp"
+#include "schemes/contact/compliance.hpp"
+#include "schemes/making.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
 
@@ -103,6 +107,172 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
                        : "nothing sets it in motion; give it [string.start] or [string.pluck]";
         listener.note(fmt::format("warning: string {} of {} stays silent: {}", i, scene.name, why));
     }
+}
+
+namespace {
+constexpr double least_order = 0.5;  // below it a rate that would do is out of reach
+constexpr double hardly = 0.1;       // an order below it is none
+constexpr double furthest = 64;      // of an extrapolation, in rates
+constexpr double fewest_points = 3;  // two lie on every line
+// an error in the model of less than this of the error: the rest is of the modes left out
+constexpr double of_the_modes = 0.3;
+// of a horizon that is worth a word; the latter [s]
+constexpr double before_the_end = 0.98, first_of_all = 1e-3;
+
+std::string rate_text(double hertz) { return fmt::format("{:.4g} kHz", hertz / 1000); }
+
+using Cell = study::TabledCell;
+using study::Cells, study::Rows;
+
+bool is_grid(const Cell& c) { return c.fact(facts::grid_intervals.name) > 0; }
+
+const Cell* least(const Cells& cells, const Rows& rows, std::size_t measure) {
+    const Cell* best = nullptr;
+    const auto shown = [&](const Cell& c) { return bound_of(c, measure).shown(); };
+    for (const std::size_t i : rows)
+        if (std::isfinite(shown(cells[i])) && (!best || shown(cells[i]) < shown(*best)))
+            best = &cells[i];
+    return best;
+}
+
+const Cell* cheapest_within(const Cells& cells, const Rows& rows, std::size_t measure,
+                            double most) {
+    const Cell* best = nullptr;
+    for (const std::size_t i : rows)
+        if (bound_of(cells[i], measure).most() <= most &&
+            (!best || cells[i].cost_s_per_s < best->cost_s_per_s))
+            best = &cells[i];
+    return best;
+}
+
+// Over all rates of the series that `cell` is of, errors that noise and reference allow.
+Order order_of(const Cells& cells, const Cell& cell, std::size_t measure) {
+    Rows series = study::all_rows(cells);
+    std::erase_if(series, [&](std::size_t i) {
+        return !cells[i].flags.empty() || !cells[i].same_series(cell) ||
+               (!is_grid(cell) && cells[i].modes != cell.modes);
+    });
+    return fall_over_rates(cells, series, measure).order;
+}
+
+std::string of_the_rate(const Order& o, const Cell& cell, std::size_t measure, double most) {
+    if (o.points < fewest_points || !std::isfinite(o.half_width))
+        return o.points < 2 ? "" : " Two rates are too few to extrapolate: run a third.";
+    if (o.order - o.half_width <= 0 && o.order + o.half_width >= least_order)
+        return " From these rates it cannot be told whether a higher rate helps.";
+    if (o.order < hardly || o.order - o.half_width <= 0)
+        return fmt::format(
+            " The error hardly falls with the rate (order {:.2f}), so a higher rate will not help.",
+            std::max(0.0, o.order));
+    const double rate = cell.rate * std::pow(cell.figure(measure).value / most, 1 / o.order);
+    if (o.order < least_order || rate > furthest * cell.rate)
+        return fmt::format(
+            " The error falls with the rate (order {:.2g}), but no rate within reach is enough.",
+            o.order);
+    return fmt::format(
+        " The error falls with the rate (order {:.2g}): {} would be enough, extrapolated and not "
+        "run.",
+        o.order, rate_text(rate));
+}
+
+std::string of_the_modes_left_out(const Cells& cells, const Cell& cell, std::size_t measure) {
+    const study::Figure& f = cell.figure(measure);
+    if (is_grid(cell) || !(cell.modes > 0)) return "";
+    if (f.in_model < of_the_modes * f.value)
+        return fmt::format(" Most of that comes from the modes left out: try `--modes {:.0f}`.",
+                           2 * cell.modes);
+    for (const Cell& other : cells) {  // fewer, at its rate
+        const double order =
+            std::log(other.figure(measure).value / f.value) / std::log(cell.modes / other.modes);
+        if (other.modes < cell.modes && reached(other) && order >= least_order &&
+            other.rate == cell.rate && other.same_series(cell))
+            return fmt::format(" The error falls with the modes: try `--modes {:.0f}`.",
+                               2 * cell.modes);
+    }
+    return "";
+}
+
+// Where no string with as many modes was run that would tell whether they stand in the way.
+std::string of_more_modes(const Cell& cell, std::size_t measure) {
+    const double modes = cell.modes, most = cell.reference_modes;
+    if (is_grid(cell) || std::isfinite(cell.figure(measure).in_model) ||
+        !(modes > 0 && modes < most))
+        return "";
+    return fmt::format(" More modes may help: try `--modes {:.0f}`.", std::min(2 * modes, most));
+}
+
+std::string of_the_compliance(const Cells& cells, const Rows& rows, const Cell& cell) {
+    const auto matched = [&](std::size_t i) {
+        return cells[i].options.find("compliance=matched") != std::string::npos;
+    };
+    const auto has_both = [&](const Descriptor& d) {
+        return d.name == cell.scheme && declares(d, compliance_option.name);
+    };
+    const bool measured = cell.reference_doubling.find("not in your table") != std::string::npos;
+    if (!(cell.deepest_penetration > 0) || measured || std::ranges::any_of(rows, matched) ||
+        std::ranges::none_of(schemes(), has_both))
+        return "";
+    return " compliance=matched was not run.";
+}
+
+std::string instead(const Cells& cells, const Rows& rows, std::size_t measure, double most) {
+    const std::size_t octaves = study::measure("third_octave_db"),
+                      first = study::measure("error_l2_10ms");
+    for (const double db : {1.0, 3.0})
+        if (const Cell* c = cheapest_within(cells, rows, octaves, db))
+            return fmt::format(" By third octaves {:g} dB is reached by {}.", db, c->run());
+    if (measure != first)
+        if (const Cell* c = cheapest_within(cells, rows, first, most))
+            return fmt::format(" Over the first 10 ms{} {} is within {}.", after_pluck(*c),
+                               c->run(), percent(most));
+    const Cell* c = least(cells, rows, octaves);
+    return c ? fmt::format(" By third octaves the closest is {}, {:.2g} dB.", c->run(),
+                           c->figure(octaves).value)
+             : "";
+}
+}  // namespace
+
+std::string percent(double share) {
+    return share >= 0.0995 ? fmt::format("{:.0f} %", 100 * share)
+                           : fmt::format("{:.2g} %", 100 * share);
+}
+
+std::string quoted(const Bound& b, std::size_t measure) {
+    const bool bounded = b.says() == Bound::Says::at_most || b.says() == Bound::Says::unknown;
+    const std::string text = study::measures()[measure].unit == "dB"
+                                 ? fmt::format("{:.2g} dB", b.shown())
+                                 : percent(b.shown());
+    return (bounded ? "\u2264 " : "") + text;
+}
+
+std::string time_text(double seconds) {
+    return seconds >= 0.995 ? fmt::format("{:.2g} s", seconds)
+                            : fmt::format("{:.3g} ms", 1e3 * seconds);
+}
+
+std::string why_none(const Cells& cells, const Rows& rows, std::size_t measure, double most) {
+    const Cell* best = least(cells, rows, measure);
+    if (!best) return "No run covers the window.";
+    const Bound b = bound_of(*best, measure);
+    std::string text = fmt::format("Closest: {}, {} error.", best->run(), quoted(b, measure));
+    if (b.floor > most) {
+        text += fmt::format(" A change of the start by 1e-12 alone makes {}.", percent(b.floor));
+    } else if (b.certificate > most) {
+        text += fmt::format(" The reference is known to {} only.", percent(b.certificate));
+    } else {
+        const std::string modes = of_the_modes_left_out(cells, *best, measure);
+        const Order o = order_of(cells, *best, measure);
+        const bool falls = o.order - o.half_width > 0;
+        text += modes.empty() ? of_the_rate(o, *best, measure, most) +
+                                    (falls ? "" : of_more_modes(*best, measure))
+                              : modes;
+        text += of_the_compliance(cells, rows, *best);
+    }
+    const double h = best->figure(study::measure("horizon_s")).value, from = best->free_from_s,
+                 end = best->wall_seconds / best->cost_s_per_s - (from > 0 ? from : 0);
+    if (h > first_of_all && h < before_the_end * end)
+        text += fmt::format(" Its waveform is within 10 % for {}.", time_text(h));
+    return text + instead(cells, rows, measure, most);
 }
 
 }  // namespace jvari::bench::compare

@@ -1,4 +1,4 @@
-#include "bench/compare/variants.hpp"
+#include "bench/compare/compare_plan.hpp"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

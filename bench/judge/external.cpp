@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"

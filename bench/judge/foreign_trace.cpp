@@ -7,7 +7,6 @@
 
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
-#include "bench/store/sound.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/wording.hpp"

@@ -1,4 +1,4 @@
-#include "bench/report/page.hpp"
+#include "bench/report/report.hpp"
 
 #include <cstring>
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/store/base64.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/report/page.hpp"
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "bench/store/records.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/scene.hpp"
+#include "schemes/trace.hpp"
 
 namespace jvari::bench::report {
 
@@ -32,5 +35,41 @@ std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scri
 // there are (name, is it a control; in the order of their registry), and empty tables, sounds and
 // levels.
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
+
+// ---- The report's page: one file, no network. Its JavaScript (page/*.js) makes what is seen of the
+// data that the page carries; the same JavaScript under node makes the SVG files (vega.hpp).
+
+// `scripts`: the chart libraries as <script> elements; "": no chart. `data`: what page/data.js
+// describes, with its title.
+std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts);
+std::string shared_program();  // what node runs as well: data.js ... verdict.js
+
+// ---- The files of page/, which the build puts into the program: the page's frame, style and
+// scripts, and its charts as Vega-Lite.
+
+struct PageText {
+    const char *name, *text;  // "page.html", what it holds
+};
+std::span<const PageText> page_texts();
+
+const char* page_text(const char* name);  // throws std::logic_error where there is no such file
+
+// ---- `report --playground`: the page that ./play builds, folded into a report.
+
+std::string playground();  // the built page; throws UsageError where there is none
+std::string with_playground(const std::string& report, const std::string& play);
+
+// ---- One run, one picture: its taps over time, spectrum and spectrogram of the first of them, the
+// energy ledger where it was probed, when the string touched; and its sound. Here are the numbers;
+// page/run.js draws them.
+
+struct DrawnRun {
+    std::string title, subtitle, scheme;  // in whose hue it is drawn
+    const Scene& scene;
+    const Trace& trace;
+};
+// The data of a page. What the run lacks is left out:
+// no ledger without energy, no contact without a barrier's force among the taps.
+nlohmann::ordered_json run_data(const DrawnRun&);
 
 }  // namespace jvari::bench::report

@@ -1,4 +1,4 @@
-#include "bench/report/run_page.hpp"
+#include "bench/report/report.hpp"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,6 @@
 
 #include "analysis/energy.hpp"
 #include "analysis/spectrum.hpp"
-#include "bench/report/report.hpp"
 #include "bench/report/results.hpp"
 #include "bench/store/records.hpp"
 

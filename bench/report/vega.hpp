@@ -20,7 +20,7 @@ Vega find_vega();
 // The three minified libraries, fit to stand inside <script>; nothing where one is missing.
 std::optional<std::string> vega_scripts(const Vega&);
 
-// The charts of `data` (page.hpp) as SVG files, drawn by one node with the page's own JavaScript.
+// The charts of `data` (report.hpp) as SVG files, drawn by one node with the page's own JavaScript.
 struct Drawn {
     std::vector<std::pair<std::string, std::string>> svgs;  // name of the file, content
     std::vector<std::string> notes;                         // what could not be drawn, and why

@@ -10,7 +10,7 @@
 #include <string>
 #include <type_traits>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "schemes/scheme.hpp"
 

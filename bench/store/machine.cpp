@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "bench/provenance.hpp"  // written at build time by provenance.cmake
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "schemes/registry.hpp"

@@ -1,12 +1,56 @@
-// A trace on disk as .csv, with 17 significant digits:
-// time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J].
+// What of a trace is to be heard: the force on the nut, which is what drives the body; 16 bit,
+// scaled to its own peak.
+//
+// As the scheme gave it: not differentiated, no body. A scene without a nut force is heard at its
+// first tap.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "schemes/trace.hpp"
 
 namespace jvari::bench::store {
+
+struct Sound {
+    double rate = 0;                    // [Hz]
+    double peak = 0;                    // what 32767 stands for, in the tap's unit
+    std::vector<std::int16_t> samples;  // none: nothing to hear
+};
+// None for a signal that is not finite or silent, or a rate that is no whole number.
+Sound sound_of(std::span<const double> signal, double rate);
+
+std::string wav_of(const Sound&);                           // of a .wav file; its peak is not in it
+Sound read_wav(const std::filesystem::path&, double peak);  // throws UsageError
+
+// What a sound file of one channel holds, in the unit that its samples are in: floating point as it
+// is, whole numbers of full scale 1.
+struct Signal {
+    double rate = 0;  // [Hz]
+    std::vector<double> samples;
+};
+Signal read_signal(const std::filesystem::path&);  // throws UsageError
+Signal read_signal(const std::filesystem::path&,
+                   // which throws: "which has 2 channels"
+                   const std::function<void(const std::string& why)>& refuse);
+
+struct NamedSound {
+    std::vector<std::string> who;  // the cell columns
+    std::string file;              // without folder and extension
+    std::string tap, quantity;
+    const Sound* sound;
+    std::string reference;  // the file of its reference, "" where there is none
+};
+// sounds/<file>.wav and sounds.csv: who, tap, quantity, sample_rate, peak, file, reference_file.
+void write_sounds(const std::filesystem::path& folder, const std::vector<std::string>& who,
+                  const std::vector<NamedSound>&);
+
+// ---- A trace on disk as .csv, with 17 significant digits:
+// time_s,<taps>[,energy_stored_J,energy_supplied_J,energy_dissipated_J].
 
 inline constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J",
                                                "energy_dissipated_J"};

@@ -9,7 +9,7 @@
 #include "analysis/judgement.hpp"
 #include "analysis/statistics.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/store/sound.hpp"
+#include "bench/store/trace_file.hpp"
 #include "bench/study/errors.hpp"
 
 namespace jvari::bench::study {

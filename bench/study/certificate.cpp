@@ -4,7 +4,7 @@
 
 #include "bench/store/records.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/study/kept_run.hpp"
+#include "bench/study/reference.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/profile_points.hpp"
 #include "reference/references.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
 #include "bench/study/certificate.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"

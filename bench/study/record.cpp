@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "analysis/spectrum.hpp"
-#include "bench/store/base64.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
 

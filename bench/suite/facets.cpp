@@ -1,13 +1,11 @@
 // What a suite measures of a cell.
-#include "bench/suite/facet.hpp"
+#include "bench/suite/suite.hpp"
 
 #include <map>
 
-#include "bench/store/base64.hpp"
-#include "bench/store/checksum.hpp"
-#include "bench/store/sound.hpp"
+#include "bench/store/encoding.hpp"
+#include "bench/store/trace_file.hpp"
 #include "bench/study/cells.hpp"
-#include "bench/suite/suite.hpp"
 
 namespace jvari::bench::suite {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/side_by_side.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/side_by_side.hpp"

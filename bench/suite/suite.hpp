@@ -1,9 +1,10 @@
 // Suite files: TOML that declares what to compare. suite_file.cpp and map_file.cpp declare their
-// keys, facet.hpp what can be measured; `jvari list keys` shows them.
+// keys, and what can be measured; `jvari list keys` shows them.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -111,5 +112,18 @@ std::vector<SuitePoint> points_of(const Suite&);
 // Throws UsageError, SceneFileError, BadScene, Refusal.
 study::Plan plan_of(const Suite&, const compare::Catalogue&,
                     const std::vector<std::string>& plugins);
+
+// ---- What a suite can measure of a cell: errors and cost as compare has them, a spectrogram, and its
+// sound.
+
+struct Facet {
+    const char *name, *meaning;
+};
+std::span<const Facet> facets();
+
+// A cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
+void keep_sounds(const study::Ran&, study::Record&);
+void write_sounds(const std::filesystem::path& folder, const study::Plan&,
+                  const std::vector<study::Record>&);
 
 }  // namespace jvari::bench::suite

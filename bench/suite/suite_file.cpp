@@ -10,7 +10,6 @@
 
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/suite/facet.hpp"
 #include "scenes/installed.hpp"
 
 namespace jvari::bench::suite {

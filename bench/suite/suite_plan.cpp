@@ -5,7 +5,6 @@
 
 #include "bench/compare/compare_plan.hpp"
 #include "bench/store/machine.hpp"
-#include "bench/suite/facet.hpp"
 
 namespace jvari::bench::suite {
 

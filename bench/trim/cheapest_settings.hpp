@@ -17,7 +17,7 @@
 #include <memory>
 #include <optional>
 
-#include "bench/compare/variants.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/trim/trim.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/compare/variants.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/store/records.hpp"
 #include "bench/trim/cheapest_settings.hpp"
 #include "schemes/contact/compliance.hpp"

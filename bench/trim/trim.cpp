@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/variants.hpp"
+#include "bench/compare/compare_plan.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"

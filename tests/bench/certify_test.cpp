@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/study/cells.hpp"
 #include "bench/study/certificate_library.hpp"
 #include "reference/oversampled.hpp"

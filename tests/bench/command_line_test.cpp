@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "bench/report/vega.hpp"
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/study/cells.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/schema.hpp"

@@ -1,5 +1,5 @@
 // Why no cell is as accurate as asked: one sentence, made of rows whose cause is known.
-#include "bench/compare/diagnosis.hpp"
+#include "bench/compare/scene_notes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/study/kept_run.hpp"
+#include "bench/study/reference.hpp"
 #include "reference/references.hpp"
 #include "tests/command_line.hpp"
 

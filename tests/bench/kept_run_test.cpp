@@ -1,11 +1,11 @@
 // Runs of references that are kept: what is read back is what was run, and nothing else is
 // believed.
-#include "bench/study/kept_run.hpp"
+#include "bench/study/reference.hpp"
 
 #include <cmath>
 
 #include "bench/compare/catalogue.hpp"
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/command_line.hpp"

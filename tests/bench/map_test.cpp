@@ -3,7 +3,7 @@
 #include <cmath>
 #include <thread>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/suite/maps.hpp"
 #include "bench/suite/suite.hpp"
 #include "scenes/scene_file.hpp"

@@ -8,11 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/record/findings.hpp"
-#include "bench/report/page.hpp"
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
-#include "bench/store/base64.hpp"
-#include "bench/store/sound.hpp"
+#include "bench/store/encoding.hpp"
+#include "bench/store/trace_file.hpp"
 #include "tests/cells_from.hpp"
 #include "tests/command_line.hpp"
 

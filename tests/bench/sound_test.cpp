@@ -1,5 +1,5 @@
 // Sounds: what is kept of a trace, what of it is heard, and base64 by the words of RFC 4648.
-#include "bench/store/sound.hpp"
+#include "bench/store/trace_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sndfile.h>
@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "bench/command/player.hpp"
-#include "bench/store/base64.hpp"
+#include "bench/store/encoding.hpp"
 #include "tests/c3.hpp"
 #include "tests/says.hpp"
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/study/cells.hpp"
 #include "bench/study/cost.hpp"

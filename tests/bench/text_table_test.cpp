@@ -1,5 +1,5 @@
 // Tables for the terminal: what goes first where it is narrow, and what never goes.
-#include "bench/command/text_table.hpp"
+#include "bench/command/console.hpp"
 #include "tests/says.hpp"
 
 #include <gtest/gtest.h>

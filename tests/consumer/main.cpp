@@ -1,6 +1,6 @@
 // A comparison without the command line: two schemes, each with its own and with matched
 // compliance, on a scene of the installed library.
-#include <bench/compare/record/compare_record.hpp>
+#include <bench/compare/record/findings.hpp>
 #include <cstdio>
 
 int main() {

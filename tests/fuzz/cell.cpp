@@ -5,7 +5,7 @@
 // brace.
 #include <nlohmann/json.hpp>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/study/record.hpp"
 #include "fuzz.hpp"
 #include "schemes/registry.hpp"

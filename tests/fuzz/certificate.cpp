@@ -4,7 +4,7 @@
 // The input is a certificate without its checksum and its outer braces.
 #include <nlohmann/json.hpp>
 
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/study/certificate_library.hpp"
 #include "fuzz.hpp"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "bench/store/checksum.hpp"
-#include "bench/store/sound.hpp"
+#include "bench/store/encoding.hpp"
+#include "bench/store/trace_file.hpp"
 #include "bench/store/usage.hpp"
-#include "bench/study/kept_run.hpp"
+#include "bench/study/reference.hpp"
 #include "fuzz.hpp"
 
 using namespace jvari;

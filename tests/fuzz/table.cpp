@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bench/store/base64.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/records.hpp"
 #include "fuzz.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/cheapest.hpp"
-#include "bench/compare/diagnosis.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/registry.hpp"
 

@@ -33,7 +33,7 @@ struct Answer {
     std::string as_published{};
     // of what is found by third octaves, that the uncertainty of the reference is unknown where it
     // is; of not_known, what the reference is known to, and by which other taps it is known; of
-    // none, for a waveform, what stands in the way (diagnosis.hpp)
+    // none, for a waveform, what stands in the way (scene_notes.hpp)
     std::string why{};
 
     std::string goal() const;  // "10 %", "3 dB"

@@ -1,13 +1,12 @@
-#include "bench/compare/record/compare_record.hpp"
+#include "bench/compare/record/findings.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/bound.hpp"
-#include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
-#include "bench/store/checksum.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"

@@ -8,7 +8,7 @@
 
 #include "analysis/statistics.hpp"
 #include "bench/compare/bound.hpp"
-#include "bench/compare/diagnosis.hpp"
+#include "bench/compare/scene_notes.hpp"
 
 namespace jvari::bench::compare {
 

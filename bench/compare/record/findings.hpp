@@ -3,11 +3,13 @@
 // cannot be believed, runs in which matched compliance did harm.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/convergence.hpp"
+#include "bench/compare/compare.hpp"
 #include "bench/study/cells.hpp"
 
 namespace jvari::bench::compare {
@@ -71,5 +73,17 @@ std::string harm_text(const study::Cells&);
 std::string cause_text(const study::Cells&);
 
 std::vector<std::string> warnings_of(const study::Cells&);  // all of these that say something
+
+// ---- A comparison as rows, as its manifest and as sounds.
+//
+// Numbers that repeat and measured times never share a committed file: facts.csv, errors.csv and
+// cost.csv are committed (study/cells.hpp), cells.csv is to look at.
+
+study::Cells cells_of(const Comparison&);
+nlohmann::ordered_json manifest_of(const Comparison&, const CompareRequest&);
+
+// sounds/ and sounds.csv: the reference, and of each scheme its lowest and its highest rate; the
+// rates between while all are small.
+void write_sounds(const Comparison&, const std::filesystem::path& folder);
 
 }  // namespace jvari::bench::compare

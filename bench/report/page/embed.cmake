@@ -2,7 +2,7 @@
 # -DFOLDER -DOUT, every file but this one.
 file(GLOB files "${FOLDER}/*.html" "${FOLDER}/*.css" "${FOLDER}/*.js")
 list(SORT files)
-string(CONCAT text "#include \"bench/report/page.hpp\"\n\nnamespace jvari::bench::report {\n"
+string(CONCAT text "#include \"bench/report/report.hpp\"\n\nnamespace jvari::bench::report {\n"
     "namespace {\nconstexpr PageText texts[] = {\n")
 foreach(file IN LISTS files)
     get_filename_component(name "${file}" NAME)
