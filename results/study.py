@@ -98,7 +98,8 @@ class Errors:
                         for row in Table(record, "errors").rows}
 
     def number(self, measure, tap, fields, part="value"):
-        figures = (self.figures.get((row["cell"], tap, measure)) for row in self.facts.where(fields))
+        figures = (self.figures.get((row["cell"], tap, measure))
+                   for row in self.facts.where(fields))
         figure, = (f for f in figures if f and f[part])
         return error_of(measure, figure, part)
 

@@ -36,8 +36,8 @@ std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scri
 // levels.
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
 
-// ---- The report's page: one file, no network. Its JavaScript (page/*.js) makes what is seen of the
-// data that the page carries; the same JavaScript under node makes the SVG files (vega.hpp).
+// ---- The report's page: one file, no network. Its JavaScript (page/*.js) makes what is seen of
+// the data that the page carries; the same JavaScript under node makes the SVG files (vega.hpp).
 
 // `scripts`: the chart libraries as <script> elements; "": no chart. `data`: what page/data.js
 // describes, with its title.

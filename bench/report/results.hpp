@@ -65,8 +65,8 @@ std::filesystem::path sound_file(const Results&, std::size_t row);
 nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, double longest,
                              std::size_t limit, nlohmann::ordered_json& left_out);
 
-// ---- The folder that results go to: of one comparison, one suite or one trimmed scene, so that no page
-// mixes what was measured apart.
+// ---- The folder that results go to: of one comparison, one suite or one trimmed scene, so that no
+// page mixes what was measured apart.
 
 // Before anything is run. Throws UsageError where the folder holds the results of something else
 // than `what` ("comparison of tanpura_c3", "suite smoke", "trim of tanpura_c3"); notes files that

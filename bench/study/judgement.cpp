@@ -72,8 +72,8 @@ Judgement judge(const Cell& cell, double error) {
     }
 }
 
-// ---- The true modes are those of van Walstijn et al. 2016, eqs 17-18 (scenes/modes.hpp). Leaves out:
-// strings against an obstacle, whose partials do not stay as they are.
+// ---- The true modes are those of van Walstijn et al. 2016, eqs 17-18 (scenes/modes.hpp). Leaves
+// out: strings against an obstacle, whose partials do not stay as they are.
 
 namespace {
 using Signal = std::span<const double>;

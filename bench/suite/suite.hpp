@@ -113,8 +113,8 @@ std::vector<SuitePoint> points_of(const Suite&);
 study::Plan plan_of(const Suite&, const compare::Catalogue&,
                     const std::vector<std::string>& plugins);
 
-// ---- What a suite can measure of a cell: errors and cost as compare has them, a spectrogram, and its
-// sound.
+// ---- What a suite can measure of a cell: errors and cost as compare has them, a spectrogram, and
+// its sound.
 
 struct Facet {
     const char *name, *meaning;

@@ -2,8 +2,8 @@
 python3 two_point.py problem.json trace.csv
 
 One contact of exponent 1 at most, and a thread. `jvari export` writes the problem, `jvari judge`
-says how wrong the trace is. In Python, `jvari.scheme("mine", represents=REPRESENTS)(TwoPoint)` makes
-it a scheme, and picture.py draws it beside others."""
+says how wrong the trace is. In Python, `jvari.scheme("mine", represents=REPRESENTS)(TwoPoint)`
+makes it a scheme, and picture.py draws it beside others."""
 
 import json
 import sys
