@@ -71,11 +71,12 @@ std::string verdict_text(const trim::Trimmed& t, trim::Judge& judge) {
     if (t.independent() == 0)
         text += "every start that there is judged the search: none was left to verify it\n";
     text += fmt::format(
-        "{:.3g} times cheaper than the whole scene without matched compliance{}, {:.3g} times than "
-        "its cheapest model",
+        "{:.3g} times cheaper than the whole scene without matched compliance{}",
         t.costs.front().median / t.costs.back().median,
-        t.full().within ? "" : fmt::format(" (which errs by {})", target.text(t.full().error)),
-        t.costs[std::min<std::size_t>(1, t.costs.size() - 1)].median / t.costs.back().median);
+        t.full().within ? "" : fmt::format(" (which errs by {})", target.text(t.full().error)));
+    if (t.costs.size() > 2)
+        text += fmt::format(", {:.3g} times cheaper than the whole scene's cheapest settings",
+                            t.costs[1].median / t.costs.back().median);
     return text;
 }
 
