@@ -200,7 +200,8 @@ private:
     std::array<double, nodes> node_{}, weight_{};
 };
 
-std::unique_ptr<Scheme> make(const Descriptor&, const Scene& scene, const Settings& settings) {
+std::unique_ptr<Scheme> make_exact_linear(const Descriptor&, const Scene& scene,
+                                          const Settings& settings) {
     const String& s = scene.strings.at(0);
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
@@ -216,6 +217,6 @@ const Descriptor exact_linear = {.name = "exact_linear",
                                                Feature::pluck | Feature::initial_velocity,
                                  .balance = Balance::to_tolerance,
                                  .clock = Clock::continuous,
-                                 .make = make};
+                                 .make = make_exact_linear};
 
 }  // namespace jvari

@@ -19,7 +19,7 @@ inline std::filesystem::path installed(const char* what) {
     const char* file =
         dladdr(reinterpret_cast<const void*>(&installed), &in) ? in.dli_fname : nullptr;
     if (!file || *file != '/')
-        // as it was called  NOLINT(performance-no-int-to-ptr)
+        // as it was called  NOLINTNEXTLINE(performance-no-int-to-ptr)
         file = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
     for (auto at = std::filesystem::canonical(file, error); at.has_relative_path();
          at = at.parent_path())

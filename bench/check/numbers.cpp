@@ -91,7 +91,7 @@ std::vector<Scene> make_scenes_of_numbers() {
         all.push_back(scene(name, std::move(strings)));
     };
     using Barriers = std::vector<Barrier>;
-    const auto over = [](Barriers b) { return [b](String& s) { s.barriers = b; }; };
+    const auto over = [](const Barriers& b) { return [b](String& s) { s.barriers = b; }; };
     const auto limp = [](String& s) { s.bending_stiffness = 0, s.damping = NoDamping{}; };
     add("free", [](String&) {});
     add("struck", [](String& s) {

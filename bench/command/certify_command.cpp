@@ -164,7 +164,7 @@ bool covers_more(const Certificate& old, const Certificate& fresh) {
     return old.duration > fresh.duration * (1 + 1e-9);
 }
 
-int certify_command(CertifyRequest r) {
+int certify_command(const CertifyRequest& r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     const Scene scene = compare::load_scene(r.scene, r.set, r.duration);

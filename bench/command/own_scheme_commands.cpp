@@ -199,7 +199,7 @@ std::string promise_lines() {
     return text;
 }
 
-int check_command(CheckRequest r) {
+int check_command(const CheckRequest& r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     std::vector<Descriptor> chosen;

@@ -83,7 +83,7 @@ struct DiffRequest : Common {
     std::string before, after;  // folders
 };
 
-int diff_command(DiffRequest r) {
+int diff_command(const DiffRequest& r) {
     const Console console(r.json, r.quiet);
     const suite::Results before = suite::read_results(r.before),
                          after = suite::read_results(r.after);

@@ -96,7 +96,7 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
                      "run every cell: start only one");
 }
 
-int suite_command(SuiteRequest r) {
+int suite_command(const SuiteRequest& r) {
     const Console console(r.json, r.quiet);
     if (r.resume && r.out.empty())
         throw store::UsageError("--resume: there is no --out DIR to resume from");

@@ -69,7 +69,7 @@ public:
     Verb(CLI::App& program, const char* name, const char* about)
         : Arguments(*program.add_subcommand(name, about)) {}
     Request& r = *request_;  // the arguments; an `act` gets them once they are read
-    Act does(int (*act)(Request), const std::string& footer) {
+    Act does(auto act, const std::string& footer) {
         common(r);
         group();
         verb_.footer(footer);

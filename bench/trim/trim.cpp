@@ -32,8 +32,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
                     r.tap_rate),
         "references as models, and more than four times the modes below 20 kHz",
         "several parts left out at once where each alone is beyond the tolerance",
-        "other values of a part than those named: widths between, stiffness by factors other than "
-        "10 and 100",
+        "other values of a part than those named, stiffness by factors other than 10 and 100",
         fmt::format("what happens after {:g} s, and other starts than those named",
                     judge.scene().duration),
         fmt::format("models that need more than {:g} s of computing, or {:g} times what serves "

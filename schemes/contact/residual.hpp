@@ -79,7 +79,7 @@ public:
     [[gnu::always_inline]] void step(const double* F) noexcept {
         const std::size_t n = few > 0 ? few : points_;
         State& s = state_[0];
-        double local[3][few > 0 ? few : 1];  // in registers
+        double local[3][std::max(few, 1)];  // in registers
         double *Q = few > 0 ? local[0] : s.Q.data(), *moved = few > 0 ? local[1] : moved_.data(),
                *P = few > 0 ? local[2] : s.P.data();
         for (std::size_t a = 0; a < n; ++a) Q[a] = F[a] - s.Q[a];

@@ -4,6 +4,8 @@
 // found by their name alone: no comparison runs them unasked.
 #pragma once
 
+#include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,8 @@ namespace jvari {
 
 using MakeScheme = std::unique_ptr<Scheme> (*)(const Descriptor&, const Scene&, const Settings&);
 
-#define JVARI_ROW(name, Rule, source) +1
-constexpr int rule_count = 0 JVARI_RULES(JVARI_ROW);
+#define JVARI_ROW(name, Rule, source) 1,
+constexpr int rules_counted[] = {JVARI_RULES(JVARI_ROW)}, rule_count = std::size(rules_counted);
 #undef JVARI_ROW
 
 struct StringRow {
