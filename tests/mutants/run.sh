@@ -18,7 +18,8 @@ for file in $(cd "$source" && git ls-files --cached --others --exclude-standard)
     mkdir -p "$(dirname "$copy/$file")"
     cp "$source/$file" "$copy/$file"
 done
-[ -f "$build/build.ninja" ] || (cd "$copy" && cmake --preset release -DCMAKE_UNITY_BUILD=OFF) >"$folder/configure.log"
+[ -f "$build/build.ninja" ] ||  # each file by itself: a fault is in one
+    (cd "$copy" && cmake --preset release -DCMAKE_UNITY_BUILD=OFF) >"$folder/configure.log"
 
 for name in "${@:-.*}"; do $plant list | grep "^$name "; done >"$folder/faults.now"
 targets=$(cut -d' ' -f3 "$folder/faults.now" | sort -u)
