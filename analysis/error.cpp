@@ -8,7 +8,6 @@
 namespace jvari {
 
 namespace {
-
 double largest(std::span<const double> x) {  // NaN where any value is
     double most = 0;
     for (double v : x) most = std::isnan(most) || std::isnan(v) ? nan : std::max(most, std::abs(v));

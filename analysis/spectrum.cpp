@@ -13,7 +13,6 @@
 namespace jvari {
 
 namespace {
-
 // |X|^2 of real frames of n rows, scaled to one-sided mean squares.
 class Transform {
 public:

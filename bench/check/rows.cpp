@@ -102,7 +102,7 @@ Verdict facts_agree_with_its_rows(const Case& c) {
             // of several contacts rows are sums
             one.scene.taps.push_back({"contact" + std::to_string(k), Quantity::bridge_force, k, 0});
     if (one.scene.taps.empty()) return not_asked("no string has one contact");
-    // a reference tells the forces at the steps that it chose
+    // a reference knows the forces at its steps, and between them by interpolation
     const double rounding = c.scheme.clock == Clock::stepped ? 1e-9 : 1e-6;
     bool reported = false;
     for (const double loss : {0.0, 0.5}) {

@@ -1,7 +1,8 @@
-// What a result is addressed by, and how a file that is read back is known to be as it was written:
-// XXH3-128 (Y. Collet, xxhash.com).
+// Content as text: a checksum, and base64 at the end.
 //
-// It finds what broke, was cut off or was edited. It is no defence against a forger.
+// The checksum, XXH3-128 (Y. Collet, xxhash.com), is the address of a result, and shows that a file
+// is read back as it was written. It finds what broke, was cut off or was edited. It is no defence
+// against a forger.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// What of a trace is to be heard: the force on the nut, which is what drives the body; 16 bit,
-// scaled to its own peak.
+// A trace as a file: its sound (.wav), and its numbers (.csv, at the end).
 //
-// As the scheme gave it: not differentiated, no body. A scene without a nut force is heard at its
+// The sound is the force on the nut, which drives the body; 16 bit, scaled to its own peak. It is
+// as the scheme gave it: not differentiated, no body. A scene without a nut force is heard at its
 // first tap.
 #pragma once
 

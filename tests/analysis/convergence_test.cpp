@@ -1,5 +1,6 @@
 // Orders of data whose order is known, and a confidence interval that covers as often as it says.
 #include "analysis/convergence.hpp"
+#include "schemes/trace.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +11,7 @@
 
 namespace jvari {
 namespace {
-
 using Signal = std::vector<double>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 const Signal rates = {44100, 88200, 176400, 352800, 705600};
 
 Signal power_law(double c, double order) {

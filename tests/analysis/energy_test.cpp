@@ -9,10 +9,7 @@
 
 namespace jvari {
 namespace {
-
 using Signal = std::vector<double>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 struct Ledger {
     Signal stored, supplied, dissipated;

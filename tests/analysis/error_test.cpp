@@ -9,9 +9,6 @@
 
 namespace jvari {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 using Signal = std::vector<double>;
 
 Signal tone(long rows, double rate, double hertz, double amplitude = 1) {

@@ -1,5 +1,6 @@
 // Spectra of signals whose spectra are known: tones, impulses, scaled and shifted copies.
 #include "analysis/spectrum.hpp"
+#include "schemes/trace.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,14 +15,11 @@
 
 namespace jvari {
 namespace {
-
 using Signal = std::vector<double>;
 using std::numbers::pi;
 constexpr double rate = 44100;
 const BandChoice audible = {
     .lowest = 100, .highest = 20e3, .taper = Taper::rectangular, .range = 100};
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 Signal tone(long rows, double hertz, double amplitude, double phase = 0.3) {
     Signal x(rows);

@@ -26,10 +26,7 @@
 
 namespace jvari {
 namespace {
-
 // ---- What is known of an error
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Bound, IsTheErrorAndTheCertificateTogether) {
     const bench::compare::Bound b{0.03, 0.02, nan};

@@ -9,8 +9,6 @@
 namespace jvari::test {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 Descriptor promising(Balance b) { return {"made_up", "", {}, b, Clock::stepped, nullptr}; }
 
 Scene string_over_barrier() {

@@ -77,7 +77,7 @@ void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& 
 }
 
 // A row of a single contact's force is the mean of what its facts are the extremes of; a reference
-// in continuous time tells those of its steps.
+// in continuous time interpolates between its steps.
 void check_force_facts(const Descriptor& d, const RandomCase& c, const study::Summary& told,
                        const Trace& t, const Finding& finding) {
     if (c.scene.strings.size() > 1 || c.scene.strings[0].barriers.size() != 1 ||
