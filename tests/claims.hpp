@@ -3,9 +3,21 @@
 
 #include <optional>
 
+#include "scenes/scene_file.hpp"
 #include "tests/runs.hpp"
 
 namespace jvari {
+
+using Forms = std::vector<std::string>;
+inline const Forms grids{"finite_difference_explicit", "finite_difference_theta",
+                         "finite_difference_hamiltonian"};
+
+inline Scene over_two_bridges(double seconds, double beta = 0) {
+    Scene scene = lasting(read_scene("two_point_bridge"), seconds);
+    scene.strings[0].barriers.push_back(scene.strings[0].barriers[0]);
+    barrier(scene, 1).position = 14e-3;
+    return with_loss(scene, beta);
+}
 
 struct LedgerAt {
     std::vector<double> rates = {44100};
@@ -25,7 +37,6 @@ struct LedgerClaim {
     using At = LedgerAt;
     using Open = LedgerOpen;
     using Lost = LedgerLost;
-    using Forms = std::vector<std::string>;
     // pushes: touches, and never pulls; events: of a reference, more than these
     LedgerClaim(const char* name_, Forms forms_, std::vector<Scene> scenes_, At at_, Open open_,
                 Lost lost_ = {}, bool pushes_ = false, std::optional<double> events_ = {})
@@ -85,7 +96,6 @@ struct ConvergenceClaim {
         std::vector<double> errors = {};  // of the first tap, to `within` of them
         double left = 0;  // energy, as a part of the first: to so much over the rate
     };
-    using Forms = std::vector<std::string>;
     // times: of the rate of taps
     ConvergenceClaim(const char* name_, Forms forms_, Scene scene_, At at_, std::vector<int> times_,
                      Truth truth_, Error error_, std::vector<int> taps_ = {0})

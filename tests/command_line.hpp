@@ -22,6 +22,10 @@ inline std::string content(const std::filesystem::path& path) {
     return text.str();
 }
 
+inline void overwrite(const std::filesystem::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
 struct Scratch {  // a folder for one test
     Scratch() {
         std::string name = (std::filesystem::temp_directory_path() / "jvari-test-XXXXXX").string();
@@ -41,20 +45,20 @@ struct Scratch {  // a folder for one test
     }
 };
 
-struct Outcome {
+struct Ended {
     int code;
     std::string out, err;
 };
 
 // a failure says it on standard error
-inline testing::AssertionResult ends(const Outcome& of, int code, const std::string& said) {
+inline testing::AssertionResult ends(const Ended& of, int code, const std::string& said) {
     if (of.code != code)
         return testing::AssertionFailure() << "ends with " << of.code << ":\n" << of.out << of.err;
     return says(code ? of.err : of.out, said);
 }
 
-inline Outcome jvari(const Scratch& scratch, const std::string& arguments,
-                     const std::string& environment = "") {
+inline Ended jvari(const Scratch& scratch, const std::string& arguments,
+                   const std::string& environment = "") {
     const std::string out = scratch / "stdout", err = scratch / "stderr";
     const int status = std::system(
         (environment + " " JVARI_PROGRAM " " + arguments + " >" + out + " 2>" + err + " </dev/null")
@@ -72,9 +76,12 @@ inline std::string suite_of(const std::string& scenes, const std::string& scheme
            rates + "]\n" + more + "\n";
 }
 
+inline const std::string run_for = "$J run free_string --scheme modal_two_point --duration ",
+                         small_run = run_for + "0.05";
+
 // Runs lines of bash in the folder of the test, without charts and without kept runs; $J is the
 // program.
-inline Outcome shell(const Scratch& scratch, const std::string& lines) {
+inline Ended shell(const Scratch& scratch, const std::string& lines) {
     const std::string script = scratch / "script";
     std::ofstream(script) << "export J=" JVARI_PROGRAM
                              " JVARI_CACHE= JVARI_NODE_MODULES=/nowhere\nulimit -c 0\ncd "

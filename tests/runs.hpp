@@ -30,6 +30,10 @@ inline Scene with_exponent(Scene scene, double exponent) {
     barrier(scene).exponent = exponent;
     return scene;
 }
+inline Scene with_damping(Scene scene, const Damping& damping) {
+    scene.strings.front().damping = damping;
+    return scene;
+}
 inline Scene with_loss(Scene scene, double beta) {
     for (Barrier& b : scene.strings.front().barriers)
         std::visit([beta](auto& x) { x.contact_loss = beta; }, b);
@@ -43,6 +47,13 @@ inline const Descriptor& named(const std::string& name) {
         for (const Descriptor& d : table)
             if (name == d.name) return d;
     throw std::runtime_error("no scheme " + name);
+}
+
+inline std::vector<const Descriptor*> all_descriptors() {
+    std::vector<const Descriptor*> all;
+    for (const auto& table : {schemes(), references()})
+        for (const Descriptor& d : table) all.push_back(&d);
+    return all;
 }
 
 // A form is a scheme with options: "modal_quadratised levels=3 variant=raw".

@@ -88,8 +88,9 @@ const char* name_of(Verdict::Answer a) {
 
 Settings settings_for(const Descriptor& d, const Scene& scene) {
     Settings s{4 * contract_tap_rate, contract_tap_rate, contract_modes, {}};
+    // what is owed does not depend on how many: of a slow reference few
+    if (declares(d, "rtol")) s.modes = modes_of_an_integrator;
     if (d.clock == Clock::continuous && needed_by(scene).any(any_profile) && declares(d, "nodes"))
-        // points on the profile: what is owed does not depend on them
         s.options = {{"nodes", "6"}};
     if (declares(d, "cells")) s.options = {{"cells", "64"}};  // of a lattice of its own
     return s;

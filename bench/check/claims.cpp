@@ -188,7 +188,7 @@ std::vector<suite::Trial> map_of(const Descriptor& d) {
             scene.name = fmt::format("{} at {:g} Hz", what, rate);
             all.push_back({&d,
                            suite::listened(scene),
-                           {rate, suite::row_rate(rate), contract_modes, {}},
+                           {rate, suite::row_rate(rate), settings_for(d, scene).modes, {}},
                            "none"});
         }
     return all;

@@ -68,7 +68,7 @@ std::vector<Scene> make_scenes_of_numbers() {
     const auto scene = [&](const char* name, std::vector<String> strings) {
         Scene s;
         s.name = name;
-        s.duration = 5e-3;
+        s.duration = 3e-3;
         s.strings = std::move(strings);
         for (int k = 0; k < static_cast<int>(s.strings.size()); ++k) {
             const auto hear = [&](const char* what, Quantity q, double x) {
@@ -119,7 +119,7 @@ std::vector<Scene> make_scenes_of_numbers() {
     add("parabola", over({ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}}));
     const TableCurve table{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}};
     add("table_curve", over({ProfileBarrier{table, 0.05, 0.15, {3e4}, 1, 0}}));
-    for (auto one = all.end() - 3; one != all.end(); ++one) one->duration = 3e-3;
+    for (auto one = all.end() - 3; one != all.end(); ++one) one->duration = 2e-3;
     add("rigid_profile", [&](String& s) {
         limp(s);
         s.barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.1, {rigid}, 1, 0}};

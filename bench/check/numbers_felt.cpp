@@ -22,6 +22,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "bench/check/promise.hpp"
@@ -43,8 +44,22 @@ constexpr Features with_events =
 
 Settings at(const Descriptor& d, int times) {
     Settings s{times * contract_tap_rate, contract_tap_rate, times * modes_each, {}};
+    if (declares(d, "rtol")) s.options.emplace_back("rtol", "1e-9");
+    if (d.clock == Clock::continuous && declares(d, "nodes"))
+        s.options.emplace_back("nodes", "16");
     if (declares(d, "cells")) s.options = {{"cells", std::to_string(256 * times)}};
     return s;
+}
+
+// none where it refuses
+std::optional<jvari::Run> run_where_taken(const Descriptor& d, const Scene& scene, int times) {
+    try {
+        return run(d, scene, at(d, times));
+    } catch (const Refusal&) {
+        return std::nullopt;
+    } catch (const BadScene&) {  // one made here that cannot be
+        return std::nullopt;
+    }
 }
 
 // What of a scene a scheme represents as it is.
@@ -120,23 +135,22 @@ Trace turning(const Scene& scene, long rows) {
 // nullptr: none
 const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine) {
     static std::mutex mutex;
-    static std::map<std::string, Trace> known;
+    static std::map<std::string, std::optional<Trace>> known;  // none: the reference refuses it
     const std::scoped_lock lock(mutex);
+    const std::string key = scene_hash(scene) + std::to_string(times);
     if (needed_by(scene).has(Feature::polarisation)) {
-        const auto [at, is_new] = known.try_emplace(scene_hash(scene));
-        if (is_new) at->second = turning(scene, rows_of(scene, {0, contract_tap_rate, 0, {}}));
-        return &at->second;
+        std::optional<Trace>& trace = known[key];
+        if (!trace) trace = turning(scene, rows_of(scene, {0, contract_tap_rate, 0, {}}));
+        return &*trace;
     }
     for (const Descriptor& reference : references()) {
-        const Settings settings = at(reference, times);
         if (std::string(reference.name) == d.name ||
-            (needed_by(scene) - Feature::profile_barrier).any(approximated(reference)) ||
-            !takes(reference, scene, settings))
+            (needed_by(scene) - Feature::profile_barrier).any(approximated(reference)))
             continue;
-        const auto [at, is_new] =
-            known.try_emplace(scene_hash(scene) + reference.name + std::to_string(times));
-        if (is_new) at->second = run(reference, scene, settings).trace;
-        return &at->second;
+        const auto [found, is_new] = known.try_emplace(key + reference.name);
+        if (is_new)
+            if (auto r = run_where_taken(reference, scene, times)) found->second = r->trace;
+        if (found->second) return &*found->second;
     }
     return nullptr;
 }
@@ -167,9 +181,9 @@ double own_error(At at) {
 class Felt {  // of one scene by one scheme
 public:
     Felt(const Descriptor& d, Scene scene) : d_(d), scene_(std::move(scene)) {
-        if (!usable(scene_) || !truth_for(d_, scene_)) return;
-        truth_ = levels_of_truth(scene_);
         before_ = levels(scene_);
+        if (before_.empty() || !truth_for(d_, scene_)) before_.clear();
+        else truth_ = levels_of_truth(scene_);
     }
     int examined() const { return examined_; }
 
@@ -180,33 +194,38 @@ public:
         for (int which = 0;; ++which) {
             auto other = changed(scene_, which);
             if (!other) return "";
-            if (!usable(other->scene)) other = changed(scene_, which, true);
-            if (other->key == "duration" || !usable(other->scene) || !truth_for(d_, other->scene))
-                continue;
+            if (other->key == "duration") continue;
+            Levels is = levels(other->scene);
+            if (is.empty()) {
+                other = changed(scene_, which, true);
+                is = levels(other->scene);
+            }
+            if (is.empty() || !truth_for(d_, other->scene)) continue;
             ++examined_;
             if (std::string fault =
-                    compared(other->scene, other->key, levels_of_truth(other->scene),
-                             levels(other->scene), false);
+                    compared(other->scene, other->key, levels_of_truth(other->scene), is, false);
                 !fault.empty())
                 return fault;
         }
     }
 
 private:
-    bool usable(const Scene& s) const {
+    // none where it does not take it, or not as it is
+    Levels levels(const Scene& s) const {
         try {
             validate(s);
-        } catch (const BadScene&) {  // a number that another one bounds
-            return false;
-        }
-        return is_as_the_scene_says(d_, s) &&
-               std::ranges::all_of(rates, [&](int times) { return takes(d_, s, at(d_, times)); });
-    }
-    Levels levels(const Scene& s) const {
+        } catch (const BadScene&) { return {}; }  // a number that another one bounds
+        if (!is_as_the_scene_says(d_, s)) return {};
         Levels all;
-        for (const int times : rates)
-            all.push_back(times == fine || d_.clock == Clock::stepped ? run(d_, s, at(d_, times))
-                                                                      : jvari::Run{});
+        for (const int times : rates) {
+            if (times != fine && d_.clock != Clock::stepped) {
+                all.emplace_back();
+                continue;
+            }
+            auto r = run_where_taken(d_, s, times);
+            if (!r) return {};
+            all.push_back(std::move(*r));
+        }
         return all;
     }
     // Of a reference with cells, which errs by about one of them, each; of any other the last.

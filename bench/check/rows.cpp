@@ -35,7 +35,9 @@ Verdict starts_from_the_scenes_shape(const Case& c) {
                                 : largest_displacement(s));
         }
     }
-    const jvari::Run r = run(*make_scheme(c.scheme, scene, c.settings), scene, c.settings);
+    Settings settings = c.settings;
+    settings.modes = contract_modes;  // which a shape takes
+    const jvari::Run r = run(c.scheme, scene, settings);
     for (std::size_t k = 0; k < expected.size(); ++k) {
         const double y = r.trace.column(static_cast<int>(k))[0];
         if (!(std::abs(y - expected[k]) <= 0.02 * scale[k]))
@@ -145,7 +147,7 @@ Ledger ledger_of(const Case& c) {
     Ledger l;
     const auto stored = t.energy_column(0), supplied = t.energy_column(1),
                dissipated = t.energy_column(2);
-    if (available_energy(c.scene, contract_modes) > 0 &&
+    if (available_energy(c.scene, c.settings.modes) > 0 &&
         std::ranges::all_of(t.energy, [](double x) { return x == 0; }))
         throw std::runtime_error("it promises a balance and writes no energies");
     for (long n = 0; n < t.rows; ++n) {

@@ -146,8 +146,8 @@ int most_state(const Case& c, bool sized_by_modes) {
     double most = 0;
     for (const String& s : c.scene.strings) {
         const double speed = std::sqrt(s.tension / s.linear_density);
-        const double nodes =
-            sized_by_modes ? contract_modes : std::ceil(s.length * c.settings.sample_rate / speed);
+        const double nodes = sized_by_modes ? c.settings.modes
+                                            : std::ceil(s.length * c.settings.sample_rate / speed);
         double contacts = 0;
         for (const Barrier& b : s.barriers) {
             const auto* profile = std::get_if<ProfileBarrier>(&b);
@@ -164,7 +164,7 @@ Verdict carries_no_more_state(const Case& c) {
     const int dofs = dofs_of(c).value();
     if (dofs <= 0) return broken(fmt::format("says that it carries {} doubles", dofs));
     Case more = c;
-    more.settings.modes = 2 * contract_modes;
+    more.settings.modes *= 2;
     const int most = most_state(c, dofs_of(more).value_or(0) > dofs);
     if (dofs > most) return broken(fmt::format("carries {} doubles, where {} do", dofs, most));
     Case bare = c;  // without what it listens to, is struck by and rests on

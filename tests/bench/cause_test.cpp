@@ -28,7 +28,7 @@ std::string said_of(const Change& change) {
     for (std::size_t n = 0; n < y.size(); ++n)
         t.rows[n][static_cast<std::size_t>(t.column("y"))] = bench::store::text_of(y[n]);
     std::ofstream(scratch / "t.csv") << bench::store::csv(t);
-    const Outcome o = jvari(
+    const Ended o = jvari(
         scratch, "judge " + (scratch / "loop.toml") + " --trace 44100=" + (scratch / "t.csv"));
     return o.out;
 }
@@ -116,7 +116,7 @@ TEST(Cause, OfAContactThatScalesWithTheStepIsThatItsErrorRises) {
                   0);
         traces += " --trace " + rate + "=" + file;
     }
-    const Outcome o =
+    const Ended o =
         jvari(scratch, "judge " + (scratch / "loop.toml") + " --duration 0.03" + traces);
     EXPECT_TRUE(ends(o, 0, "\nits error rises with the rate, from ")) << o.out;
 }

@@ -1,4 +1,4 @@
-// Certificates as people meet them: the files, the cache, the figures that stand beside the errors
+// Certificates as they are computed, and as people meet them: the files, the cache, the figures that stand beside the errors
 // of compare and suite.
 #include <fmt/core.h>
 
@@ -7,11 +7,13 @@
 
 #include "bench/store/encoding.hpp"
 #include "bench/study/cells.hpp"
+#include "bench/study/certificate.hpp"
 #include "bench/study/certificate_library.hpp"
 #include "reference/oversampled.hpp"
 #include "reference/references.hpp"
 #include "scenes/scene_file.hpp"
 #include "schemes/making.hpp"
+#include "tests/c3.hpp"
 #include "tests/command_line.hpp"
 
 namespace jvari::test {
@@ -20,10 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using namespace bench::study;
-
-void write(const fs::path& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
 
 // of the first cell and its headline's nut tap
 double certificate_in(const Json& compared, const char* measure) {
@@ -34,14 +32,126 @@ double certificate_in(const Json& compared, const char* measure) {
         .at("certificate");
 }
 
+Certificate certified(const Scene& scene, const CertifySettings& settings) {
+    return certify(scene, certificate_plan(scene, settings));
+}
+
 Scene short_scene(const std::string& name, double duration) {
     Scene scene = read_scene(name);
     scene.duration = duration;
     return scene;
 }
 
-Certificate certified(const Scene& scene, const CertifySettings& settings) {
-    return certify(scene, certificate_plan(scene, settings));
+// ---- As they are computed: which references run, which are compared, what is doubled
+
+Scene release(double duration) {
+    Scene scene = c3_release();
+    scene.duration = duration;
+    return scene;
+}
+
+const Certificate::Options matched_alone{{"compliance", "matched"}};
+
+TEST(Certificate, ShowsThatTheReferencesAgree) {
+    const Certificate c = certified(release(6e-3), {40, 44100});
+    ASSERT_EQ(c.entries.size(), 6u);
+    EXPECT_EQ(c.entries[0].reference, "exact_contact");
+    EXPECT_EQ(c.entries[2].reference, "sundials");
+    EXPECT_EQ(c.entries[3].options, matched_alone);
+    EXPECT_EQ(c.entries[5].doubled, "modes");
+    EXPECT_EQ(c.entries[5].options, matched_alone);
+    // 3 of own compliance, 1 matched; the last two with the defaults of their own reference alone
+    ASSERT_EQ(c.pairs.size(), 6u);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const bool first = is_matched(c.entries[c.pairs[k].first].options),
+                   second = is_matched(c.entries[c.pairs[k].second].options);
+        EXPECT_EQ(first, second) << k;
+    }
+    for (const auto& [pair, with] : {std::pair(4, 0), std::pair(5, 3)}) {
+        EXPECT_EQ(c.pairs[pair].first, 5);
+        EXPECT_EQ(c.pairs[pair].second, with);
+    }
+    for (const auto& e : c.entries) {
+        EXPECT_EQ(e.status.outcome, Outcome::ok);
+        EXPECT_GT(e.wall_seconds, 0);
+        EXPECT_NEAR(e.reached, 6e-3, 1e-4);
+    }
+    for (const auto& pair : c.pairs) {
+        if (pair.first >= 5) continue;
+        // nut
+        EXPECT_LT(pair.taps[0].relative_l2.back(), 1e-9) << pair.first << " " << pair.second;
+        // bridge
+        EXPECT_LT(pair.taps[2].relative_l2.back(), 1e-6) << pair.first << " " << pair.second;
+        EXPECT_NEAR(pair.taps[0].until[2], 6e-3, 1e-4);
+    }
+    EXPECT_GT(c.floor[0].relative_l2.back(), 1e-13);
+    EXPECT_LT(c.floor[0].relative_l2.back(), 1e-10);
+}
+
+// 60 modes are far from the string: what all references of 60 modes agree about to 1e-9 is wrong by
+// more than 1e-2.
+TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
+    const Scene scene = release(10e-3);
+    const Certificate c = certified(scene, {60, 44100});
+    const Certificate::Pair &from_own = c.pairs[c.pairs.size() - 2], &doubled = c.pairs.back();
+    ASSERT_EQ(c.entries[doubled.first].doubled, "modes");
+    const auto trace = [&scene](int modes, const Certificate::Options& options) {
+        return run(exact_contact, scene, {0, 44100, modes, options}).trace;
+    };
+    const Trace own = trace(60, {}), model = trace(60, matched_alone),
+                twice = trace(120, matched_alone), string = trace(600, matched_alone);
+    for (int k = 0; k < model.taps(); ++k) {
+        const double further = (and_further_ones - 1) * doubled.taps[k].relative_l2.back();
+        for (const auto& [trace, pair] :
+             {std::pair(&own, &from_own), std::pair(&model, &doubled)}) {
+            const double changed = pair->taps[k].relative_l2.back();
+            EXPECT_DOUBLE_EQ(changed,
+                             relative_difference(twice.column(k), trace->column(k), 44100, 1));
+            EXPECT_LT(relative_difference(string.column(k), trace->column(k), 44100, 1),
+                      changed + further);  // of the norm of what is trusted
+        }
+    }
+    EXPECT_GT(from_own.taps[0].relative_l2.back(), 1e-2);
+    EXPECT_LT(doubled.taps[2].relative_l2.back(), 0.1 * from_own.taps[2].relative_l2.back());
+
+    Scene profile = scene;
+    profile.duration = 2e-3;
+    profile.strings[0].barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.02, {1e10}, 1, 0}};
+    profile.strings[0].thread.reset();
+    const Certificate p = certified(profile, {20, 44100});
+    ASSERT_EQ(p.entries.back().doubled, "points");
+    EXPECT_EQ(p.entries.back().options, (Certificate::Options{{"nodes", "64"}}));
+    const auto nut = [&profile](const char* nodes) {
+        return run(exact_contact, profile, {0, 44100, 20, {{"nodes", nodes}}}).trace;
+    };
+    const Trace points = nut("32"), more = nut("64");
+    EXPECT_DOUBLE_EQ(p.pairs.back().taps[0].relative_l2.back(),
+                     relative_difference(more.column(0), points.column(0), 44100, 1));
+    EXPECT_GT(p.pairs.back().taps[0].relative_l2.back(), 0);
+}
+
+TEST(Certificate, OfASceneThatNoReferenceRepresentsIsTheStandInsOwnEstimate) {
+    Scene scene = read_scene("sitar_c5_two_planes", {});
+    scene.duration = 1e-3;
+    ASSERT_EQ(best_reference(scene), nullptr);
+    const Certificate c = certified(scene, {38, 44100});
+    ASSERT_EQ(c.entries.size(), 1u);
+    EXPECT_EQ(c.entries[0].sample_rate, 64 * 44100.0);
+    EXPECT_EQ(c.entries[0].reference.find("oversampled "), 0u);
+    EXPECT_EQ(c.entries[0].estimate.size(), scene.taps.size());
+    EXPECT_TRUE(c.pairs.empty());
+    EXPECT_EQ(c.floor.size(), scene.taps.size());
+}
+
+TEST(Certificate, OfALinearSceneRestsOnTheClosedForm) {
+    Scene scene = c3_free();
+    scene.strings.front().start = ModeShape{2, 1e-3};
+    scene.duration = 20e-3;
+    const Certificate c = certified(scene, {30, 44100});
+    EXPECT_EQ(c.entries.front().reference, "exact_linear");
+    EXPECT_EQ(c.entries.size(), 5u);
+    for (const auto& pair : c.pairs)  // one mode swings: twice as many change nothing
+        for (const Agreement& tap : pair.taps) EXPECT_LT(tap.relative_l2.back(), 1e-12);
 }
 
 // ---- The file
@@ -52,8 +162,8 @@ TEST(CertificateFile, ReadsBackToWhatItWasWrittenFrom) {
         const Scratch scratch;
         const Certificate kept = certified(short_scene(scene, 1e-3), {20, 44100});
         const fs::path path = scratch / "a.json";
-        write(path, json_of(kept));
-        write(cost_path(path), cost_json_of(kept));
+        overwrite(path, json_of(kept));
+        overwrite(cost_path(path), cost_json_of(kept));
         auto back = read_certificate(path);
         ASSERT_TRUE(back);
         EXPECT_EQ(json_of(*back), json_of(kept));
@@ -126,7 +236,7 @@ TEST(CertificateFile, ThatIsBrokenAlteredOrOfAnotherFormatIsNotBelieved) {
     const std::string text = json_of(certified(short_scene("free_string", 5e-3), {10, 44100}));
     EXPECT_FALSE(read_certificate(path));
     const auto refused = [&](const std::string& content) {
-        write(path, content);
+        overwrite(path, content);
         return !read_certificate(path);
     };
     EXPECT_FALSE(refused(text));
@@ -177,20 +287,20 @@ struct Verb {  // jvari certify of a small scene, its file in a folder of its ow
         Json j = Json::parse(content(file));
         j.erase("checksum");
         j["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] = 0.125;
-        write(file, bench::store::sealed(j.dump()));
+        overwrite(file, bench::store::sealed(j.dump()));
     }
     void alter(const char* pointer, const char* value) {
         Json j = Json::parse(content(file));
         j.erase("checksum");
         j[Json::json_pointer(pointer)] = value;
-        write(file, bench::store::sealed(j.dump()));
+        overwrite(file, bench::store::sealed(j.dump()));
     }
     bool altered() const {
         return Json::parse(content(file))["pairs"][0]["taps"]["nut"]["relative_l2"]["whole"] ==
                0.125;
     }
     std::string duration = "0.02";
-    Outcome last{};
+    Ended last{};
 };
 
 TEST(CertifyCommand, RunsTheReferencesOnceAndThenReadsTheFile) {
@@ -282,7 +392,7 @@ TEST(CertifyCommand, RefusesWhatItCannotDoAsTheOtherVerbsDo) {
         EXPECT_TRUE(ends(jvari(scratch, arguments), 2, expected)) << arguments;
     }
     EXPECT_TRUE(says(jvari(scratch, "certify --help").out, "Example: jvari certify"));
-    const Outcome nobody =
+    const Ended nobody =
         jvari(scratch,
               "certify sitar_c5_two_planes --set string.0.damping.law=polynomial --set "
               "string.0.damping.sigma0=1 --set string.0.damping.sigma1=0.01 --out " +
@@ -450,7 +560,7 @@ struct Shelf : Scratch {  // a library of certificates with one in it
         for (auto& p : kept.pairs)
             for (Agreement& tap : p.taps)
                 tap.relative_l2.fill(kept.entries[p.first].doubled.empty() ? figure : 0);
-        write(path / (kept.scene + ".json"), json_of(kept));
+        overwrite(path / (kept.scene + ".json"), json_of(kept));
     }
 };
 
@@ -463,7 +573,7 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
     const Certificate kept = certified(short_scene("free_string", 0.07), {133, 44100});
     shelf.put(kept, 0.25);
     const std::string out = shelf / "out";
-    const Outcome o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
+    const Ended o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
     const bench::study::Cells cells = bench::study::read_cells(out, true);
     const auto figure = [](const bench::study::TabledCell& c, const char* measure,
@@ -492,14 +602,14 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
     EXPECT_NEAR(certificate["figures"]["certificate_l2_50ms_y03"].get<double>(), 0.255, 0.005);
 
     shelf.put(kept, 1e-9);
-    const Outcome fine = jvari(shelf, small_compare, shelf.environment);
+    const Ended fine = jvari(shelf, small_compare, shelf.environment);
     EXPECT_FALSE(says(fine.out, "\u2264"));
 }
 
 TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModesOfTheCells) {
     Shelf shelf;
     const auto missing = [&shelf](const std::string& arguments) {
-        const Outcome o = jvari(shelf, arguments + " --json", shelf.environment);
+        const Ended o = jvari(shelf, arguments + " --json", shelf.environment);
         const Json json = Json::parse(o.out);
         const bool none = json["manifest"]["reference"]["certificate"].contains("missing");
         EXPECT_EQ(none, certificate_in(json, "error_l2_10ms") < 0.25);
@@ -517,7 +627,7 @@ TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModes
     const auto undoubled = [&shelf](const std::string& more) {
         return jvari(shelf, small_compare + "--reference-modes cell" + more, shelf.environment);
     };
-    const Outcome unknown = undoubled("");  // of ten modes there is no certificate
+    const Ended unknown = undoubled("");  // of ten modes there is no certificate
     EXPECT_TRUE(says(unknown.err, "the uncertainty of exact_linear is unknown"));
     EXPECT_TRUE(says(unknown.err, "jvari certify free_string --"));
     EXPECT_TRUE(says(unknown.out,
@@ -530,7 +640,7 @@ TEST(ComparedWithACertificate, ItMustBeOfThatSceneAndThisTapRateWhateverTheModes
 TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
     const Scratch scratch;
     const std::string out = scratch / "out";
-    const Outcome o = jvari(
+    const Ended o = jvari(
         scratch,
         "compare sitar_c5_two_planes --rates 44100,88200 --duration 0.02 --repeats 1 --out " + out);
     ASSERT_TRUE(ends(o, 0, "against oversampled sitar_waveguide at 352800 Hz"));
@@ -557,9 +667,9 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
 
 TEST(ComparedWithAStandIn, ASchemeThatASuiteAsksForEstimatesItsOwnErrorToo) {
     const Scratch scratch;
-    write(scratch.path / "a.toml",
-          suite_of("free_string", "modal_two_point", "88200",
-                   "modes = 10\nduration = 0.06\nreference = 'modal_two_point'"));
+    overwrite(scratch.path / "a.toml",
+              suite_of("free_string", "modal_two_point", "88200",
+                       "modes = 10\nduration = 0.06\nreference = 'modal_two_point'"));
     const Json json = Json::parse(jvari(scratch, "suite " + (scratch / "a.toml") + " --json").out);
     EXPECT_EQ(json["cells"][0]["reference"], "oversampled modal_two_point");
     EXPECT_GT(certificate_in(json, "error_l2_50ms"), 0);
@@ -568,11 +678,11 @@ TEST(ComparedWithAStandIn, ASchemeThatASuiteAsksForEstimatesItsOwnErrorToo) {
 TEST(SuiteWithACertificate, EveryCellHasTheFigures) {
     Shelf shelf;
     shelf.put(certified(short_scene("free_string", 0.02), {10, 44100}), 0.25);
-    write(shelf.path / "a.toml",
-          suite_of("free_string,sitar_c5_two_planes", "modal_two_point,sitar_waveguide", "44100",
-                   "modes = 10\nreference_modes = 'cell'\nduration = 0.02"));
+    overwrite(shelf.path / "a.toml",
+              suite_of("free_string,sitar_c5_two_planes", "modal_two_point,sitar_waveguide",
+                       "44100", "modes = 10\nreference_modes = 'cell'\nduration = 0.02"));
     const std::string out = shelf / "out";
-    const Outcome o =
+    const Ended o =
         jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
     const bench::study::Cells cells = bench::study::read_cells(out, true);

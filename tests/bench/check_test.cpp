@@ -9,7 +9,7 @@
 namespace jvari::test {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 int count(const std::string& text, const std::string& word) {
     int n = 0;
@@ -19,7 +19,7 @@ int count(const std::string& text, const std::string& word) {
 
 TEST(Check, ASchemeOfTheTreeKeepsWhatItPromises) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch, "check modal_two_point --json --quiet");
+    const Ended o = jvari(scratch, "check modal_two_point --json --quiet");
     EXPECT_EQ(o.code, 0) << o.out << o.err;
     const Json j = Json::parse(o.out);
     EXPECT_EQ(j["status"], "kept");
@@ -38,7 +38,7 @@ TEST(Check, ASchemeOfTheTreeKeepsWhatItPromises) {
 
 TEST(Check, ExcusesAKnownBreachByNameAndSaysSo) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch, "check modal_generalised_alpha");
+    const Ended o = jvari(scratch, "check modal_generalised_alpha");
     EXPECT_EQ(o.code, 0) << o.out << o.err;
     EXPECT_TRUE(std::regex_search(
         o.out, std::regex("excused    CarriesNoMoreStateThanTheSceneNeeds .*acceleration")))
@@ -53,7 +53,7 @@ TEST(Check, ItsLastLineCountsAndSaysWhyAPromiseWasNotAsked) {
     const std::string asked =
         "check modal_explicit_penalty --only NeverPulls,"
         "KeepsItsEnergyLedgerInSum,StaysSoundOverAMap";
-    const Outcome o = jvari(scratch, asked);
+    const Ended o = jvari(scratch, asked);
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(o.out.ends_with(
         "\n  keeps what it promises\n  1 kept, 2 not asked: it promises no balance\n"))
@@ -66,7 +66,7 @@ TEST(Check, AsksTheNamedPromisesOnTheNamedScenesAlone) {
     const Scratch scratch;
     const auto asked = [&](const std::string& options) {
         std::set<std::string> all;
-        const Outcome o = jvari(scratch, "check --json " + options + " modal_two_point");
+        const Ended o = jvari(scratch, "check --json " + options + " modal_two_point");
         const Json said = Json::parse(o.out);
         for (const Json& a : said["schemes"][0]["answers"])
             all.insert(a["promise"].get<std::string>() + " " + a["scene"].get<std::string>());
@@ -90,7 +90,7 @@ TEST(Check, AsksTheNamedPromisesOnTheNamedScenesAlone) {
 
 TEST(Check, WritesWhatContinuousIntegrationReads) {
     const Scratch scratch;
-    const Outcome o =
+    const Ended o =
         jvari(scratch, "check gives_nan --plugin " JVARI_FAULTS " --json --quiet --junit " +
                            (scratch / "check.xml"));
     EXPECT_EQ(o.code, 4) << o.err;
@@ -112,7 +112,7 @@ TEST(Check, WritesWhatContinuousIntegrationReads) {
 TEST(Check, WantsASchemeThatThereIs) {
     const Scratch scratch;
     EXPECT_EQ(jvari(scratch, "check").code, 2);
-    const Outcome o = jvari(scratch, "check modal_two_pont");
+    const Ended o = jvari(scratch, "check modal_two_pont");
     EXPECT_TRUE(ends(o, 2, "modal_two_point"));
     EXPECT_EQ(jvari(scratch, "check --plugin " + (scratch / "none.so")).code, 2);
     EXPECT_EQ(jvari(scratch, "check modal_two_point --junit /nowhere/check.xml").code, 2);

@@ -22,7 +22,7 @@ namespace {
 const std::string plugin = std::string(" --plugin ") + JVARI_STUMBLING_PLUGIN;
 
 nlohmann::json json_from(const Scratch& scratch, const std::string& arguments) {
-    const Outcome o = jvari(scratch, arguments + " --json");
+    const Ended o = jvari(scratch, arguments + " --json");
     EXPECT_EQ(o.code, 0) << arguments << o.err;
     return nlohmann::json::parse(o.out);
 }
@@ -113,7 +113,7 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"report nowhere", "nowhere/facts.csv"},
     };
     for (const auto& [arguments, expected] : cases) {
-        const Outcome o = jvari(scratch, arguments);
+        const Ended o = jvari(scratch, arguments);
         EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
         EXPECT_EQ(o.out, "") << arguments;
         EXPECT_TRUE(says(o.err, expected)) << arguments;
@@ -197,7 +197,7 @@ TEST(CommandLine, AWordOfAnotherKindIsMetWithWhatWasMeant) {
 
 TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch, "run sitar_parabola --scheme exact_linear --json");
+    const Ended o = jvari(scratch, "run sitar_parabola --scheme exact_linear --json");
     EXPECT_TRUE(ends(o, 3, "profile barrier"));
     const auto json = nlohmann::json::parse(o.out);
     EXPECT_EQ(json.at("status"), "refused");
@@ -205,7 +205,7 @@ TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
 
 TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
     const Scratch scratch;
-    const Outcome o =
+    const Ended o =
         jvari(scratch, "run free_string --scheme stumbling --option fail_at=0.1 --json --out " +
                            (scratch / "t.csv") + plugin);
     EXPECT_EQ(o.code, 4) << o.err;
@@ -228,7 +228,7 @@ TEST(CommandLine, RunSaysWhatSpeaksAgainstItAsCompareDoes) {
     EXPECT_TRUE(ends(jvari(scratch, run), 0, "\n! the contact pulls with "));
     const auto flags = json_from(scratch, run).at("flags");
     EXPECT_TRUE(flags.contains("adhesion")) << flags;
-    const Outcome honest =
+    const Ended honest =
         jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --energy");
     EXPECT_FALSE(says(honest.out, "! "));
 }
@@ -255,7 +255,7 @@ TEST(CommandLine, RunShowsSolverCountersWithFactsAloneAndApproximationsAlways) {
     const Scratch scratch;
     const std::string run =
         "run sitar_parabola --scheme modal_two_point --modes 20 --duration 0.002";
-    const Outcome plain = jvari(scratch, run), all = jvari(scratch, run + " --facts");
+    const Ended plain = jvari(scratch, run), all = jvari(scratch, run + " --facts");
     EXPECT_FALSE(says(plain.out, "contact_iterations_mean"));
     EXPECT_TRUE(says(plain.out, "\n  contact_points "));  // of the profile
     EXPECT_TRUE(says(all.out, "contact_iterations_mean"));
@@ -338,7 +338,7 @@ TEST(CommandLine, AForeignTraceThatGrowsIsCalledDivergedWhateverItsError) {
         return jvari(scratch, "judge free_string --duration 0.1 --trace 44100=" + file);
     };
     EXPECT_EQ(judged(whole).code, 0);
-    const Outcome o = judged(grown);
+    const Ended o = judged(grown);
     EXPECT_EQ(o.code, 4);
     EXPECT_TRUE(says(o.out, "diverged at step")) << o.out;
 }
@@ -347,7 +347,7 @@ TEST(CommandLine, AWavIsWrittenWholeAndSaysHowLoudItIs) {
     const Scratch scratch;
     const std::string run =
         "run free_string --scheme stumbling --duration 0.1" + plugin + " --out ";
-    const Outcome o = jvari(scratch, run + (scratch / "t.wav"));
+    const Ended o = jvari(scratch, run + (scratch / "t.wav"));
     EXPECT_TRUE(ends(o, 0, "peak -1.0 dB"));
     // one channel, 24 bits, and a header
     EXPECT_EQ(std::filesystem::file_size(scratch / "t.wav") / (4411 * 3), 1u);
@@ -397,7 +397,7 @@ TEST(CommandLine, ListShowsOptionsAndFactsAsTextAndAsJson) {
 TEST(CommandLine, APluginCompiledWithoutOptimisationIsWarnedOf) {
     const Scratch scratch;
     const std::string run = "run free_string --scheme stumbling --duration 0.01";
-    const Outcome slow = jvari(scratch, run + " --plugin " + JVARI_UNOPTIMISED_PLUGIN);
+    const Ended slow = jvari(scratch, run + " --plugin " + JVARI_UNOPTIMISED_PLUGIN);
     EXPECT_EQ(slow.code, 0) << slow.err;
     EXPECT_TRUE(says(slow.err, "compiled without optimisation"));
     EXPECT_FALSE(says(jvari(scratch, run + plugin).err, "compiled without optimisation"));
@@ -504,11 +504,11 @@ TEST(CommandLine, RatesWithoutRowsInCommonHaveTheErrorsThatEachHasAlone) {
     const Scratch scratch;
     const auto errors = [&](const std::string& rates) {
         const std::string out = scratch / rates;
-        const Outcome o = jvari(scratch,
-                                "compare tanpura_c3_release --schemes "
-                                "modal_two_point,exact_contact --option compliance=own --modes 40 "
-                                "--duration 0.02 --repeats 1 --reference-modes cell --rates " +
-                                    rates + " --out " + out);
+        const Ended o = jvari(scratch,
+                              "compare tanpura_c3_release --schemes "
+                              "modal_two_point,exact_contact --option compliance=own --modes 40 "
+                              "--duration 0.02 --repeats 1 --reference-modes cell --rates " +
+                                  rates + " --out " + out);
         EXPECT_EQ(o.code, 0) << o.err;
         EXPECT_EQ(o.err.find("44100 and 48000 rows a second") != std::string::npos,
                   rates.size() > 5)
@@ -594,7 +594,7 @@ TEST(BadPlugin, ATableThatIsNoneIsASentence) {
                                 "has no source for its scheme bad_sourceless",
                                 "has nothing that makes its scheme bad_makeless"};
     for (int kind = 1; kind <= 5; ++kind) {
-        const Outcome o = jvari(scratch, "check" + bad_plugin(kind));
+        const Ended o = jvari(scratch, "check" + bad_plugin(kind));
         EXPECT_TRUE(ends(o, 2, says[kind])) << kind;
     }
 }
@@ -606,14 +606,14 @@ TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
                                  "bad_step"};
     std::string schemes = "modal_two_point";
     for (const std::string name : names) {
-        const Outcome o =
+        const Ended o =
             jvari(scratch, "run free_string --duration 0.01 --scheme " + name + bad_plugin(0));
         EXPECT_EQ(o.code, 4) << name;
         EXPECT_GT(o.err.size(), 20u) << name;
         schemes += "," + name;
     }
     const std::string out = scratch / "cmp";
-    const Outcome o = jvari(
+    const Ended o = jvari(
         scratch, "compare free_string --duration 0.01 --repeats 1 --rates 44100 --json --schemes " +
                      schemes + " --out " + out + bad_plugin(0));
     ASSERT_EQ(o.code, 0) << o.err;
@@ -627,14 +627,13 @@ TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
 TEST(CommandLine, AReferenceThatFailsOnItsWayIsARowOfEveryVerb) {
     const Scratch scratch;
     const std::string failing = " --set string.0.barrier.0.stiffness=1e300 --duration 0.002";
-    const Outcome ran =
-        jvari(scratch, "run tanpura_c3_release --scheme sundials --energy" + failing);
+    const Ended ran = jvari(scratch, "run tanpura_c3_release --scheme sundials --energy" + failing);
     EXPECT_EQ(ran.code, 4) << ran.err;
     EXPECT_FALSE(says(ran.err, "-92233"));
-    const Outcome certified = jvari(
+    const Ended certified = jvari(
         scratch, "certify tanpura_c3_release --modes 20 --out " + (scratch / "c.json") + failing);
     EXPECT_TRUE(certified.code == 0 || certified.code == 4) << certified.code << certified.err;
-    const Outcome compared = jvari(
+    const Ended compared = jvari(
         scratch,
         "compare tanpura_c3_release --schemes sundials,modal_two_point --rates 44100 --repeats 1" +
             failing,
@@ -647,12 +646,12 @@ TEST(CommandLine, APluckedStringIsJudgedOnceItIsLetGo) {
     const std::string compare =
         "compare tanpura_c3 --schemes modal_two_point --rates 44100 --modes 20 --reference-modes "
         "20 --repeats 1";
-    const Outcome pushed = jvari(scratch, compare + " --duration 0.03");
+    const Ended pushed = jvari(scratch, compare + " --duration 0.03");
     EXPECT_EQ(pushed.code, 3) << pushed.err;
     EXPECT_TRUE(says(pushed.err, "a pluck of tanpura_c3 ends at 0.05 s, and the run at 0.03 s"));
     EXPECT_TRUE(says(pushed.err, "a --duration of 0.1 covers the first 50 ms"));
     const std::string out = (scratch.path / "plucked").string();
-    const Outcome free = jvari(scratch, compare + " --duration 0.07 --out " + out);
+    const Ended free = jvari(scratch, compare + " --duration 0.07 --out " + out);
     ASSERT_EQ(free.code, 0) << free.err;
     EXPECT_TRUE(says(free.out, "their windows begin at 0.05 s"));
     const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
@@ -666,7 +665,7 @@ TEST(CommandLine, APluckedStringIsJudgedOnceItIsLetGo) {
 TEST(NewScene, EachInstrumentsSceneIsExplainedAndRunsAsItStands) {
     const Scratch scratch;
     for (const std::string instrument : {"guitar", "tanpura", "sitar", "bass", "piano"}) {
-        const Outcome o = shell(
+        const Ended o = shell(
             scratch, "$J new " + instrument + " my_" + instrument + " && $J run my_" + instrument +
                          ".toml --scheme finite_difference_theta --duration 0.002 --json");
         ASSERT_EQ(o.code, 0) << instrument << o.err;
@@ -685,7 +684,7 @@ TEST(NewScene, EachInstrumentsSceneIsExplainedAndRunsAsItStands) {
 
 TEST(NewScene, AWireOfAnotherMaterialKeepsThePitch) {
     const Scratch scratch;
-    const Outcome o = shell(
+    const Ended o = shell(
         scratch,
         "$J new guitar nylon --material nylon --diameter 1.1mm && $J run nylon.toml --scheme "
         "modal_two_point "
@@ -705,9 +704,9 @@ TEST(NewScene, AWireOfAnotherMaterialKeepsThePitch) {
 // 24.6 lb, 109.4 N, of E2 at 25.5 in.
 TEST(NewScene, AStringAsItIsSoldHasTheMakersWeightAndTheInstrumentsPitch) {
     const Scratch scratch;
-    const Outcome o = shell(scratch,
-                            "$J new guitar sold --material 'nickel wound' --diameter 0.054in && $J "
-                            "run sold.toml --scheme modal_two_point --duration 5ms");
+    const Ended o = shell(scratch,
+                          "$J new guitar sold --material 'nickel wound' --diameter 0.054in && $J "
+                          "run sold.toml --scheme modal_two_point --duration 5ms");
     EXPECT_TRUE(says(o.out, "string: f1 = 82.41 Hz (E2), tension 110 N")) << o.err;
     const String s = read_scene(scratch / "sold.toml").strings.at(0);
     EXPECT_NEAR(s.linear_density, 9.6144e-3, 1e-8);
@@ -772,7 +771,7 @@ TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
 
 TEST(Help, NoVerbIsWelcomedAndHelpOfAVerbIsItsOwn) {
     const Scratch scratch;
-    const Outcome welcome = jvari(scratch, "");
+    const Ended welcome = jvari(scratch, "");
     EXPECT_EQ(welcome.code, 2);
     EXPECT_LE(std::count(welcome.out.begin(), welcome.out.end(), '\n'), 10);
     EXPECT_TRUE(says(welcome.out, "jvari new guitar"));
@@ -819,15 +818,15 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
         << "name = \"silent\"\nduration = 0.01\n[[string]]\nlength = 1\nlinear_density = "
            "1e-3\ntension = 40\n"
            "[[tap]]\nname = \"nut\"\nquantity = \"nut_force\"\n";
-    const Outcome silent =
+    const Ended silent =
         jvari(scratch, "run " + (scratch / "silent.toml") + " --scheme modal_two_point");
     EXPECT_TRUE(says(silent.err, "string 0 of silent stays silent"));
-    const Outcome late =
+    const Ended late =
         jvari(scratch, "run tanpura_drone --scheme finite_difference_explicit --duration 0.01");
     EXPECT_TRUE(
         says(late.err, "string 1 of tanpura_drone stays silent: its pluck begins at 1.2 s"));
     EXPECT_FALSE(says(late.err, "string 0"));
-    const Outcome at_the_end = jvari(
+    const Ended at_the_end = jvari(
         scratch,
         "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.start=0.01");
     EXPECT_TRUE(
@@ -837,7 +836,7 @@ TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
         "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
     EXPECT_EQ(jvari(scratch, sympathetic).err, "")
         << "its bridge shakes the strings that nobody plucks";
-    const Outcome still = jvari(scratch, sympathetic + " --set string.0.start.amplitude=0");
+    const Ended still = jvari(scratch, sympathetic + " --set string.0.start.amplitude=0");
     EXPECT_TRUE(says(still.err, "string 2 of sitar_sympathetic stays silent"));
     const std::string rest =
         "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.amplitude=0 "
@@ -864,7 +863,7 @@ TEST(Untouched, ARunInWhichNoStringTouchesItsBarrierSaysSo) {
 
 TEST(Quiet, SaysNothingButErrors) {
     const Scratch scratch;
-    const Outcome o =
+    const Ended o =
         jvari(scratch, "run free_string --scheme modal_two_point --duration 0.01 --quiet");
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.out + o.err, "");
@@ -893,11 +892,11 @@ TEST(Controls, TakePartWhereTheyAreAskedFor) {
 
 TEST(Terminal, OfEightyColumnsShowsTheCost) {
     const Scratch scratch;
-    const Outcome o = jvari(scratch,
-                            "compare free_string --schemes "
-                            "modal_two_point,finite_difference_explicit --rates 44100 --modes 20 "
-                            "--duration 0.01 --repeats 1",
-                            "COLUMNS=80");
+    const Ended o = jvari(scratch,
+                          "compare free_string --schemes "
+                          "modal_two_point,finite_difference_explicit --rates 44100 --modes 20 "
+                          "--duration 0.01 --repeats 1",
+                          "COLUMNS=80");
     ASSERT_EQ(o.code, 0) << o.err;
     const auto table = o.out.find("  scheme ");
     ASSERT_NE(table, std::string::npos) << o.out;
@@ -915,7 +914,7 @@ TEST(Plot, ShowsEveryTapAndTheContactForceFirstWhateverIsWritten) {
     const std::string run =
         "run sitar_parabola --scheme modal_two_point --duration 0.005 --modes 20";
     ASSERT_EQ(jvari(scratch, run + " --out " + (scratch / "alone.wav")).code, 0);
-    const Outcome both = jvari(
+    const Ended both = jvari(
         scratch, run + " --plot " + (scratch / "a.svg") + " --out " + (scratch / "drawn.wav"));
     ASSERT_EQ(both.code, 0) << both.err;
     EXPECT_EQ(content(scratch / "drawn.wav"), content(scratch / "alone.wav"));
@@ -985,7 +984,7 @@ TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {
     const std::string more =
         " --schemes modal_two_point --rates 44100 --modes 5 --duration 0.002 --repeats 1 --out r";
     ASSERT_EQ(shell(scratch, "$J compare free_string" + more).code, 0);
-    const Outcome again = shell(scratch, "touch r/notes.txt && $J compare free_string" + more);
+    const Ended again = shell(scratch, "touch r/notes.txt && $J compare free_string" + more);
     EXPECT_EQ(again.code, 0);
     EXPECT_TRUE(says(again.err, "r holds what is not of a comparison: notes.txt"));
     EXPECT_TRUE(ends(shell(scratch, "$J compare tanpura_c3_release" + more), 2,
@@ -1013,7 +1012,7 @@ TEST(ResultsFolder, OfAComparisonIsNotOverwrittenByATrimmedSceneAndTheOtherWayRo
     EXPECT_EQ(content(scratch / "compared/manifest.json"), manifest);
     EXPECT_EQ(content(scratch / "compared/report.html"), page);
     ASSERT_EQ(shell(scratch, trim + "trimmed").code, 0);
-    const Outcome again = shell(scratch, trim + "trimmed");
+    const Ended again = shell(scratch, trim + "trimmed");
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_FALSE(says(again.err, "holds what is not of"));
     EXPECT_TRUE(ends(shell(scratch, compare + "trimmed"), 2, "holds the trim of free_string"));
@@ -1021,7 +1020,7 @@ TEST(ResultsFolder, OfAComparisonIsNotOverwrittenByATrimmedSceneAndTheOtherWayRo
 
 TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {
     const Scratch scratch;
-    const Outcome o = shell(
+    const Ended o = shell(
         scratch,
         "mkdir study && cd study && $J new guitar mine --quiet && cd .. && "
         "printf '[[cells]]\\nscenes = [\"mine.toml\"]\\nschemes = [\"modal_two_point\"]\\nmodes = "

@@ -277,7 +277,7 @@ TEST(Diff, FindsAPluginThatIsTwoPerCentOffAndNothingElse) {
     const std::string compare =
         "$J compare free_string --schemes honest,modal_two_point --rates 44100,88200 --duration "
         "0.05 --repeats 1 --quiet ";
-    const Outcome o = shell(
+    const Ended o = shell(
         scratch, compare + "--plugin " JVARI_HONEST " --out a >/dev/null || exit 9\n" + compare +
                      "--plugin " JVARI_LOUD " --out b >/dev/null || exit 9\n" + compare +
                      "--plugin " JVARI_HONEST
@@ -330,7 +330,7 @@ TEST(Diff, RefusesBadFolders) {
 // cells.csv is to look at, and people read it.
 TEST(Diff, SeesThatCellsCsvNoLongerFollowsFromTheOtherFiles) {
     const Scratch scratch;
-    const Outcome o =
+    const Ended o =
         shell(scratch,
               "$J compare free_string --schemes modal_two_point --rates 44100 --modes 20 "
               "--reference-modes 20 --duration 0.005 --repeats 1 --out one --quiet >/dev/null\n"
@@ -344,7 +344,7 @@ TEST(Diff, SeesThatCellsCsvNoLongerFollowsFromTheOtherFiles) {
 
 TEST(Diff, EndsWith4WhereErrorsOrCellsOfTheFirstFolderAreGone) {
     const Scratch scratch;
-    const Outcome o =
+    const Ended o =
         shell(scratch,
               "make() {\n"
               "    mkdir $1; cd $1; echo '{}' >manifest.json; shift\n"

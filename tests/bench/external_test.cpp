@@ -52,7 +52,7 @@ TEST(External, ATimeLimitIsOneOnTheClock) {
     std::ofstream(scratch / "s.toml")
         << suite_of("free_string", "mine", "44100",
                     "duration = 0.005\nmodes = 20\nreference_modes = 20\ntime_limit_s = 0.5");
-    const Outcome o = shell(scratch, suite);
+    const Ended o = shell(scratch, suite);
     EXPECT_EQ(o.code, 4);
     EXPECT_TRUE(says(o.out, "past its time limit of 0.5 s"));
 }
@@ -73,7 +73,7 @@ TEST(External, ItsFilesAreKnownAsTheShellReadsTheCommand) {
         std::ofstream(scratch / "again")
             << compare << name << " --external \"$(cat command)\" 2>&1 | grep read.back\n";
         std::ofstream(scratch / "command") << command;
-        const Outcome o =
+        const Ended o =
             shell(scratch, "ulimit -v 2000000; rm -rf out\n" + silence(file) +
                                ". ./again; . ./again; echo >>'" + file + "'; . ./again");
         EXPECT_EQ(
@@ -92,7 +92,7 @@ TEST(External, CheckAsksForWhatItSaysThatItRepresents) {
         return shell(scratch, "timeout 60 $J check mine --external 'sh mine' " + more);
     };
     const std::string named = "--only NameWhatIsMissing,KeepsItsEnergyLedgerInSum";
-    const Outcome o =
+    const Ended o =
         of(named, "echo represents: damping, initial shape; echo balance: exact; exit 0");
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(o.out, "NameWhatIsMissing                                 26 scenes"));
@@ -112,7 +112,7 @@ TEST(External, ItsCostIsTheOneThatIsReported) {
                                 "$J compare free_string --duration 0.005 --external 'sh mine' "
                                 "--schemes mine,modal_two_point --modes 20 --reference-modes 20 "
                                 "--repeats 1 --out out --rates 44100,88200 --cost mine=";
-    const Outcome o = shell(scratch, compare + "0.5,1.5");
+    const Ended o = shell(scratch, compare + "0.5,1.5");
     EXPECT_EQ(o.code, 0) << o.err;
     const bench::store::Table cost = bench::store::read_csv(content(scratch / "out/cost.csv"));
     std::string found;
@@ -137,9 +137,9 @@ TEST(Judge, ATraceThatHoldsNoNumberIsAFailedRowAtItsRateAndNoMore) {
     shell(scratch,
           "awk -F, -v OFS=, 'NR > 300 { $3 = \"NaN\"; $NF = \"inf\" } 1' 88200.csv > nan.csv");
     const std::string why = "88.2 kHz: tap ";
-    const Outcome o = shell(scratch, judge +
-                                         " --trace 44100=44100.csv --trace 88200=nan.csv "
-                                         "--trace 176400=176400.csv --out out");
+    const Ended o = shell(scratch, judge +
+                                       " --trace 44100=44100.csv --trace 88200=nan.csv "
+                                       "--trace 176400=176400.csv --out out");
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(o.out, "at 44.1 kHz: errs by"));
     EXPECT_TRUE(says(o.out, "at 176.4 kHz: errs by"));
@@ -155,9 +155,9 @@ TEST(Judge, ATraceThatHoldsNoNumberIsAFailedRowAtItsRateAndNoMore) {
 TEST(External, WhatTakesLongIsToldOfAtLeastEveryTenSeconds) {
     const Scratch scratch;
     std::ofstream(scratch / "mine") << "[ \"$1\" = represents ] || sleep 60\n";
-    const Outcome o = shell(scratch,
-                            "timeout 14 $J check mine --external 'sh mine' "
-                            "--only ItRunsAScene");
+    const Ended o = shell(scratch,
+                          "timeout 14 $J check mine --external 'sh mine' "
+                          "--only ItRunsAScene");
     EXPECT_TRUE(says(o.err, "check mine   0 % ItRunsAScene, 10 s"));
 }
 

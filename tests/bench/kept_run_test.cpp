@@ -15,24 +15,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Settings settings{0, 44100, 20, {{"tolerance", "1e-8"}}};
+const Settings kept_settings{0, 44100, 20, {{"tolerance", "1e-8"}}};
 
 Scene released() { return bench::compare::load_scene("tanpura_c3_release", {}, 5e-3); }
 
 jvari::Run a_run(double seconds = 1) {
-    jvari::Run r = run(exact_contact, released(), settings);
+    jvari::Run r = run(exact_contact, released(), kept_settings);
     r.wall_seconds = seconds;
     return r;
-}
-
-void overwrite(const fs::path& path, const std::string& bytes) {
-    std::ofstream(path, std::ios::binary) << bytes;
 }
 
 TEST(KeptRun, IsTheRunToTheLastBit) {
     const Scratch scratch;
     jvari::Run before = a_run();
-    before.status = {jvari::Outcome::not_converged, 12};
+    before.status = {Outcome::not_converged, 12};
     before.facts.push_back({"nothing", std::nan(""), "m"});
     bench::study::write_run(scratch / "a.run", "key", before);
     const auto after = bench::study::read_run(scratch / "a.run", "key");
@@ -42,7 +38,7 @@ TEST(KeptRun, IsTheRunToTheLastBit) {
     EXPECT_EQ(after->trace.rows, before.trace.rows);
     EXPECT_EQ(after->trace.stride, before.trace.stride);
     EXPECT_EQ(after->trace.tap_rate, before.trace.tap_rate);
-    EXPECT_EQ(after->status.outcome, jvari::Outcome::not_converged);
+    EXPECT_EQ(after->status.outcome, Outcome::not_converged);
     EXPECT_EQ(after->status.step, 12);
     EXPECT_EQ(after->dofs, before.dofs);
     EXPECT_EQ(after->steps, before.steps);
@@ -149,19 +145,19 @@ TEST(KeptRun, OfLessThanHalfASecondIsNotKeptAndAFolderThatCannotBeIsNoError) {
 
 TEST(KeptRun, HasAKeyOfEverythingThatItsNumbersDependOn) {
     const Scene scene = released();
-    const std::string key = bench::study::run_key(exact_contact, scene, settings);
-    EXPECT_EQ(bench::study::run_key(exact_contact, released(), settings), key);
-    EXPECT_NE(bench::study::run_key(sundials, scene, settings), key);
+    const std::string key = bench::study::run_key(exact_contact, scene, kept_settings);
+    EXPECT_EQ(bench::study::run_key(exact_contact, released(), kept_settings), key);
+    EXPECT_NE(bench::study::run_key(sundials, scene, kept_settings), key);
     Scene longer = scene;
     longer.duration *= 2;
-    EXPECT_NE(bench::study::run_key(exact_contact, longer, settings), key);
-    Settings other = settings;
+    EXPECT_NE(bench::study::run_key(exact_contact, longer, kept_settings), key);
+    Settings other = kept_settings;
     other.modes = 21;
     EXPECT_NE(bench::study::run_key(exact_contact, scene, other), key);
-    other = settings;
+    other = kept_settings;
     other.tap_rate = 48000;
     EXPECT_NE(bench::study::run_key(exact_contact, scene, other), key);
-    other = settings;
+    other = kept_settings;
     other.options[0].second = "1e-9";
     EXPECT_NE(bench::study::run_key(exact_contact, scene, other), key);
 }

@@ -31,8 +31,8 @@ TEST(Regression, TheSmokeSuiteIsWhatItWasWhenItWasRecorded) {
     for (std::size_t at; (at = suite.find("\"cost\"")) != std::string::npos;)
         suite.replace(at, 6, "\"errors\"");
     std::ofstream(scratch / "smoke.toml") << suite;
-    const Outcome o = jvari(scratch, "suite " + (scratch / "smoke.toml") +
-                                         " --jobs 2 --quiet --out " + (scratch / "now"));
+    const Ended o = jvari(scratch, "suite " + (scratch / "smoke.toml") +
+                                       " --jobs 2 --quiet --out " + (scratch / "now"));
     ASSERT_EQ(o.code, 0) << o.err;
 
     const bench::suite::Results then = bench::suite::read_results(kept),

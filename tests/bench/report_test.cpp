@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct MadeUp : Scratch {  // some of the files
-    explicit MadeUp(const std::vector<std::string>& files) {
+struct Folder : Scratch {  // some of the files
+    explicit Folder(const std::vector<std::string>& files) {
         for (const std::string& name : files)
             fs::copy_file(fs::path(JVARI_MADE_UP_RESULTS) / name, path / name);
     }
@@ -37,9 +37,8 @@ Json data_of(const std::string& page) {
 }
 
 TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
-    const MadeUp folder(every_file);
-    const Outcome o =
-        jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    const Folder folder(every_file);
+    const Ended o = jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(o.err, "npm ci"));
     const Json data = data_of(content(folder / "report.html"));
@@ -64,7 +63,7 @@ TEST(Report, AFolderWithoutResultsIsRefused) {
 }
 
 TEST(Report, ATableThatWasCutAfterItsHeaderIsRefusedAndThePageStays) {
-    const MadeUp folder({"manifest.json", "maps.csv"});
+    const Folder folder({"manifest.json", "maps.csv"});
     std::ofstream(folder / "facts.csv") << "cell,scheme,rate,status,flags\n";
     std::ofstream(folder / "report.html") << "the page";
     EXPECT_TRUE(ends(jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere"),
@@ -73,28 +72,28 @@ TEST(Report, ATableThatWasCutAfterItsHeaderIsRefusedAndThePageStays) {
 }
 
 TEST(Report, APipeInPlaceOfAFileIsRefused) {
-    const MadeUp folder(every_file);
+    const Folder folder(every_file);
     EXPECT_TRUE(
         ends(shell(folder, "rm manifest.json; mkfifo manifest.json; timeout 20 $J report ."), 2,
              "manifest.json: something that is no file"));
 }
 
 TEST(Report, TextsThatAreNoUtf8AreShownAsFarAsTheyAre) {
-    const MadeUp folder(every_file);
+    const Folder folder(every_file);
     std::string facts = content(folder / "facts.csv");
     for (auto at = facts.find(",three <b>,"); at != std::string::npos;
          at = facts.find(",three <b>,"))
         facts.replace(at, 11, ",one\xff,");
     std::ofstream(folder / "facts.csv", std::ios::binary) << facts;
     fs::remove(folder / "cost.csv");
-    const Outcome o =
+    const Ended o =
         jvari(folder, "report --json " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(content(folder / "report.html"), "one\ufffd"));
 }
 
 TEST(Report, AManifestThatIsNestedTooDeepIsRefused) {
-    const MadeUp folder(every_file);
+    const Folder folder(every_file);
     std::ofstream(folder / "manifest.json")
         << "{\"suite\": \"a\", \"x\": " << std::string(300000, '[') << std::string(300000, ']')
         << "}";
@@ -107,24 +106,23 @@ TEST(Report, SoundsLieBelowTheFolder) {
         << bench::store::wav_of({44100, 1, std::vector<std::int16_t>(4410, 7)});
     for (const std::string& file :
          {outside / "private.wav", "../" + outside.path.filename().string() + "/private.wav"}) {
-        const MadeUp folder(every_file);
+        const Folder folder(every_file);
         std::ofstream(folder / "sounds.csv") << "scheme,rate,modes,tap,quantity,sample_rate,peak,"
                                                 "file,reference_file\none,44100,1,nut,"
                                                 "nut_force,44100,1,"
                                              << file << ",\n";
-        const Outcome o =
+        const Ended o =
             jvari(folder, "report " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
         EXPECT_TRUE(ends(o, 2, "expected one below the folder"));
     }
 }
 
 TEST(Report, ACostOfACellThatIsNotThereIsRefused) {
-    const MadeUp record({"manifest.json", "facts.csv", "errors.csv", "cost.csv"});
+    const Folder record({"manifest.json", "facts.csv", "errors.csv", "cost.csv"});
     std::string cost = content(record / "cost.csv");
     cost.replace(cost.find("88200"), 5, "88300");
     std::ofstream(record / "cost.csv", std::ios::binary) << cost;
-    const Outcome o =
-        jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    const Ended o = jvari(record, "report " + record.path.string(), "JVARI_NODE_MODULES=/nowhere");
     EXPECT_TRUE(ends(o, 2, "cost.csv: found the cell 0000000000000002, which facts.csv has not"));
 }
 

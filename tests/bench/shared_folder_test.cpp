@@ -57,7 +57,7 @@ duration = 0.01
 reproduce = false
 )";
 
-const std::string timed = suite_of("free_string", "modal_two_point", "44100, 88200",
+const std::string costs = suite_of("free_string", "modal_two_point", "44100, 88200",
                                    "reference_modes = 'cell'\nduration = 0.01\nrepeats = 2\n"
                                    "measure = ['errors', 'cost']");
 
@@ -142,7 +142,7 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
             minimised[index] = fs::last_write_time(index);
     EXPECT_EQ(minimised.size(),
               bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size());
-    const Outcome again = shell(scratch, "$J suite a.toml --out all --resume");
+    const Ended again = shell(scratch, "$J suite a.toml --out all --resume");
     EXPECT_EQ(again.code, 0);
     for (const auto& [index, written] : minimised)
         EXPECT_EQ(fs::last_write_time(index), written) << "minimised again: " << index;
@@ -160,7 +160,7 @@ TEST(SharedFolder, WhoIsKilledHoldsNobodyUp) {
         << content(scratch / "stderr");
     // One of the three is stopped while it runs a cell; the others run all that is left, say for
     // whom they wait, and see it die.
-    const Outcome o = shell(scratch, R"sh(
+    const Ended o = shell(scratch, R"sh(
 for k in 1 2 3; do $J suite a.toml --out all --resume --jobs 1 >out$k 2>err$k & all="$all $!"; done
 stopped() { [ "$(sed -n 's/^State:.\(.\).*/\1/p' /proc/$1/status)" = T ]; }
 while [ -z "$held" ]; do
@@ -235,7 +235,7 @@ TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
 
 TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml") << timed;
+    std::ofstream(scratch / "a.toml") << costs;
     fs::create_directories(scratch / "all/cells");
     const auto files = [&](const char* extension) {
         return std::count_if(
@@ -244,7 +244,7 @@ TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
     };
     std::optional<bench::store::FileLock> other(std::in_place, scratch / "all/cells/clock",
                                                 "times the cells");
-    Outcome o{};
+    Ended o{};
     std::atomic<bool> ended = false;
     std::jthread suite([&] {
         o = jvari(scratch,
@@ -265,7 +265,7 @@ TEST(SharedFolder, CostsAreTimedByOneProcessAtATimeOnceAllCellsAreThere) {
 
 TEST(Machines, AFolderHasTheCostsOfOne) {
     const Scratch scratch;
-    std::ofstream(scratch / "a.toml") << timed;
+    std::ofstream(scratch / "a.toml") << costs;
     const std::string resume = "$J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, resume + " --quiet").code, 0) << content(scratch / "stderr");
     const bench::study::Plan plan =
@@ -286,7 +286,7 @@ TEST(Machines, AFolderHasTheCostsOfOne) {
     std::ofstream(file(0)) << clock_json(*clock, plan.jobs[0].identity);
     fs::remove(file(1));
     fs::remove(scratch.path / "all/cells" / (plan.jobs[1].id + ".json"));
-    const Outcome o = shell(scratch, resume);
+    const Ended o = shell(scratch, resume);
     EXPECT_TRUE(ends(o, 0, "2 cells, 1 run, 0 timed"));  // the errors are no machine's
     EXPECT_TRUE(says(o.err,
                      "the costs in all/cells come from another machine, another CPU, 64 cores; "

@@ -511,7 +511,7 @@ TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
                                     "44100, 88200, 176400",
                                     "modes = 20\nreference_modes = 'cell'\nduration = 0.05\n"
                                     "sweep = { 'string.0.tension' = [30, 31, 32, 33] }");
-    const Outcome whole =
+    const Ended whole =
         jvari(scratch, "suite " + file + " --jobs 1 --json --out " + scratch / "whole", none);
     ASSERT_EQ(whole.code, 0) << whole.err;
     const auto json = nlohmann::json::parse(whole.out);
@@ -527,13 +527,13 @@ TEST(SuiteCommand, KilledAtAnyMomentAndResumedItGivesTheSameTable) {
                 .c_str());
     };
     for (const int cells : {1, 3, 4, 7, 10, 12, 15, 19}) start_and_kill_with(cells);
-    const Outcome resumed =
+    const Ended resumed =
         jvari(scratch, "suite " + file + " --resume --json --out " + scratch / "killed", none);
     ASSERT_EQ(resumed.code, 0) << resumed.err;
     EXPECT_GE(nlohmann::json::parse(resumed.out).at("read_back"), 19);
     EXPECT_EQ(content(scratch / "killed/errors.csv"), content(scratch / "whole/errors.csv"));
     EXPECT_TRUE(says(content(scratch / "killed/report.html"), "sitar_fdm cannot represent"));
-    const Outcome again =
+    const Ended again =
         jvari(scratch, "suite " + file + " --resume --json --out " + scratch / "killed", none);
     EXPECT_EQ(nlohmann::json::parse(again.out).at("read_back"), 24);
 }

@@ -9,8 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string small_run = "$J run free_string --scheme modal_two_point --duration 0.05";
-
 TEST(TraceFile, ALinkStaysOneAndItsTargetIsWritten) {
     const Scratch scratch;
     fs::create_directory(scratch / "elsewhere");
@@ -60,15 +58,15 @@ TEST(TraceFile, IsWrittenBesideItsPlaceUnderANameThatNobodyCanForetell) {
 TEST(TraceFile, WhatOneDoesNotHoldIsSaidBeforeTheRun) {
     const Scratch scratch;
     for (const std::string rate : {"44100.5", "500000"}) {
-        const Outcome o = shell(scratch,
-                                "$J run free_string --scheme modal_two_point --energy --modes 20 "
-                                "--duration 1e4 --rate " +
-                                    rate + " --tap-rate " + rate + " --out x.wav");  // never run
+        const Ended o = shell(scratch,
+                              "$J run free_string --scheme modal_two_point --energy --modes 20 "
+                              "--duration 1e4 --rate " +
+                                  rate + " --tap-rate " + rate + " --out x.wav");  // never run
         EXPECT_TRUE(ends(o, 2, "--out x.wav")) << rate;
         EXPECT_TRUE(says(o.err, "a whole number of rows per second from 3000 to 384000"));
         EXPECT_EQ(scratch.files(), 0);
     }
-    const Outcome o =
+    const Ended o =
         shell(scratch, "$J run free_string --scheme modal_two_point --duration 40000 --out x.wav");
     EXPECT_TRUE(ends(o, 2, "at most 4e+09 bytes"));
 }
@@ -80,8 +78,7 @@ TEST(TraceFile, NeedsNoTapAndASoundSaysHowLoudItIs) {
            "= 50.0\n"
            "[string.start]\nshape = \"triangle\"\nposition = 0.3\namplitude = 1e-3\n";
     EXPECT_EQ(shell(scratch, "$J run none.toml --scheme modal_two_point --out x.csv").code, 0);
-    const Outcome o =
-        shell(scratch, "$J run none.toml --scheme modal_two_point --json --out x.wav");
+    const Ended o = shell(scratch, "$J run none.toml --scheme modal_two_point --json --out x.wav");
     ASSERT_EQ(o.code, 0) << o.err;
     const std::string level = nlohmann::json::parse(o.out).at("level");
     EXPECT_TRUE(says(level, "peak -1.0 dB"));

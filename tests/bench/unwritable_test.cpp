@@ -9,8 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string run_for = "$J run free_string --scheme modal_two_point --duration ",
-                  small_run = run_for + "0.05";
 const std::string small_comparison =
     "$J compare free_string --schemes modal_two_point --rates 44100 --duration 0.01 --repeats 1";
 
@@ -18,7 +16,7 @@ TEST(Unwritable, ATraceThatTheDiskDoesNotHoldIsAnErrorAndLeavesNothing) {
     for (const char* file : {"x.csv", "x.wav"}) {
         const Scratch scratch;
         // 16 KiB
-        const Outcome o = shell(scratch, "ulimit -f 16\n" + run_for + "0.4 --out " + file);
+        const Ended o = shell(scratch, "ulimit -f 16\n" + run_for + "0.4 --out " + file);
         EXPECT_TRUE(ends(o, 4, "cannot write " + std::string(file) + ": File too large")) << file;
         EXPECT_EQ(scratch.files(), 0) << file;
         EXPECT_EQ(o.out, "");
@@ -37,8 +35,7 @@ TEST(Unwritable, ATraceStaysAsItWasWhereItsSuccessorDoesNotFit) {
 
 TEST(Unwritable, AComparisonIsKeptWhereNobodyReadsItsTable) {
     const Scratch scratch;
-    const Outcome o =
-        shell(scratch, small_comparison + " --out kept | true\nexit ${PIPESTATUS[0]}");
+    const Ended o = shell(scratch, small_comparison + " --out kept | true\nexit ${PIPESTATUS[0]}");
     EXPECT_TRUE(ends(o, 4, "cannot write to standard output: Broken pipe"));
     for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json", "report.html"})
         EXPECT_TRUE(fs::exists(scratch.path / "kept" / name)) << name;
@@ -49,7 +46,7 @@ TEST(Unwritable, AResultThatDoesNotGetOutIsNoSuccess) {
     for (const char* stream : {"> /dev/full", ">&-"})
         for (const std::string& command :
              {small_run, small_run + " --json", std::string("$J list"), std::string("$J --help")}) {
-            const Outcome o = shell(scratch, command + " " + stream);
+            const Ended o = shell(scratch, command + " " + stream);
             EXPECT_TRUE(ends(o, 4, "cannot write to standard output")) << command << stream;
         }
 }
@@ -60,7 +57,7 @@ TEST(Unwritable, AMessageThatDoesNotGetOutChangesNothing) {
         EXPECT_EQ(shell(scratch, std::string("$J run free_string --scheme nope ") + stream).code,
                   2);
         EXPECT_EQ(shell(scratch, small_comparison + " " + stream).code, 0);  // with a note
-        const Outcome o = shell(
+        const Ended o = shell(
             scratch, std::string("$J run sitar_parabola --scheme exact_linear --json ") + stream);
         EXPECT_EQ(o.code, 3);
         EXPECT_EQ(nlohmann::json::parse(o.out).at("exit_code"), 3);
@@ -83,8 +80,8 @@ TEST(Unwritable, WithoutAFolderForScratchTheReportHasNoPicturesAndSaysSo) {
         std::ofstream(scratch.path / library / "build" / (library + std::string(".min.js")))
             << "//";
     }
-    const Outcome o = shell(scratch, "export JVARI_NODE_MODULES=. TMPDIR=/nonexistent\n" +
-                                         small_comparison + " --out kept");
+    const Ended o = shell(scratch, "export JVARI_NODE_MODULES=. TMPDIR=/nonexistent\n" +
+                                       small_comparison + " --out kept");
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(says(o.err, "no picture: cannot write to /nonexistent"));
     EXPECT_TRUE(fs::exists(scratch / "kept/report.html"));
@@ -92,10 +89,10 @@ TEST(Unwritable, WithoutAFolderForScratchTheReportHasNoPicturesAndSaysSo) {
 
 TEST(Unwritable, AFileNameThatIsNoTextIsWrittenAndReported) {
     const Scratch scratch;
-    const Outcome o = shell(scratch, small_run + " --json --out $'x\\xff.csv'");
+    const Ended o = shell(scratch, small_run + " --json --out $'x\\xff.csv'");
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_EQ(nlohmann::json::parse(o.out).at("out"), "x\ufffd.csv");
-    const Outcome c = shell(scratch, small_comparison + " --json --out $'d\\xff'");
+    const Ended c = shell(scratch, small_comparison + " --json --out $'d\\xff'");
     EXPECT_EQ(c.code, 0) << c.err;
     EXPECT_EQ(shell(scratch, "$J report --json $'d\\xff'").code, 0);
     EXPECT_EQ(shell(scratch, "$J run --json $'no\\xff.toml' --scheme modal_two_point").code, 2);

@@ -23,7 +23,7 @@ Scene one_string(const Damping& damping) {
 
 Pluck pluck(double skew) { return {-0.4, 7.3e-3, skew, 1.234e-3, 0.4, 0.01}; }
 
-Settings settings(int modes, double tap_rate = 44100) {
+Settings linear_settings(int modes, double tap_rate = 44100) {
     Settings s;
     s.modes = modes;
     s.tap_rate = tap_rate;
@@ -36,7 +36,7 @@ TEST(ExactLinear, OneModeIsTheDampedOscillatorBelowAtAndAboveCriticalDamping) {
         const double sigma = ratio * w0;
         Scene scene = one_string(TableDamping{"", {130.0}, {sigma}});
         scene.strings[0].start = ModeShape{1, A};
-        const jvari::Run r = run(exact_linear, scene, settings(1));
+        const jvari::Run r = run(exact_linear, scene, linear_settings(1));
         const double v = std::sin(0.3 * pi);
         for (long n = 0; n < r.trace.rows; n += 17) {
             const double t = n / 44100.0;
@@ -58,7 +58,7 @@ TEST(ExactLinear, HasNoPhaseErrorAfterMillionsOfPeriods) {
     Scene scene = one_string(TableDamping{"", {19876.5}, {0.0}});
     scene.strings[0].start = ModeShape{1, 1.0};
     scene.duration = 100;
-    const jvari::Run r = run(exact_linear, scene, settings(1, 10));
+    const jvari::Run r = run(exact_linear, scene, linear_settings(1, 10));
     const long double w = modes_of(scene.strings[0], 1).omega0[0];
     for (long n = 0; n < r.trace.rows; ++n)
         EXPECT_NEAR(r.trace.column(0)[n],
@@ -71,7 +71,7 @@ TEST(ExactLinear, AnUnskewedPluckIsThreeComplexExponentials) {
     scene.strings[0].pluck = pluck(0);
     const Pluck& e = *scene.strings[0].pluck;
     const int count = 20;
-    const jvari::Run r = run(exact_linear, scene, settings(count));
+    const jvari::Run r = run(exact_linear, scene, linear_settings(count));
     const Modes m = modes_of(scene.strings[0], count);
     const auto g = footprint_weights(m, e.position, e.width), x = displacement_weights(m, 0.3);
     const double scale = largest(r.trace.column(0));
@@ -100,8 +100,8 @@ TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
         scene.strings[0].start = TriangleShape{0.2, 1e-4, 0.01};
         scene.strings[0].pluck = pluck(skew);
         scene.duration = 24 / 1225.0;
-        const jvari::Run coarse = run(exact_linear, scene, settings(60, 1225)),
-                         fine = run(exact_linear, scene, settings(60, 99225));
+        const jvari::Run coarse = run(exact_linear, scene, linear_settings(60, 1225)),
+                         fine = run(exact_linear, scene, linear_settings(60, 99225));
         for (int k = 0; k < 3; ++k) {
             std::vector<double> same;
             for (long n = 0; n < coarse.trace.rows; ++n)

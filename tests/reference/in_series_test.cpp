@@ -13,7 +13,7 @@ const std::string exact_form = "exact_contact compliance=matched",
 Run exact(const Scene& scene, int modes, const std::string& options = "") {
     return play(exact_form + options, scene, {0, 44100, modes, {}});
 }
-Run integrated(const Scene& scene, int modes, const std::string& options = "") {
+Run matched_integrated(const Scene& scene, int modes, const std::string& options = "") {
     return play(sundials_form + options, scene, {0, 44100, modes, {}});
 }
 Run own(const Scene& scene, int modes, const std::string& options = "") {
@@ -44,7 +44,7 @@ TEST(InSeries, ExactContactAndSundialsAgreeOnWhatIsMatched) {
             if (exponent == 0 && damping < 0) continue;
             Scene scene = with(exponent, damping, true);
             scene.duration = 5e-3;
-            const auto a = exact(scene, 20), b = integrated(scene, 20);
+            const auto a = exact(scene, 20), b = matched_integrated(scene, 20);
             ASSERT_EQ(a.status.outcome, Outcome::ok);
             ASSERT_EQ(b.status.outcome, Outcome::ok);
             EXPECT_EQ(fact(a, "events"), fact(b, "events"));
@@ -60,7 +60,7 @@ TEST(InSeries, TheyAgreeOnSeveralBarriers) {
     scene.duration = 6e-3;
     scene.strings.front().start = ModeShape{3, 5e-4};
     scene.strings.front().barriers.push_back(LumpedBarrier{14e-3, 2e-3, 3e-6, {2e6}, 1, 0});
-    const auto a = exact(scene, 20), b = integrated(scene, 20);
+    const auto a = exact(scene, 20), b = matched_integrated(scene, 20);
     EXPECT_EQ(fact(a, "events"), fact(b, "events"));
     EXPECT_GT(fact(a, "events"), 3);
     for (int k = 0; k < 4; ++k) EXPECT_LT(apart(a, b, k), 1e-9) << k;
@@ -107,7 +107,7 @@ TEST(InSeries, TheyAgreeOnASoftContactOfItsOwn) {
 TEST(InSeries, AnImplicitIntegratorFollowsAStiffContact) {
     Scene scene = with(1, 1.2);
     scene.duration = 3e-3;
-    const auto truth = exact(scene, 12), r = integrated(scene, 12, " method=bdf rtol=1e-9");
+    const auto truth = exact(scene, 12), r = matched_integrated(scene, 12, " method=bdf rtol=1e-9");
     for (int k = 0; k < 4; ++k) EXPECT_LT(apart(r, truth, k), 1e-8) << k;
     holds(LedgerClaim("", {sundials_form + " method=bdf rtol=1e-9"}, {scene}, {{0}, 44100, 12},
                       {1e-8}));

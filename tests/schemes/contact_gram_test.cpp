@@ -7,16 +7,10 @@
 #include <cmath>
 #include <random>
 
+#include "tests/schemes/contact_points.hpp"
+
 namespace jvari {
 namespace {
-
-using Real = long double;
-
-Real potential(const ContactLaw& law, Real eta) {
-    return eta <= 0 ? 0
-                    : law.k * std::pow(eta, static_cast<Real>(law.alpha) + 1) /
-                          (static_cast<Real>(law.alpha) + 1);
-}
 
 Real force_over(const ContactLaw& law, Real eta, Real r) {  // [V(eta) - V(eta - r)]/r
     // midpoint and its first correction: relative error (r/eta)^4

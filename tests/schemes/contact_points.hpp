@@ -2,6 +2,7 @@
 // rules are tested on.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <random>
 #include <vector>
@@ -9,6 +10,15 @@
 #include "schemes/contact/obstacle.hpp"
 
 namespace jvari {
+
+constexpr int many = 3;        // of contacts
+constexpr double span = 1e-5;  // of a step [s]
+
+using Real = long double;
+
+inline Real potential(const ContactLaw& law, Real eta) {
+    return eta > 0 ? law.k * std::pow(eta, Real(law.alpha) + 1) / (Real(law.alpha) + 1) : 0;
+}
 
 struct Points {
     Contacts contacts;

@@ -7,18 +7,14 @@
 #include <cstdint>
 #include <random>
 
+#include "tests/schemes/contact_points.hpp"
+
 namespace jvari {
 namespace {
-
-using Real = long double;
 
 struct Truth {
     Real r, force;
 };
-
-Real potential(const ContactLaw& law, Real eta) {
-    return eta > 0 ? law.k * std::pow(eta, Real(law.alpha) + 1) / (Real(law.alpha) + 1) : 0;
-}
 
 // mean force [V(eta) - V(eta - r)]/r, by quadrature-free series near r = 0
 Real mean_force(const ContactLaw& law, Real eta, Real r) {

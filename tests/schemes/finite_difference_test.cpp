@@ -19,10 +19,6 @@ const std::string &explicit_ = all[0], &theta_ = all[1], &hamiltonian_ = all[2];
 Run at(double rate, const std::string& form, const Scene& scene, double tap_rate = 0) {
     return play(form, scene, {rate, tap_rate > 0 ? tap_rate : rate, 0, {}}, {.energy = true});
 }
-Scene with_damping(Scene scene, const Damping& damping) {
-    scene.strings.front().damping = damping;
-    return scene;
-}
 
 // ---- Weights on nodes.
 

@@ -19,10 +19,6 @@ Scene heard(Scene scene, const Start& start, double seconds) {
                   {"nut", Quantity::nut_force, 0, 0}};
     return lasting(scene, seconds);
 }
-Scene with_damping(Scene scene, const Damping& damping) {
-    scene.strings.front().damping = damping;
-    return scene;
-}
 
 struct ExactClaim {
     std::string name, form;
@@ -33,7 +29,7 @@ struct ExactClaim {
     double error = 1e-10, tap_rate = 44100;
 };
 
-std::vector<ExactClaim> claims() {
+std::vector<ExactClaim> exact_claims() {
     const Scene lossy = c3_free(), quiet = lossless(c3_free());
     const Start wide = TriangleShape{0.2, 2e-3, 0.02};
     const std::string two = "modal_two_point", three = "modal_quadratised levels=3",
@@ -89,7 +85,7 @@ TEST_P(FreeMotion, IsTheClosedForm) {
                   c.error * largest(truth.trace.column(tap)))
             << tap;
 }
-INSTANTIATE_TEST_SUITE_P(, FreeMotion, testing::ValuesIn(claims()),
+INSTANTIATE_TEST_SUITE_P(, FreeMotion, testing::ValuesIn(exact_claims()),
                          [](const auto& one) { return one.param.name; });
 
 FreeMode own_mode(const std::string& form, const Scene& scene, int mode) {

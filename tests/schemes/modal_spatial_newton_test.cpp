@@ -39,7 +39,7 @@ Run dense(const Scene& scene, const Settings& settings, const RunOptions& option
                           steps_per_row(settings), rule_with<GradientRule>(settings));
     return run(scheme, scene, settings, options);
 }
-Run steps(const Scene& scene, double rate, double tap_rate, int modes) {
+Run stepped(const Scene& scene, double rate, double tap_rate, int modes) {
     return play(newton, scene, {rate, tap_rate, modes, {}});
 }
 
@@ -62,14 +62,14 @@ TEST(ModalSpatialNewton, AModeAboveNyquistAliases) {
     scene.strings[0].start = ModeShape{30, 1e-3};
     scene.taps = {{"y", Quantity::displacement, 0, 0.31}};
     const double f = 30 * std::sqrt(33.1 / 4.83e-4) / 2, rate = 5000;  // 3927 Hz sounds as 1073 Hz
-    const auto r = steps(scene, rate, rate, 40);
+    const auto r = stepped(scene, rate, rate, 40);
     for (long n = 0; n < r.trace.rows; ++n)
         EXPECT_NEAR(
             r.trace.column(0)[n],
             1e-3 * std::sin(30 * pi * 0.31) * std::cos(2 * pi * (rate - f) * double(n) / rate),
             1e-12);
     EXPECT_EQ(fact(r, "modes_above_nyquist"), 40 - 19);  // mode 19: 2487 Hz
-    EXPECT_EQ(fact(steps(lasting(scene, 0.01), 44100, 44100, 40), "modes_above_nyquist"), 0);
+    EXPECT_EQ(fact(stepped(lasting(scene, 0.01), 44100, 44100, 40), "modes_above_nyquist"), 0);
 }
 
 // ---- Forms
@@ -116,7 +116,7 @@ TEST(ModalSpatialNewton, EveryInstructionSetOfThisMachineAgreesWithTheDenseForm)
         for (auto left = targets; left != 0; left &= left - 1) {
             hwy::SetSupportedTargetsForTest(left & ~(left - 1));
             hwy::GetChosenTarget().Update(left & ~(left - 1));
-            const auto restricted = steps(c.scene, 256e3, 64e3, c.modes);
+            const auto restricted = stepped(c.scene, 256e3, 64e3, c.modes);
             for (int k = 0; k < full.trace.taps(); ++k)
                 EXPECT_LT(apart(restricted, full, k), 1e-10)
                     << hwy::TargetName(left & ~(left - 1)) << " modes " << c.modes << " tap " << k;
@@ -155,7 +155,7 @@ TEST(ModalSpatialNewton, TheTwoPointBridgeIsThatOfAnIndependentProgram) {
     Scene scene = two_point_bridge(0.02);
     // B T L^2/pi^2 to 1e-7: its digits
     scene.strings[0].bending_stiffness = 3.2683823738748857e-4;
-    const auto r = steps(scene, 256e3, 32e3, 1001);
+    const auto r = stepped(scene, 256e3, 32e3, 1001);
     const double size[] = {4e-5, 1e-3, 0.65};
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
@@ -165,8 +165,8 @@ TEST(ModalSpatialNewton, TheTwoPointBridgeIsThatOfAnIndependentProgram) {
 }
 
 TEST(ModalSpatialNewton, AStiffBridgeYieldsATenthOfAMicrometreAndASoftOneTen) {
-    EXPECT_LT(fact(steps(two_point_bridge(0.02), 1e6, 50e3, 1001), "deepest_penetration"), 2e-7);
-    EXPECT_NEAR(fact(steps(two_point_bridge(0.02, 1e6), 1e6, 50e3, 1001), "deepest_penetration"),
+    EXPECT_LT(fact(stepped(two_point_bridge(0.02), 1e6, 50e3, 1001), "deepest_penetration"), 2e-7);
+    EXPECT_NEAR(fact(stepped(two_point_bridge(0.02, 1e6), 1e6, 50e3, 1001), "deepest_penetration"),
                 1.5e-5, 0.3e-5);
 }
 
@@ -175,7 +175,7 @@ TEST(ModalSpatialNewton, ANodeOfAProfileCarriesItsStiffnessDensityTimesTheSpacin
     Scene profile = point;
     // node 6 of N = 1002, dx = 1 mm
     profile.strings[0].barriers = {ProfileBarrier{FlatCurve{}, 5.5e-3, 6.5e-3, {1e13}, 1.3, 0}};
-    const auto a = steps(point, 256e3, 32e3, 1001), b = steps(profile, 256e3, 32e3, 1001);
+    const auto a = stepped(point, 256e3, 32e3, 1001), b = stepped(profile, 256e3, 32e3, 1001);
     for (int k = 0; k < 3; ++k) EXPECT_LT(apart(a, b, k), 1e-10);
 }
 
@@ -183,16 +183,16 @@ TEST(ModalSpatialNewton, ANodeOfAProfileCarriesItsStiffnessDensityTimesTheSpacin
 
 TEST(ModalSpatialNewton, TheDefaultGridPutsThePointBarrierOnANode) {
     // 6 mm of 1.002 m: N = 167
-    EXPECT_EQ(steps(two_point_bridge(0.001), 128e3, 32e3, 0).dofs, 2 * 166);
-    EXPECT_EQ(steps(tanpura(0.001), 44100, 44100, 0).dofs, 2 * 133);
-    EXPECT_EQ(fact(steps(flat_bridge(0.001), 128e3, 32e3, 0), "contact_points"), 8);
+    EXPECT_EQ(stepped(two_point_bridge(0.001), 128e3, 32e3, 0).dofs, 2 * 166);
+    EXPECT_EQ(stepped(tanpura(0.001), 44100, 44100, 0).dofs, 2 * 133);
+    EXPECT_EQ(fact(stepped(flat_bridge(0.001), 128e3, 32e3, 0), "contact_points"), 8);
 }
 
 // and tends to the node as it nears it
 TEST(ModalSpatialNewton, APointBarrierBetweenNodesActsThroughItsModes) {
     Scene on = two_point_bridge(0.003), off = on;
     std::get<LumpedBarrier>(off.strings[0].barriers[0]).position += 1e-8;
-    const auto a = steps(on, 256e3, 32e3, 333), b = steps(off, 256e3, 32e3, 333);
+    const auto a = stepped(on, 256e3, 32e3, 333), b = stepped(off, 256e3, 32e3, 333);
     for (int k = 0; k < 3; ++k) EXPECT_LT(apart(b, a, k), 1e-3);
 }
 

@@ -52,7 +52,7 @@ Trace probed(const std::string& name, const Scene& scene, double seconds) {
     return play(name, lasting(scene, seconds), {rate, rate, 40, {}}, {.energy = true}).trace;
 }
 
-std::vector<LedgerClaim> claims() {
+std::vector<LedgerClaim> body_claims() {
     Scene plucked = lasting(instrument(), 0.1);
     plucked.strings[0].start.reset();
     plucked.strings[0].pluck = Pluck{-0.4, 20e-3, 30.0, 0.0, 0.5, 1.0};
@@ -75,7 +75,8 @@ std::vector<LedgerClaim> claims() {
 }
 class MovingBodyLedger : public testing::TestWithParam<LedgerClaim> {};
 TEST_P(MovingBodyLedger, Closes) { holds(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(, MovingBodyLedger, testing::ValuesIn(claims()), name_of<LedgerClaim>);
+INSTANTIATE_TEST_SUITE_P(, MovingBodyLedger, testing::ValuesIn(body_claims()),
+                         name_of<LedgerClaim>);
 
 TEST(MovingBody, AStringThatNobodyPluckedSoundsAndIsSilentWhereTheBodyIsStill) {
     for (const std::string& name : that_move_a_body()) {

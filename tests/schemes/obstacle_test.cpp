@@ -16,9 +16,6 @@
 namespace jvari {
 namespace {
 
-constexpr int many = 3;
-constexpr double span = 1e-5;
-
 Points points_of(std::mt19937& random, bool thread, double beta) {
     std::uniform_real_distribution<double> unit(-1, 1);
     Points p;

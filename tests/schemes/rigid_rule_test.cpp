@@ -14,8 +14,7 @@
 namespace jvari {
 namespace {
 
-constexpr int many = 3, steps = 400;
-constexpr double span = 1e-5;
+constexpr int pushes = 400;
 
 Points points_of(std::mt19937& random, int contacts, double k, bool thread) {
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -36,7 +35,7 @@ void walk(Obstacle& obstacle, const Points& p, Each each) {
     std::vector<double> y(n, 0.0), free(n), force(n), r(n);
     obstacle.clear();
     obstacle.begin(y.data(), y.data(), y.data());  // at rest
-    for (int step = 0; step < steps; ++step) {
+    for (int step = 0; step < pushes; ++step) {
         for (int k = 0; k < n; ++k) free[k] = 3e-6 * (unit(random) - 0.3) - 0.02 * y[k];
         ASSERT_TRUE(obstacle.solve({y.data(), y.data(), free.data()}, force.data())) << step;
         for (int k = 0; k < n; ++k) {

@@ -8,7 +8,7 @@
 namespace jvari {
 namespace {
 
-std::vector<std::string> forms() {  // all that take C3 over its bridge and thread
+std::vector<std::string> forms_over_c3() {  // all that take C3 over its bridge and thread
     std::vector<std::string> all{"modal_quadratised levels=3", "modal_quadratised variant=raw",
                                  "modal_quadratised levels=3 variant=raw",
                                  "modal_two_point compliance=matched",
@@ -45,7 +45,7 @@ TEST_P(Rows, HoldTheMeansOfForcesWhoseSumDrives) {
         ASSERT_NEAR(fine.trace.column(2)[n], -fine.trace.column(0)[n] - fine.trace.column(1)[n],
                     1e-12);
 }
-INSTANTIATE_TEST_SUITE_P(, Rows, testing::ValuesIn(forms()), [](const auto& one) {
+INSTANTIATE_TEST_SUITE_P(, Rows, testing::ValuesIn(forms_over_c3()), [](const auto& one) {
     std::string name = one.param;
     for (char& c : name)
         if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';

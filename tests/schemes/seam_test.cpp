@@ -13,25 +13,19 @@
 #include "schemes/making.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
+#include "tests/runs.hpp"
 
 namespace jvari {
 namespace {
 
-constexpr double tap_rate = 44100;
-
-std::vector<const Descriptor*> all_descriptors() {
-    std::vector<const Descriptor*> all;
-    for (const auto& table : {schemes(), references()})
-        for (const Descriptor& d : table) all.push_back(&d);
-    return all;
-}
+constexpr double row_rate = 44100;
 
 const std::vector<Scene>& library() {  // and what it lacks
     static const std::vector<Scene> scenes = [] {
         std::vector<Scene> all;
         for (const std::string& name : library_scenes()) {
             all.push_back(read_scene(name));
-            all.back().duration = 20 / tap_rate;
+            all.back().duration = 20 / row_rate;
         }
         // each string that is not stiff once with stiffness, which the library's sitars lack
         for (std::size_t i = all.size(); i-- > 0;)
@@ -42,14 +36,14 @@ const std::vector<Scene>& library() {  // and what it lacks
             }
         all.push_back(read_scene("two_point_bridge", {"string.0.barrier.0.exponent=1",
                                                       "string.0.barrier.0.stiffness=rigid"}));
-        all.back().duration = 20 / tap_rate;
+        all.back().duration = 20 / row_rate;
         return all;
     }();
     return scenes;
 }
 
 Settings settings_for(OptionValues options) {
-    return {4 * tap_rate, tap_rate, 40, std::move(options)};
+    return {4 * row_rate, row_rate, 40, std::move(options)};
 }
 
 // The options that tests run by default: few points for a profile, since what is declared does not

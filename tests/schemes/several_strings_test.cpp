@@ -29,13 +29,6 @@ Settings settings_for(const Descriptor& d) {
     return s;
 }
 
-std::vector<const Descriptor*> all_descriptors() {
-    std::vector<const Descriptor*> all;
-    for (const auto& table : {schemes(), references()})
-        for (const Descriptor& d : table) all.push_back(&d);
-    return all;
-}
-
 // The first scene of these that the scheme takes: a thread, a bridge and a pluck where it can have
 // them.
 Scene scene_for(const Descriptor& d) {
