@@ -338,7 +338,7 @@ function watch_controls() {
   by_id("modes").onchange = e => choose({modes: whole_modes(e.target.value)});
   by_id("undo").onclick = () => choose({set: {}});
   by_id("hear").onclick = toggle_sound;
-  by_id("stop").onclick = stop_sound;
+  by_id("stop").onclick = () => stop_sound();
   for (const id of ["paused", "zoomed"])
     by_id(id).onclick = () => {
       by_id(id).setAttribute("aria-pressed", String((film[id] = !film[id])));

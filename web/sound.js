@@ -18,10 +18,11 @@ function buffer_of({rate, sound: samples}) {
   return buffer;
 }
 
-function stop_sound() {
+function stop_sound(wanted = "") {
   for (const {source} of Object.values(sound.parts)) ((source.onended = null), source.stop());
   sound.parts = {};
-  sound.playing = sound.wanted = "";
+  sound.playing = "";
+  sound.wanted = wanted;
   mark_sound();
 }
 
@@ -37,7 +38,7 @@ async function play_sound(which) {
     const gain = new GainNode(context, {gain: 0}),
       source = new AudioBufferSourceNode(context, {buffer, loop: true});
     source.connect(gain).connect(context.destination);
-    source.onended = stop_sound;
+    source.onended = () => stop_sound(sound.wanted); // which may be on its way
     source.start(0, (context.currentTime - sound.began) % buffer.duration);
     sound.parts[name] = {source, gain};
   }

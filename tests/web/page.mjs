@@ -95,7 +95,9 @@ const parts = {
     for (let k = 0; k < 5; ++k) {
       const from = await see(
         `(() => { const h = by_id("handle_tension"); h.value = ${30 + k}; const from = ` +
-          "performance.now(); h.oninput(); return from; })()",
+          // once it moves just as the sound ends
+          `performance.now(); h.oninput(); if (${k} === 4) ` +
+          "sound.parts.scheme.source.onended(); return from; })()",
       );
       await until(
         `sound.drawn > ${from} && sound.changed > ${from}`,
