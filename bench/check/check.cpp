@@ -88,7 +88,7 @@ const char* name_of(Verdict::Answer a) {
 
 Settings settings_for(const Descriptor& d, const Scene& scene) {
     Settings s{4 * contract_tap_rate, contract_tap_rate, contract_modes, {}};
-    // what is owed does not depend on how many: of a slow reference few
+    // a slow reference has few modes, and a few points on a profile: what is owed needs no more
     if (declares(d, "rtol")) s.modes = modes_of_an_integrator;
     if (d.clock == Clock::continuous && needed_by(scene).any(any_profile) && declares(d, "nodes"))
         s.options = {{"nodes", "6"}};

@@ -46,7 +46,7 @@ Settings at(const Descriptor& d, int times) {
     Settings s{times * contract_tap_rate, contract_tap_rate, times * modes_each, {}};
     if (declares(d, "rtol")) s.options.emplace_back("rtol", "1e-9");
     if (d.clock == Clock::continuous && declares(d, "nodes")) s.options.emplace_back("nodes", "16");
-    if (declares(d, "cells")) s.options = {{"cells", std::to_string(256 * times)}};
+    if (declares(d, "cells")) s.options.emplace_back("cells", std::to_string(256 * times));
     return s;
 }
 
