@@ -94,8 +94,9 @@ const parts = {
     const took = [];
     for (let k = 0; k < 5; ++k) {
       const from = await see(
-        `(() => { const h = by_id("handle_tension"); h.value = ${30 + k}; const from = ` +
-          // once it moves just as the sound ends
+        // once it moves just as the sound ends
+        `(async () => { if (${k} === 4) await play_sound("scheme"); ` +
+          `const h = by_id("handle_tension"); h.value = ${30 + k}; const from = ` +
           `performance.now(); h.oninput(); if (${k} === 4) ` +
           "sound.parts.scheme.source.onended(); return from; })()",
       );
