@@ -60,6 +60,15 @@ if(JVARI_PYTHON)
         Python.TheExampleDrawsTheCommittedStudy)
 endif()
 
+# Searches at random, and what asks many runs of every scheme. CI runs these, too.
+function(jvari_long)
+    jvari_full(${ARGN})
+    foreach(name IN LISTS ARGN)
+        set_property(TEST ${name} APPEND PROPERTY LABELS long)
+    endforeach()
+endfunction()
+jvari_long(ContractPlugin.deaf Problems.AreWhatTheProgramExports
+    OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused)
 if(under_sanitizers)  # once is enough for what follows
     return()
 endif()
@@ -72,6 +81,8 @@ if(JVARI_PYTHON)
         TIMEOUT 1200 COST 100)
     jvari_full(Python.ScriptsBesideTheRecordsWriteTheirVerdicts)
 endif()
+
+jvari_long(contract_test.numbers)
 
 set(demo_report ${CMAKE_CURRENT_BINARY_DIR}/demo_report)
 jvari_gate(Demo.AnswersInThirtyThreeLinesAndThirtySeconds demo.sh $<TARGET_FILE:jvari>
