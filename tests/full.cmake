@@ -60,15 +60,6 @@ if(JVARI_PYTHON)
         Python.TheExampleDrawsTheCommittedStudy)
 endif()
 
-# Searches at random, and what asks many runs of every scheme. CI runs these, too.
-function(jvari_long)
-    jvari_full(${ARGN})
-    foreach(name IN LISTS ARGN)
-        set_property(TEST ${name} APPEND PROPERTY LABELS long)
-    endforeach()
-endfunction()
-jvari_long(ContractPlugin.deaf Problems.AreWhatTheProgramExports
-    OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused)
 if(under_sanitizers)  # once is enough for what follows
     return()
 endif()
@@ -82,7 +73,11 @@ if(JVARI_PYTHON)
     jvari_full(Python.ScriptsBesideTheRecordsWriteTheirVerdicts)
 endif()
 
-jvari_long(contract_test.numbers)
+# Searches at random, in tests/fuzz, and what asks many runs of every scheme. CI runs these, too.
+set(long contract_test.numbers ContractPlugin.deaf Problems.AreWhatTheProgramExports
+    OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused)
+jvari_full(${long})
+set_property(TEST ${long} APPEND PROPERTY LABELS long)
 
 set(demo_report ${CMAKE_CURRENT_BINARY_DIR}/demo_report)
 jvari_gate(Demo.AnswersInThirtyThreeLinesAndThirtySeconds demo.sh $<TARGET_FILE:jvari>

@@ -14,18 +14,15 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "tests/command_line.hpp"
+#include "tests/sanitized.hpp"
 
 namespace jvari::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-#ifdef __SANITIZE_ADDRESS__
 // after its start a program has begun what lasts
-constexpr auto under_way = std::chrono::milliseconds(4000);
-#else
-constexpr auto under_way = std::chrono::milliseconds(1000);
-#endif
+constexpr auto under_way = std::chrono::milliseconds(sanitized ? 4000 : 1000);
 
 struct How {
     bool terminal = false;  // in place of files: stdout and stderr

@@ -25,19 +25,13 @@
 
 #include "random_checks.hpp"
 #include "scenes/scene_file.hpp"
+#include "tests/sanitized.hpp"
 
 namespace jvari::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;
-#elif defined(__has_feature)
-constexpr bool sanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool sanitized = false;
-#endif
 constexpr rlim_t seconds_allowed = sanitized ? 600 : 120;  // of CPU, all runs of one scene together
-// [bytes]; a sanitizer reserves more than there is
+// [bytes]
 constexpr rlim_t memory_allowed = rlim_t{4} << 30;
 constexpr std::uint64_t certified_every = 4;  // scenes
 
