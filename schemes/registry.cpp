@@ -41,7 +41,7 @@ bool is_control(const Descriptor& d) {
 
 namespace {
 std::vector<const Guest*>& all_guests() {
-    // NOLINT(cppcoreguidelines-owning-memory): to the end, as the guests
+    // to the end, as the guests
     static auto& all = *new std::vector<const Guest*>;
     return all;
 }
@@ -72,7 +72,7 @@ void check_name(const std::string& path, std::string_view name) {
 
 const Guest& add_guest(Guest guest) {
     for (const Descriptor& d : guest.schemes) check_name(guest.path, d.name);
-    // NOLINT(cppcoreguidelines-owning-memory): for the life of the process
+    // for the life of the process
     const auto* added = new Guest(std::move(guest));
     const auto same = std::find_if(all_guests().begin(), all_guests().end(),
                                    [added](const Guest* g) { return g->path == added->path; });
