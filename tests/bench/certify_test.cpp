@@ -1,5 +1,5 @@
-// Certificates as they are computed, and as people meet them: the files, the cache, the figures that
-// stand beside the errors of compare and suite.
+// Certificates as they are computed, and as people meet them: the files, the cache, the figures
+// that stand beside the errors of compare and suite.
 #include <fmt/core.h>
 
 #include <cmath>
