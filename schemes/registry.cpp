@@ -41,7 +41,7 @@ bool is_control(const Descriptor& d) {
 
 namespace {
 std::vector<const Guest*>& all_guests() {
-    // to the end, as the guests
+    // never destroyed: the guests live as long as the process
     static auto& all = *new std::vector<const Guest*>;
     return all;
 }

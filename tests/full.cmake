@@ -73,7 +73,7 @@ if(JVARI_PYTHON)
     jvari_full(Python.ScriptsBesideTheRecordsWriteTheirVerdicts)
 endif()
 
-# Searches at random, in tests/fuzz, and what asks many runs of every scheme. CI runs these, too.
+# These need many runs of every scheme. CI runs them, too, and the long ones of tests/fuzz.
 set(long contract_test.numbers ContractPlugin.deaf Problems.AreWhatTheProgramExports
     OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused)
 jvari_full(${long})

@@ -71,9 +71,9 @@ double most_in(double end, const Force& force) {
     return most;
 }
 
-// [windows] A contact that lets go sooner has turned nothing round: its depth is rounding, and a
-// thousand of them in a row get nowhere.
-constexpr double hardly = 1e-9;
+// [windows] A shorter phase makes no progress: in a contact that ends so soon the penetration is
+// below rounding. A run ends after a thousand of them in a row.
+constexpr double least_progress = 1e-9;
 
 struct Extremes {  // of the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0,
@@ -261,7 +261,7 @@ private:
         for (double now = 0; now < end;) {
             const double left = end - now, step = phase(now, left, out.energy != nullptr);
             if (!(step >= 0) || out.stopped(phases++, phases_between_questions)) return false;
-            idle_ = step > hardly ? 0 : idle_ + 1;
+            idle_ = step > least_progress ? 0 : idle_ + 1;
             if (idle_ > 1000) return false;
             now = step == left ? end : now + step;
         }

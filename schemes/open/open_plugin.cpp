@@ -149,7 +149,7 @@ Option option_of(Table& t, const jvari_option& o) {
 }
 
 Descriptor descriptor_of(const jvari_scheme& theirs, int place) {
-    // to the end, also of a plugin that is refused
+    // never destroyed, not even if the plugin is refused: schemes point to their table
     static auto& tables = *new std::deque<Table>;
     Table* t = &tables.emplace_back(Table{as_far_as_it_goes(theirs), &theirs, {}, {}, {}});
     must(t->name && *t->name, "has no name for its scheme " + std::to_string(place));

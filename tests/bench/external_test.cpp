@@ -21,8 +21,9 @@ std::string silence(const std::string& file, const std::string& more = "") {
 }
 const std::string run =
     "timeout 20 $J run free_string --duration 0.005 --scheme mine --external 'sh mine' ";
-std::string within_kb(int memory) {
-    return sanitized ? "" : "ulimit -v " + std::to_string(memory) + "; ";
+// a sanitizer reserves more memory than any limit
+std::string limit_memory(int kilobytes) {
+    return sanitized ? "" : "ulimit -v " + std::to_string(kilobytes) + "; ";
 }
 const std::string suite = "timeout 20 $J suite s.toml --out out --external 'sh mine'\n";
 
@@ -40,14 +41,14 @@ TEST(External, OfWhatItSaysTheEndIsKept) {
     const Scratch scratch;
     std::ofstream(scratch / "mine")
         << "head -c 500000000 /dev/zero\necho; echo the last word; exit 7\n";
-    EXPECT_TRUE(ends(shell(scratch, within_kb(400000) + run), 4, "exit code 7: the last word"));
+    EXPECT_TRUE(ends(shell(scratch, limit_memory(400000) + run), 4, "exit code 7: the last word"));
 }
 
 TEST(External, ItsTraceIsReadOnlyWhereItCanBeOne) {
     const Scratch scratch;
     std::ofstream(scratch / "mine") << "truncate -s 5G \"$2\"\n";
     EXPECT_TRUE(
-        ends(shell(scratch, within_kb(400000) + run), 4, "has 5369 MB, and 222 rows of 2 taps"));
+        ends(shell(scratch, limit_memory(400000) + run), 4, "has 5369 MB, and 222 rows of 2 taps"));
 }
 
 TEST(External, ATimeLimitIsOneOnTheClock) {
@@ -78,7 +79,7 @@ TEST(External, ItsFilesAreKnownAsTheShellReadsTheCommand) {
             << compare << name << " --external \"$(cat command)\" 2>&1 | grep read.back\n";
         std::ofstream(scratch / "command") << command;
         const Ended o =
-            shell(scratch, within_kb(2000000) + "rm -rf out\n" + silence(file) +
+            shell(scratch, limit_memory(2000000) + "rm -rf out\n" + silence(file) +
                                ". ./again; . ./again; echo >>'" + file + "'; . ./again");
         EXPECT_EQ(
             o.out,

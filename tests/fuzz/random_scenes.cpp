@@ -31,9 +31,8 @@ namespace jvari::test {
 namespace {
 
 constexpr rlim_t seconds_allowed = sanitized ? 600 : 120;  // of CPU, all runs of one scene together
-// [bytes]
-constexpr rlim_t memory_allowed = rlim_t{4} << 30;
-constexpr std::uint64_t certified_every = 4;  // scenes
+constexpr rlim_t memory_allowed = rlim_t{4} << 30;         // [bytes]
+constexpr std::uint64_t certified_every = 4;               // scenes
 
 // ---- In the process of a scene: lines to a pipe. "@what" is being done, "!finding", "=figures of
 // the tally".

@@ -55,8 +55,8 @@ TEST(RigidBarrier, IsWhatASpringTendsToAsItStiffens) {
     EXPECT_LT(stiffest, 1e-5);
 }
 
-// Eight modes lie on the point so lightly that what it gives way is rounding: contacts of 1e-11
-// windows followed each other for minutes.
+// With eight modes the string grazes the point. The penetration is below rounding, and contacts of
+// 1e-11 windows follow one another, millions of them.
 TEST(RigidBarrier, EndsWhereContactsLeadNowhere) {
     Scene scene = read_scene("rigid_point_bridge");
     scene.duration = 9e-3;

@@ -179,7 +179,7 @@ TEST(MovingBody, PartialsOfAStringOnASpringWithAMassAreThoseOfTheClosedForm) {
     auto all = that_move_a_body();
     all.emplace_back("sundials");
     for (const std::string& name : all) {
-        const double seconds = name == "sundials" ? 0.25 : 0.5;
+        const double seconds = name == "sundials" ? 0.25 : 0.5;  // it is slow
         const Trace t = play(name, lasting(scene, seconds), {8 * rate, rate, 40, {}}).trace;
         for (const int partial : {1, 3, 4, 5}) {
             const double f = partial_on_a_body(s, light, partial),
