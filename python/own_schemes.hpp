@@ -194,14 +194,13 @@ private:
 inline std::string add_class(const py::object& python_class, const std::string& name,
                              const std::vector<std::string>& represents, const std::string& balance,
                              const std::string& source, bool compiled) {
-    // NOLINT(cppcoreguidelines-owning-memory): as its guest, to the end
-    const auto* kept = new PythonClass{name, source, python_class};
+    const auto kept = std::make_shared<const PythonClass>(PythonClass{name, source, python_class});
     Descriptor d{};
     d.name = kept->name.c_str(), d.source = kept->source.c_str();
     d.represents = bench::compare::features_of(represents);
     d.balance = bench::compare::balance_of(balance);
     d.clock = Clock::stepped;
-    d.own = kept;
+    d.own = kept.get();
     d.untimed = compiled ? "" : "interpreted, not compared";
     d.make = [](const Descriptor& of, const Scene& scene,
                 const Settings& settings) -> std::unique_ptr<Scheme> {
@@ -213,10 +212,10 @@ inline std::string add_class(const py::object& python_class, const std::string& 
         text += py::module_::import("inspect").attr("getsource")(python_class).cast<std::string>();
     } catch (py::error_already_set&) {
         // typed into a console: nothing is kept of it but by its name and this process
-        text += std::to_string(reinterpret_cast<std::uintptr_t>(kept));
+        text += std::to_string(reinterpret_cast<std::uintptr_t>(kept.get()));
     }
     std::string path = "scheme " + name;
-    add_guest({path, {d}, text, "Python", compiled ? "compiled" : "interpreted"});
+    add_guest({path, {d}, text, kept, "Python", compiled ? "compiled" : "interpreted"});
     return path;
 }
 

@@ -16,7 +16,8 @@ std::span<const Descriptor> schemes();  // in-tree schemes
 struct Guest {
     std::string path;  // the file, or what it is called where there is none: "scheme mine"
     std::vector<Descriptor> schemes;
-    std::string contents = {};  // what its results depend on, where there is no file
+    std::string contents = {};             // what its results depend on, where there is no file
+    std::shared_ptr<const void> own = {};  // what the `own` of its schemes points at
     std::string compiler = {}, flags = {};
     bool optimised = true;
 };

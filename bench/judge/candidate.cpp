@@ -29,16 +29,15 @@ std::unique_ptr<Scheme> row_player(const Descriptor& d, const Scene&, const Sett
 
 std::string enter(Candidate candidate) {  // as a guest; returns its path
     const std::string path = "trace " + candidate.name;
-    // NOLINT(cppcoreguidelines-owning-memory): lives as long as its guest
-    const auto* kept = new Candidate(std::move(candidate));
+    const auto kept = std::make_shared<const Candidate>(std::move(candidate));
     Descriptor d{kept->name.c_str(), "traces of another program",
                  every_feature,      Balance::none,
                  Clock::stepped,     row_player};
     d.all_strings = true;
-    d.own = kept;
+    d.own = kept.get();
     d.untimed = no_cost;
     try {
-        add_guest({path, {d}, kept->contents});
+        add_guest({path, {d}, kept->contents, kept});
     } catch (const std::runtime_error& e) { throw store::UsageError(e.what()); }
     return path;
 }

@@ -182,16 +182,16 @@ std::string enter_external(const std::string& command) {
     if (name == "external" && ending.size() > 1 && ending.size() < 5 &&
         std::isalpha(static_cast<unsigned char>(ending[1])) != 0)
         throw store::UsageError("--external " + command + ": there is no file " + words.back());
-    auto* kept = new External{command, name};  // NOLINT(cppcoreguidelines-owning-memory)
+    const auto kept = std::make_shared<External>(External{command, name});
     Descriptor d{kept->name.c_str(),
                  "an external command",
                  every_feature - (Features(Feature::moving_body) | Feature::polarisation),
                  Balance::none,
                  Clock::stepped,
                  called};
-    d.own = kept;
+    d.own = kept.get();
     d.untimed = "external, not compared";
-    add_guest({path, {d}, contents, "external", command});
+    add_guest({path, {d}, contents, kept, "external", command});
     return path;
 }
 

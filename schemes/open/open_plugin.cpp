@@ -25,7 +25,7 @@ Struct as_far_as_it_goes(const Struct& theirs) {
     return ours;
 }
 
-struct Table : jvari_scheme {  // of one scheme, for the life of the process
+struct Table : jvari_scheme {  // of one scheme, owned by its guest
     const jvari_scheme* theirs;
     std::deque<std::string> texts;
     std::vector<Option> option_list;
@@ -148,9 +148,7 @@ Option option_of(Table& t, const jvari_option& o) {
     return option;
 }
 
-Descriptor descriptor_of(const jvari_scheme& theirs, int place) {
-    // never destroyed, not even if the plugin is refused: schemes point to their table
-    static auto& tables = *new std::deque<Table>;
+Descriptor descriptor_of(const jvari_scheme& theirs, int place, std::deque<Table>& tables) {
     Table* t = &tables.emplace_back(Table{as_far_as_it_goes(theirs), &theirs, {}, {}, {}});
     must(t->name && *t->name, "has no name for its scheme " + std::to_string(place));
     const std::string name = t->name;
@@ -191,11 +189,17 @@ Guest guest_of(const std::string& path, const jvari_plugin& theirs) {
          "says that it has " + std::to_string(p.count) + " schemes");
     must(p.schemes || p.count == 0,
          "says that it has " + std::to_string(p.count) + " schemes and shows none");
-    Guest guest{
-        path, {}, "", p.compiler ? p.compiler : "", p.flags ? p.flags : "", p.optimised != 0};
+    const auto tables = std::make_shared<std::deque<Table>>();
+    Guest guest{path,
+                {},
+                "",
+                tables,
+                p.compiler ? p.compiler : "",
+                p.flags ? p.flags : "",
+                p.optimised != 0};
     for (int k = 0; k < p.count; ++k) {
         must(p.schemes[k], "has nothing for its scheme " + std::to_string(k));
-        guest.schemes.push_back(descriptor_of(*p.schemes[k], k));
+        guest.schemes.push_back(descriptor_of(*p.schemes[k], k, *tables));
     }
     return guest;
 }
