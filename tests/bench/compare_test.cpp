@@ -16,6 +16,7 @@
 #include "bench/study/judgement.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
+#include "reference/references.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
