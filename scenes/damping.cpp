@@ -1,4 +1,4 @@
-// Sources: van Walstijn et al. 2016 eqs 18 and 53; Issanchou et al. 2016 eq 12; Deshmukh &
+// Sources: van Walstijn et al. 2016 eq 18; Issanchou et al. 2016 eq 12; Deshmukh &
 // Rayavarapu (decay factor per period).
 #include "scenes/damping.hpp"
 
@@ -24,12 +24,5 @@ double decay_rate(const QualityFactorDamping& law, const String& s, double nu) {
 }
 
 double decay_rate(const PerPeriodDamping& law, double f1) { return -f1 * std::log(law.factor); }
-
-PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending,
-                            const String& s) {
-    const double c = std::sqrt(s.tension / s.linear_density),
-                 lambda = s.bending_stiffness / s.tension;
-    return {0.5 * eta_air, 0.5 * c * eta_friction, 0.5 * c * lambda * eta_bending};  // (53)
-}
 
 }  // namespace jvari

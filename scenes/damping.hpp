@@ -16,10 +16,4 @@ double decay_rate(const QualityFactorDamping&, const String&, double nu);
 // period)
 double decay_rate(const PerPeriodDamping&, double f1);
 
-// Woodhouse's air, friction and bending loss factors as a polynomial law: sigma0 = eta_A/2, sigma1
-// = c eta_F/2, sigma3 = c lambda eta_B/2,
-// c = sqrt(T/mu), lambda = EI/T   (van Walstijn et al. 2016, eq 53). eta_A [1/s], eta_F and eta_B
-//                                 dimensionless.
-PolynomialDamping woodhouse(double eta_air, double eta_friction, double eta_bending, const String&);
-
 }  // namespace jvari

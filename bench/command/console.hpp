@@ -3,14 +3,11 @@
 
 #include <cstddef>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "bench/report/results.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/study/cells.hpp"
-#include "bench/study/record.hpp"
 
 namespace jvari::bench::command {
 
@@ -85,13 +82,5 @@ struct TextTable {
 // The front marked, and what is not to be trusted; in lines of that width, cost and headline error
 // always.
 std::string headline_text(const study::Cells&, std::size_t width);
-
-// ---- What the verbs that compare schemes say of their results.
-
-// The exit code of a study: done where a run of it was, or where there was nothing to run.
-int code_of(const std::vector<study::Record>&);
-
-// What `compare`, `judge` and `suite` say of their results as JSON, behind what is their own.
-std::string with_results(nlohmann::ordered_json own, const report::Written&);
 
 }  // namespace jvari::bench::command

@@ -6,11 +6,14 @@
 
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/compare/catalogue.hpp"
+#include "bench/report/results.hpp"
+#include "bench/study/record.hpp"
 
 namespace jvari::bench::command {
 
@@ -100,5 +103,13 @@ Act judge_verb(CLI::App& program);
 constexpr Act (*verbs[])(CLI::App&) = {new_verb,   list_verb,  run_verb,     compare_verb,
                                        suite_verb, trim_verb,  certify_verb, report_verb,
                                        diff_verb,  check_verb, export_verb,  judge_verb};
+
+// ---- What the verbs that compare schemes say of their results.
+
+// The exit code of a study: done where a run of it was, or where there was nothing to run.
+int code_of(const std::vector<study::Record>&);
+
+// What `compare`, `judge` and `suite` say of their results as JSON, behind what is their own.
+std::string with_results(nlohmann::ordered_json own, const report::Written&);
 
 }  // namespace jvari::bench::command

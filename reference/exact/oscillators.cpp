@@ -95,13 +95,6 @@ double dot(const Oscillators& osc, const double* x, const double* y) {
     return total(sum);
 }
 
-double series_tail(double z, int terms) {  // n z^n/n! = z^n/(n-1)!, ratio of successive terms z/n
-    if (z >= terms) return HUGE_VAL;
-    double term = z;
-    for (int n = 1; n < terms; ++n) term *= z / n;
-    return term / (1 - z / terms);
-}
-
 int terms_for(double z, double tolerance, int limit) {
     int n = 2;
     double term = z * z;

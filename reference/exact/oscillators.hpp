@@ -49,6 +49,5 @@ double dot(const Oscillators&, const double* x, const double* y);
 // How many terms a series with |term n| <= n z^n/n! needs until the rest is below `tolerance`, no
 // more than `limit`.
 int terms_for(double z, double tolerance, int limit);
-double series_tail(double z, int terms);  // sum_{n >= terms} n z^n/n!, bounded from above
 
 }  // namespace jvari

@@ -32,7 +32,6 @@ inline constexpr Option compliance_option{
     "own",
     "matched: what cut and step take from the string's compliance, in series with its contacts",
     {"own", "matched"}};
-inline constexpr Option compliance_options[] = {compliance_option};
 
 struct Footprint {        // where a force acts and a displacement is read
     double position = 0;  // centre [m]

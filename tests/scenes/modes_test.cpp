@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes/damping.hpp"
 #include "scenes/excitation.hpp"
 #include "tests/c3.hpp"
 
@@ -101,15 +100,6 @@ TEST(Modes, SmoothedTriangleStartsFromThePluckedShape) {
     EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02, 0.02), 0.5, 1e-12);
     EXPECT_NEAR(hann_smoothing(2 * std::numbers::pi / 0.02 * (1 + 1e-5), 0.02), 0.5 * (1 - 1.5e-5),
                 1e-9);
-}
-
-TEST(Damping, WoodhouseLossFactorsAreThePolynomialLaw) {
-    const String s = c3();
-    const auto law = woodhouse(1.2, 5e-5, 0.02, s);
-    const double c = std::sqrt(33.1 / 4.83e-4), lambda = 6.03e-5 / 33.1;
-    EXPECT_DOUBLE_EQ(law.sigma0, 0.6);
-    EXPECT_DOUBLE_EQ(law.sigma1, 0.5 * c * 5e-5);
-    EXPECT_DOUBLE_EQ(law.sigma3, 0.5 * c * lambda * 0.02);
 }
 
 }  // namespace

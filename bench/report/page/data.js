@@ -41,7 +41,6 @@ const digits = (x, n) => String(Number(x.toPrecision(n))); // "280", "0.0021"
 const percent = x => `${digits(100 * x, 2)}\u00a0%`;
 const decibels = x => `${digits(x, 2)}\u00a0dB`;
 const kilohertz = hz => (Number.isNaN(hz) ? "" : `${digits(hz / 1000, 5)} kHz`);
-const sentence = text => (text === "" ? [] : [text]);
 
 const tables = {}; // name: {columns, rows, records}; a record has its row's number as `n`
 function table(name) {
