@@ -113,7 +113,6 @@ namespace {
 constexpr double least_order = 0.5;  // below it a rate that would do is out of reach
 constexpr double hardly = 0.1;       // an order below it is none
 constexpr double furthest = 64;      // of an extrapolation, in rates
-constexpr double fewest_points = 3;  // two lie on every line
 // an error in the model of less than this of the error: the rest is of the modes left out
 constexpr double of_the_modes = 0.3;
 // of a horizon that is worth a word; the latter [s]
@@ -156,7 +155,7 @@ Order order_of(const Cells& cells, const Cell& cell, std::size_t measure) {
 }
 
 std::string of_the_rate(const Order& o, const Cell& cell, std::size_t measure, double most) {
-    if (o.points < fewest_points || !std::isfinite(o.half_width))
+    if (!std::isfinite(o.half_width))  // two points lie on every line
         return o.points < 2 ? "" : " Two rates are too few to extrapolate: run a third.";
     if (o.order - o.half_width <= 0 && o.order + o.half_width >= least_order)
         return " From these rates it cannot be told whether a higher rate helps.";
