@@ -10,7 +10,8 @@ is='build/release/jvari suite demo --out report/demo'
 line=$(sed -n "s#^$is \"\\\$@\"#\"\$program\" suite demo --out \"\$folder\"#p" demo)
 [ -n "$line" ] ||
     { echo "./demo: no line of it begins with $is" >&2; exit 1; }
-JVARI_CACHE= eval "$line" >"$folder.said" || complain "ended with $?"
+export JVARI_CACHE=  # none: references are computed
+eval "$line" >"$folder.said" || complain "ended with $?"
 times >"$folder.times"  # not behind a pipe: the times are of this shell's children
 spent=$(awk 'NR == 2 { gsub(/[ms]/, " "); print $1 * 60 + $2 + $3 * 60 + $4 }' "$folder.times")
 [ "$(wc -l <"$folder.said")" -le 33 ] ||
