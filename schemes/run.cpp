@@ -116,7 +116,7 @@ public:
     Block next(int rows) {
         const long row = trace_.rows;
         const Look look = options_.timed ? Look{false, trace_.stride} : looks_.at(row);
-        looked_ = look.now;
+        looked_ = look.now, same_until_ = look.until;
         return block_at(row, std::min(row + rows, look.until), looked_);
     }
     Status advance(const Block& block) {
@@ -135,7 +135,9 @@ public:
                                    : first_out_of_bounds(block, trace_.rows, end);
         if (options_.timed) return sound;
         if (sound < end || failed) return look_back(end);
-        if (looked_) given_ = given, unlooked_ = end;
+        if (looked_) given_ = given;
+        // rows that are looked at together are so whatever blocks they come in
+        if (looked_ && end == same_until_) unlooked_ = end;
         return end;
     }
 
@@ -225,6 +227,7 @@ private:
     const Looks looks_;
     const bool kept_;             // the energy, in the trace
     bool looked_ = false;         // at the rows of the block in hand
+    long same_until_ = 0;         // the end of the rows of which that is so
     long unlooked_ = 0;           // the first row since the last look
     double given_ = 0;            // energy until then [J]
     std::vector<double> bounds_;  // of the taps; finite, so that what is not finite is beyond
