@@ -137,7 +137,7 @@ constexpr double two_pi = 2 * std::numbers::pi;
 
 Scene ringing(bool stiff, bool damped) {
     Scene scene = string_at_rest();
-    scene.duration = 0.4;
+    scene.duration = 0.2;
     String& s = scene.strings.front();
     s.start = TriangleShape{0.2, 1e-3, 0.02};
     if (!stiff) s.bending_stiffness = 0;

@@ -126,7 +126,7 @@ Scene string_at_rest();
 
 constexpr double contract_tap_rate = 44100;  // [Hz]
 constexpr int contract_modes = 40, modes_of_an_integrator = 12;
-constexpr long contract_rows = 200;
+constexpr long contract_rows = 96;
 constexpr double what_modes_leave_out = 5e-5;  // of the whole string, which a grid nears
 constexpr double what_nodes_leave_out = 1e-2;  // of a force on a profile, at any rate
 

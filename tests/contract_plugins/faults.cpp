@@ -73,7 +73,7 @@ struct KeepsStateAfterAReset final : Honest {
 
 // From row 150 on its first tap is no number.
 void gives_nan(const Honest& h, const Block& out, int n) {
-    if (h.row_ >= 150 && out.taps > 0) out.tap[n] = std::nan("");
+    if (h.row_ >= 80 && out.taps > 0) out.tap[n] = std::nan("");
 }
 
 // Energy comes from nowhere in one row and goes there in the next, so that the sum is right.
