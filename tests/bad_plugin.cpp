@@ -1,5 +1,7 @@
 // Plugins that break the contract, for the tests of the command line: one table of schemes that
-// throw, make nothing or report what cannot be, and, by JVARI_BAD_TABLE, tables that are none.
+// throw, make nothing or report what cannot be, and, by JVARI_BAD_TABLE in the environment of the
+// program, tables that are none.
+#include <cstdlib>
 #include <stdexcept>
 
 #include "schemes/plugin.hpp"
@@ -45,7 +47,7 @@ constexpr Features all = Features(Feature::bending_stiffness) | Feature::damping
                          Feature::frequency_dependent_damping | Feature::initial_shape;
 constexpr auto stepped = Clock::stepped;
 
-[[maybe_unused]] const Descriptor table[] = {
+const Descriptor table[] = {
     {"bad_throws", "a test", all, Balance::none, stepped,
      [](const Descriptor&, const Scene&, const Settings&) -> std::unique_ptr<Scheme> {
          throw std::runtime_error("not made today");
@@ -62,31 +64,20 @@ constexpr auto stepped = Clock::stepped;
     {"bad_outcome", "a test", all, Balance::none, stepped, make<Fault::unknown_outcome>},
     {"bad_step", "a test", all, Balance::none, stepped, make<Fault::step_before_the_start>},
 };
-[[maybe_unused]] const Descriptor nameless[] = {
-    {nullptr, "a test", all, Balance::none, stepped, make<Fault::none>}};
-[[maybe_unused]] const Descriptor sourceless[] = {
+const Descriptor nameless[] = {{nullptr, "a test", all, Balance::none, stepped, make<Fault::none>}};
+const Descriptor sourceless[] = {
     {"bad_sourceless", nullptr, all, Balance::none, stepped, make<Fault::none>}};
-[[maybe_unused]] const Descriptor makeless[] = {
-    {"bad_makeless", "a test", all, Balance::none, stepped, nullptr}};
+const Descriptor makeless[] = {{"bad_makeless", "a test", all, Balance::none, stepped, nullptr}};
 }  // namespace
 
-#if JVARI_BAD_TABLE == 0
-JVARI_PLUGIN(table)
-#elif JVARI_BAD_TABLE == 1 || JVARI_BAD_TABLE == 2
 JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {
-    static const jvari_plugin plugin = {sizeof plugin,
-                                        JVARI_SCHEME_VERSION,
-                                        nullptr,
-                                        JVARI_BAD_TABLE == 1 ? 3 : -1,
-                                        "none",
-                                        "none",
-                                        1};
-    return &plugin;
+    const char* asked = std::getenv("JVARI_BAD_TABLE");
+    const int kind = asked ? std::atoi(asked) : 0;
+    static const jvari_plugin none = {
+        sizeof none, JVARI_SCHEME_VERSION, nullptr, kind == 1 ? 3 : -1, "none", "none", 1};
+    if (kind == 1 || kind == 2) return &none;
+    const std::span<const Descriptor> all[] = {table, {}, {}, nameless, sourceless, makeless};
+    static const plugin::Tables tables(all[kind], plugin::compiled_with().c_str(),
+                                       plugin::optimised);
+    return &tables.table();
 }
-#elif JVARI_BAD_TABLE == 3
-JVARI_PLUGIN(nameless)
-#elif JVARI_BAD_TABLE == 4
-JVARI_PLUGIN(sourceless)
-#elif JVARI_BAD_TABLE == 5
-JVARI_PLUGIN(makeless)
-#endif

@@ -73,9 +73,10 @@ if(JVARI_PYTHON)
     jvari_full(Python.ScriptsBesideTheRecordsWriteTheirVerdicts)
 endif()
 
-# These need many runs of every scheme. CI runs them, too, and the long ones of tests/fuzz.
+# These need many runs, or compile. CI runs them, too, as it does the long tests of the programs
+# and of tests/fuzz.
 set(long contract_test.numbers ContractPlugin.deaf Problems.AreWhatTheProgramExports
-    OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused)
+    OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused Plugin.AnyCompilerAndAnyHeaderOfTheVersion)
 jvari_full(${long})
 set_property(TEST ${long} APPEND PROPERTY LABELS long)
 
@@ -84,6 +85,7 @@ jvari_gate(Demo.AnswersInThirtyThreeLinesAndThirtySeconds demo.sh $<TARGET_FILE:
     ${demo_report})
 set_tests_properties(Demo.AnswersInThirtyThreeLinesAndThirtySeconds PROPERTIES COST 100
     RUN_SERIAL TRUE FIXTURES_SETUP demo_report)  # its limit is one of processor time
+jvari_full(Demo.AnswersInThirtyThreeLinesAndThirtySeconds)
 jvari_gate(Browser.ThePageDrawsWhatItsTablesHold browser/page.sh $<TARGET_FILE:jvari>
     ${CMAKE_CURRENT_SOURCE_DIR}/report ${CMAKE_SOURCE_DIR}/bench/report/page
     ${CMAKE_SOURCE_DIR}/node_modules)
@@ -156,5 +158,6 @@ jvari_gate(Slurm.ASuiteSurvivesALostNodeAndALostTask slurm/check.sh $<TARGET_FIL
     $<TARGET_FILE:held_plugin>)
 set_tests_properties(Slurm.ASuiteSurvivesALostNodeAndALostTask PROPERTIES COST 100)
 jvari_full(Slurm.ASuiteSurvivesALostNodeAndALostTask)
-set_target_properties(held_plugin thirty_per_cent_slow PROPERTIES EXCLUDE_FROM_ALL TRUE)
-add_dependencies(full held_plugin thirty_per_cent_slow)
+set_target_properties(deaf_plugins held_plugin thirty_per_cent_slow PROPERTIES EXCLUDE_FROM_ALL
+    TRUE)
+add_dependencies(full deaf_plugins held_plugin thirty_per_cent_slow)

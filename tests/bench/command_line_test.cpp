@@ -581,10 +581,6 @@ TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnly
         3);
 }
 
-std::string bad_plugin(int kind) {
-    return std::string(" --plugin ") + JVARI_BAD_PLUGINS + std::to_string(kind) + ".so";
-}
-
 TEST(BadPlugin, ATableThatIsNoneIsASentence) {
     const Scratch scratch;
     const char* const says[] = {"",
@@ -594,7 +590,8 @@ TEST(BadPlugin, ATableThatIsNoneIsASentence) {
                                 "has no source for its scheme bad_sourceless",
                                 "has nothing that makes its scheme bad_makeless"};
     for (int kind = 1; kind <= 5; ++kind) {
-        const Ended o = jvari(scratch, "check" + bad_plugin(kind));
+        const Ended o = jvari(scratch, "check --plugin " JVARI_BAD_PLUGIN,
+                              "JVARI_BAD_TABLE=" + std::to_string(kind));
         EXPECT_TRUE(ends(o, 2, says[kind])) << kind;
     }
 }
@@ -607,7 +604,8 @@ TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
     std::string schemes = "modal_two_point";
     for (const std::string name : names) {
         const Ended o =
-            jvari(scratch, "run free_string --duration 0.01 --scheme " + name + bad_plugin(0));
+            jvari(scratch,
+                  "run free_string --duration 0.01 --plugin " JVARI_BAD_PLUGIN " --scheme " + name);
         EXPECT_EQ(o.code, 4) << name;
         EXPECT_GT(o.err.size(), 20u) << name;
         schemes += "," + name;
@@ -615,7 +613,7 @@ TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
     const std::string out = scratch / "cmp";
     const Ended o = jvari(
         scratch, "compare free_string --duration 0.01 --repeats 1 --rates 44100 --json --schemes " +
-                     schemes + " --out " + out + bad_plugin(0));
+                     schemes + " --out " + out + " --plugin " JVARI_BAD_PLUGIN);
     ASSERT_EQ(o.code, 0) << o.err;
     const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
     ASSERT_EQ(cells.rows.size(), 8u);
@@ -875,7 +873,8 @@ TEST(Quiet, SaysNothingButErrors) {
 TEST(Controls, TakePartWhereTheyAreAskedFor) {
     const Scratch scratch;
     const std::string compare =
-        "compare tanpura_c3_release --rates 44100 --modes 5 --duration 0.002 --repeats 1";
+        "compare tanpura_c3_release --rates 44100 --modes 5 --duration 0.002 --repeats 1 "
+        "--reference-modes cell";
     const auto schemes = [&](const std::string& more) {
         std::set<std::string> names;
         const auto said = json_from(scratch, compare + more);
@@ -1027,7 +1026,8 @@ TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {
         "mkdir study && cd study && $J new guitar mine --quiet && cd .. && "
         "printf '[[cells]]\\nscenes = [\"mine.toml\"]\\nschemes = [\"modal_two_point\"]\\nmodes = "
         "5\\n"
-        "rates = [44100]\\nduration = 0.002\\n' >study/s.toml && $J suite study/s.toml --json");
+        "rates = [44100]\\nduration = 0.002\\nreference_modes = \"cell\"\\n' >study/s.toml && $J "
+        "suite study/s.toml --json");
     ASSERT_EQ(o.code, 0) << o.err;
     EXPECT_EQ(nlohmann::json::parse(o.out).at("cells").at(0).at("scene"), "mine");
     // no paper is about it

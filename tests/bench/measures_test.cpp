@@ -29,7 +29,7 @@ const Descriptor& scheme_named(const std::string& name) {
 std::vector<bench::check::HeardPartial> partials_of(const std::string& scheme,
                                                     const std::string& scene_name, double rate,
                                                     std::vector<std::string> set = {}) {
-    const Scene scene = bench::compare::load_scene(scene_name, set, 0.3);
+    const Scene scene = bench::compare::load_scene(scene_name, set, 0.15);
     return bench::check::heard_partials(scheme_named(scheme), scene, {rate, rate, 0, {}}, 0);
 }
 double hertz(double omega) { return omega / (2 * pi); }

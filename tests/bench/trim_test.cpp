@@ -39,7 +39,7 @@ trim::Request request(const std::string& scene, const std::string& within) {
     r.scene = scene;
     r.within = within;
     r.duration = 5e-3;
-    r.reference_modes = 1064;
+    r.reference_modes = 532;
     r.jobs = 1;
     return r;
 }
