@@ -49,6 +49,20 @@ TEST(Allocations, AreCounted) {
     EXPECT_GT(allocations.count(), 0);
 }
 
+TEST(Scenes, TouchTheBarriersThatTheyHave) {
+    for (Scene scene : contract_scenes()) {
+        const auto bare = [](const String& s) { return s.barriers.empty(); };
+        if (std::ranges::all_of(scene.strings, bare)) continue;
+        scene.taps = {{"contact", Quantity::bridge_force, std::nullopt, 0}};
+        const auto d = std::ranges::find_if(
+            schemes(), [&scene](const Descriptor& one) { return represents(one, scene); });
+        ASSERT_TRUE(d != schemes().end()) << scene.name;
+        const Trace t = fresh({*d, scene, settings_for(*d, scene)}, {}).trace;
+        EXPECT_TRUE(std::ranges::any_of(t.column(0), [](double f) { return f != 0; }))
+            << scene.name;
+    }
+}
+
 TEST(Excuses, AreOfControlsThatNeedThem) {
     for (const Excuse& e : excuses()) {
         const auto d = std::ranges::find_if(

@@ -130,7 +130,7 @@ constexpr long contract_rows = 96;
 constexpr double what_modes_leave_out = 5e-5;  // of the whole string, which a grid nears
 constexpr double what_nodes_leave_out = 1e-2;  // of a force on a profile, at any rate
 
-// the library and a few made here, each of contract_rows; read once
+// the library and a few made here, of contract_rows, or until they touch; read once
 const std::vector<Scene>& contract_scenes();
 
 // Test scenes with this feature and displacement taps: two minimal strings, then every contract

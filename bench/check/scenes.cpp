@@ -6,8 +6,12 @@
 namespace jvari::bench::check {
 
 namespace {
+// as long as it takes to touch what there is
 std::vector<Scene> shortened(std::vector<Scene> scenes) {
-    for (Scene& s : scenes) s.duration = static_cast<double>(contract_rows) / contract_tap_rate;
+    for (Scene& s : scenes) {
+        const bool late = s.name == "guitar_over_fret" || s.name == "prepared_piano";
+        s.duration = static_cast<double>(late ? 240 : contract_rows) / contract_tap_rate;
+    }
     return scenes;
 }
 
