@@ -115,9 +115,8 @@ public:
     // The next rows, as many at most: their energy is looked at, or it is that of none of them.
     Block next(int rows) {
         const long row = trace_.rows;
-        const Look look = options_.timed ? Look{false, trace_.stride} : looks_.at(row);
-        looked_ = look.now, same_until_ = look.until;
-        return block_at(row, std::min(row + rows, look.until), looked_);
+        look_ = options_.timed ? Look{false, trace_.stride} : looks_.at(row);
+        return block_at(row, std::min(row + rows, look_.until), look_.now);
     }
     Status advance(const Block& block) {
         Block told = block;
@@ -131,13 +130,13 @@ public:
     long sound_until(const Block& block, long end, bool failed) {
         double given = given_;
         const auto stands_for = [this](long row) { return looks_.stands_for(row); };
-        const long sound = looked_ ? first_unsound(block, trace_.rows, end, given, stands_for)
-                                   : first_out_of_bounds(block, trace_.rows, end);
+        const long sound = look_.now ? first_unsound(block, trace_.rows, end, given, stands_for)
+                                     : first_out_of_bounds(block, trace_.rows, end);
         if (options_.timed) return sound;
         if (sound < end || failed) return look_back(end);
-        if (looked_) given_ = given;
+        if (look_.now) given_ = given;
         // rows that are looked at together are so whatever blocks they come in
-        if (looked_ && end == same_until_) unlooked_ = end;
+        if (look_.now && end == look_.until) unlooked_ = end;
         return end;
     }
 
@@ -226,8 +225,7 @@ private:
     Teller& teller_;
     const Looks looks_;
     const bool kept_;             // the energy, in the trace
-    bool looked_ = false;         // at the rows of the block in hand
-    long same_until_ = 0;         // the end of the rows of which that is so
+    Look look_{};                 // at the rows of the block in hand
     long unlooked_ = 0;           // the first row since the last look
     double given_ = 0;            // energy until then [J]
     std::vector<double> bounds_;  // of the taps; finite, so that what is not finite is beyond
