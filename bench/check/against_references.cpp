@@ -236,7 +236,7 @@ std::vector<Scene> swinging(const Descriptor& d) {  // in mode 1, free and held
     std::vector<Scene> all{string_with("free", {}, {})};
     if (bridge || thread) all.push_back(string_with("held", bridge, thread));
     for (Scene& scene : all) {
-        scene.duration = 4.5e-3;  // in which a swing has more than one slope
+        scene.duration = 4.5e-3;  // more than half a period
         scene.strings.front().start = ModeShape{1, 1e-3};
         if (!has(d, Feature::bending_stiffness)) scene.strings.front().bending_stiffness = 0;
     }

@@ -71,7 +71,7 @@ struct KeepsStateAfterAReset final : Honest {
     void reset() noexcept override { y_ = shape_, before_ = start_, row_ = 0; }
 };
 
-// From row 150 on its first tap is no number.
+// From row 80 on its first tap is no number.
 void gives_nan(const Honest& h, const Block& out, int n) {
     if (h.row_ >= 80 && out.taps > 0) out.tap[n] = std::nan("");
 }
