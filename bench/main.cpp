@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "bench/command/console.hpp"
-#include "bench/store/json.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
@@ -13,37 +12,28 @@
 #include "schemes/scheme.hpp"
 
 namespace {
-int fail(bool json, int code, const char* status, const std::string& message) {
-    jvari::bench::command::write_error("jvari: " + message);
-    try {
-        jvari::bench::command::Console(json, false)
-            .print_json(jvari::bench::store::indented(
-                {{"status", status}, {"message", message}, {"exit_code", code}}));
-    } catch (const jvari::bench::store::Unwritable&) {  // the code says it
-    }
-    return code;
-}
-
 bool ended = false;
 
 int code_of(int argc, char** argv, bool json) {
     using namespace jvari;
+    namespace exit_code = bench::command::exit_code;
+    using bench::command::fail;
     try {
         return bench::command::call(argc, argv);
     } catch (const bench::store::UsageError& e) {
-        return fail(json, bench::command::exit_code::bad_usage, "bad_usage", e.what());
+        return fail(json, exit_code::bad_usage, "bad_usage", e.what());
     } catch (const SceneFileError& e) {
-        return fail(json, bench::command::exit_code::bad_usage, "bad_scene", e.what());
+        return fail(json, exit_code::bad_usage, "bad_scene", e.what());
     } catch (const BadScene& e) {
-        return fail(json, bench::command::exit_code::bad_usage, "bad_scene", e.what());
+        return fail(json, exit_code::bad_usage, "bad_scene", e.what());
     } catch (const BadOption& e) {
-        return fail(json, bench::command::exit_code::bad_usage, "bad_usage", e.what());
+        return fail(json, exit_code::bad_usage, "bad_usage", e.what());
     } catch (const Refusal& e) {
-        return fail(json, bench::command::exit_code::refused, "refused", e.what());
+        return fail(json, exit_code::refused, "refused", e.what());
     } catch (const std::exception& e) {
-        return fail(json, bench::command::exit_code::run_failed, "error", e.what());
+        return fail(json, exit_code::run_failed, "error", e.what());
     } catch (...) {  // a plugin may throw what it likes
-        return fail(json, bench::command::exit_code::run_failed, "error",
+        return fail(json, exit_code::run_failed, "error",
                     "something was thrown that is no exception of the standard library");
     }
 }

@@ -1,13 +1,11 @@
 #include "reference/in_series.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "schemes/decompositions.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 
@@ -16,38 +14,41 @@ namespace jvari {
 namespace {
 constexpr int most_contacts = 8;  // lumped contacts and a thread
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 // M = C^-1 E C^-1 is what the cut modes' admittance C - s^2 E + ... asks for. The damper R is the
 // wave resistance where the string is ideal and far from its ends. At a contact it is eight times
 // as large, which hardly matters for the motion: the larger it is, the faster is what a closed
 // contact leaves of it, R (M^-1 + G) with G = sum of g^2/m over the modes kept, and
 // touching_set.hpp splits that off. sqrt(M/C) at least keeps spring and mass from creeping.
-void put_ladder(InSeries& series, const Matrix& stiff, const Matrix& E,
-                std::span<const Footprint> points, const Modes& kept) {
+void put_ladder(InSeries& series, const std::vector<double>& E, std::span<const Footprint> points,
+                const Modes& kept) {
     constexpr double wave = 8 / std::numbers::pi, apart = 8 * wave;  // x omega_M
-    const Eigen::Index n = series.points;
-    series.states = 2 * series.points;
-    const Matrix mass = stiff * E * stiff, lighter = mass.inverse();
-    Matrix yields = Matrix::Zero(n, n);  // R^-1
-    for (Eigen::Index a = 0; a < n; ++a) {
+    const int n = series.points, all = series.states = 2 * n;
+    const auto& stiff = series.stiff = inverse_of(series.C.C, n);
+    const auto mass = product_of(product_of(stiff, E, n), stiff, n), lighter = inverse_of(mass, n);
+    std::vector<double> yields(mass.size());  // R^-1
+    for (int a = 0; a < n; ++a) {
         const auto g = footprint_weights(kept, points[a].position, points[a].width);
-        const double G = std::inner_product(g.begin(), g.end(), g.begin(), 0.0) / kept.mass;
+        const double G = std::inner_product(g.begin(), g.end(), g.begin(), 0.0) / kept.mass,
+                     light = lighter[a * n + a];
         const double rate = (a < series.C.contacts ? apart : wave) * kept.omega0.back();
-        yields(a, a) =
-            std::min((lighter(a, a) + G) / rate, std::sqrt(lighter(a, a) * series.C.C[a * n + a]));
+        yields[a * n + a] = std::min((light + G) / rate, std::sqrt(light * series.C.C[a * n + a]));
     }
-    Matrix A(2 * n, 2 * n), B(2 * n, n), S = Matrix::Zero(2 * n, 2 * n), Q = S;
-    A << -yields * stiff, Matrix::Identity(n, n), -lighter * stiff, Matrix::Zero(n, n);
-    B << yields, lighter;
-    S.topLeftCorner(n, n) = stiff;
-    S.bottomRightCorner(n, n) = mass;
-    Q.bottomRightCorner(n, n) = mass * yields * mass;
-    const auto put = [](const Matrix& m, std::vector<double>& out) {
-        out.assign(m.data(), m.data() + m.size());
-    };
-    put(A, series.A), put(B, series.B), put(stiff, series.stiff), put(S, series.energy),
-        put(Q, series.loss);
+    const auto creep = product_of(yields, stiff, n), swing = product_of(lighter, stiff, n),
+               loss = product_of(product_of(mass, yields, n), mass, n);
+    for (auto* m : {&series.A, &series.energy, &series.loss})
+        m->assign(static_cast<std::size_t>(all) * all, 0.0);
+    series.B = yields;  // and lighter below it
+    series.B.insert(series.B.end(), lighter.begin(), lighter.end());
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) {
+            const int at = a * n + b, first = a * all + b, second = (n + a) * all + n + b;
+            series.A[first] = -creep[at];
+            series.A[first + n] = a == b;
+            series.A[second - n] = -swing[at];
+            series.energy[first] = stiff[at];
+            series.energy[second] = mass[at];
+            series.loss[second] = loss[at];
+        }
 }
 }  // namespace
 
@@ -70,29 +71,27 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     series.points = series.C.contacts + (series.C.thread ? 1 : 0);
     if (series.points > most_contacts) refuse("takes few contacts");
     if (series.points == 0) return series;
-    const Matrix C = Eigen::Map<const Matrix>(series.C.C.data(), series.points, series.points);
     const Sites sites = sites_of(scene);
     const CutModes cut =
         cut_modes(s, std::span(sites.forces).first(series.points), kept.count(), HUGE_VAL);
-    const auto positive = [](const Matrix& m) {
-        return Eigen::LLT<Matrix>(m).info() == Eigen::Success;
+    const auto positive = [&](const std::vector<double>& m) {
+        return symmetric_parts(m, series.points).value.front() > 0;
     };
     const auto nothing = [&] {
         refuse("needs modes that are left out: nothing is missing at a contact or at the thread");
     };
-    if (cut.E.empty()) nothing();
-    const Matrix E = Eigen::Map<const Matrix>(cut.E.data(), series.points, series.points);
-    if (!positive(C) || !positive(E)) nothing();
-    put_ladder(series, C.inverse(), E, std::span(sites.forces).first(series.points), kept);
+    if (cut.E.empty() || !positive(series.C.C) || !positive(cut.E)) nothing();
+    put_ladder(series, cut.E, std::span(sites.forces).first(series.points), kept);
     return series;
 }
 
 double series_rate(const InSeries& s) {
     if (s.states == 0) return 0;
-    using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-    const Long A = Eigen::Map<const Matrix>(s.A.data(), s.states, s.states).cast<long double>();
-    return static_cast<double>(
-        Eigen::EigenSolver<Long>(A, false).eigenvalues().cwiseAbs().maxCoeff());
+    long double fastest = 0;
+    const std::vector<long double> A(s.A.begin(), s.A.end());  // transposed: the same rates
+    for (const auto& rate : eigenpairs_of(A, s.states).value)
+        fastest = std::max(fastest, std::abs(rate));
+    return static_cast<double>(fastest);
 }
 
 void add_series(const Block& out, int row, const InSeries& series, const double* z,

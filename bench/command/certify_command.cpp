@@ -227,7 +227,7 @@ int certify_command(const CertifyRequest& r) {
                                         {"cached", cached},
                                         {"file", path.string()},
                                         {"cost_file", study::cost_path(path).string()},
-                                        {"certificate", Json::parse(study::json_of(c))},
+                                        {"certificate", store::parsed(study::json_of(c))},
                                         {"wall_seconds", costs}}));
     return good ? exit_code::done : exit_code::run_failed;
 }

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "bench/command/verbs.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/usage.hpp"
@@ -189,6 +190,17 @@ std::size_t Console::width() {
 
 std::unique_ptr<store::Progress> Console::begin(const std::string& job) const {
     return quiet_ ? Listener::begin(job) : std::make_unique<Line>(job);
+}
+
+int fail(bool json, int code, const char* status, const std::string& message) {
+    write_error("jvari: " + message);
+    try {
+        Console(json, false)
+            .print_json(
+                store::indented({{"status", status}, {"message", message}, {"exit_code", code}}));
+    } catch (const store::Unwritable&) {  // the code says it
+    }
+    return code;
 }
 
 // ---- The program: its help, and the verb of its command line.

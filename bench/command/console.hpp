@@ -50,6 +50,9 @@ private:
     bool json_, quiet_;
 };
 
+// A line to standard error and, with --json, an object to standard output; returns `code`.
+int fail(bool json, int code, const char* status, const std::string& message);
+
 // ---- The program: reads its arguments and does what they ask for.
 
 // Returns the exit code, or throws: UsageError, BadScene, SceneFileError (2), Refusal (3).

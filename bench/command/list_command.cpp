@@ -227,7 +227,8 @@ Json keys_json() {  // of a suite file
 
 std::string field_text(const std::string& key, const Json& value) {
     if (value.is_boolean() || value.is_null()) return value == true ? key : "";
-    if (!value.is_structured()) return value.is_string() ? value.get<std::string>() : value.dump();
+    if (!value.is_structured())
+        return value.is_string() ? value.get<std::string>() : store::compact(value);
     std::string text;
     for (const Json& one : value)
         text += (text.empty() ? "" : value.is_array() ? ", " : " ") + field_text(key, one);

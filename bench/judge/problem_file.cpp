@@ -8,6 +8,7 @@
 
 #include "analysis/error.hpp"
 #include "bench/compare/compare_plan.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/excitation.hpp"
@@ -107,8 +108,7 @@ std::string problem_json(const Exported& e, const study::Truth* truth) {
     if (truth) j["reference"] = reference_json(e.scene, *truth);
     std::string text;  // a member a line
     for (const auto& [key, value] : j.items())
-        text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": " +
-                value.dump(-1, ' ', false, Json::error_handler_t::replace);
+        text += (text.empty() ? "{\n" : ",\n") + store::compact(key) + ": " + store::compact(value);
     return text + "\n}\n";
 }
 

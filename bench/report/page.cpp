@@ -19,7 +19,7 @@ namespace {
 // escape there.
 std::string island(const nlohmann::ordered_json& j) {
     std::string safe;
-    for (const char c : j.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
+    for (const char c : store::compact(j)) {
         if (c == '<') safe += "\\u003c";
         else safe += c;
     }

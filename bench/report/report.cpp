@@ -8,6 +8,7 @@
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 #include "bench/study/errors.hpp"
 #include "bench/study/record.hpp"
 #include "reference/references.hpp"
@@ -115,7 +116,7 @@ Json data_of(const Results& r) {
     data["source"] = r.source;
     data["command"] = r.command;
     data["measures"] = measures();
-    data["manifest"] = Json::parse(r.manifest, nullptr, false);
+    data["manifest"] = r.manifest.empty() ? Json() : store::parsed(r.manifest);
     auto tables = derived_tables(r);
     const store::Table cheapest = tables["cheapest"];
     shorten_errors(tables["errors"], data["left_out"]["cells"]);

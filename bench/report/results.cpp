@@ -66,7 +66,7 @@ void name_rows(store::Table& t, const std::string& scene) {
 }
 
 void read_manifest(Results& r, const Json& m) {
-    r.manifest = m.dump();
+    r.manifest = store::compact(m);
     r.about = m.value("date", "");
     r.command = m.value("command", "");
     r.controls =

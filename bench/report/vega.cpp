@@ -12,6 +12,7 @@
 
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/program.hpp"
 #include "bench/store/usage.hpp"
@@ -81,7 +82,7 @@ Drawn draw(const Vega& v, const Json& data) {
         "const page = JSON.parse(require(\"fs\").readFileSync(\"page.json\", \"utf8\"));\n" +
         shared_program() + page_text("draw.js") + "draw_all();\n";
     if (scratch.path.empty() || !write(file("draw.js"), program) ||
-        !write(file("page.json"), data.dump(-1, ' ', false, Json::error_handler_t::replace))) {
+        !write(file("page.json"), store::compact(data))) {
         drawn.notes.push_back("no picture: cannot write to " + store::Scratch::place().string());
         return drawn;
     }
@@ -97,7 +98,7 @@ Drawn draw(const Vega& v, const Json& data) {
                                : "no picture: vega failed: " + output.text.substr(0, 400));
         return drawn;
     }
-    const Json answer = Json::parse(*list);
+    const Json answer = store::parsed(*list);
     for (const std::string name : answer.at("drawn"))
         drawn.svgs.emplace_back(name, whole(file(name.c_str())).value_or(""));
     for (const Json& one : answer.at("failed"))

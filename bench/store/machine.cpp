@@ -63,13 +63,13 @@ std::string contents_hash(const std::string& guest) {
 std::string run_identity(const Machine& m) {
     nlohmann::ordered_json program = identity_of(m.run_sources, m);
     for (const Guest* g : guests()) program.push_back(contents_hash(g->path));
-    return program.dump();
+    return compact(program);
 }
 
 std::string program_identity(const std::vector<std::string>& plugins, const Machine& m) {
     nlohmann::ordered_json program = identity_of(m.cell_sources, m);
     for (const std::string& path : plugins) program.push_back(contents_hash(path));
-    return program.dump();
+    return compact(program);
 }
 
 namespace {

@@ -100,17 +100,16 @@ std::string Certificate::identity() const {
         for (const auto& [name, value] : e.options) options[name] = value;
         runs.push_back({e.reference, options, e.doubled});
     }
-    return Json{{"program", Json::parse(program)},
-                {"format", format},
-                {"scene", scene},
-                {"scene_hash", scene_hash},
-                {"modes", modes},
-                {"tap_rate_hz", tap_rate},
-                {"duration_s", duration},
-                {"from_s", from},
-                {"taps", taps},
-                {"runs", runs}}
-        .dump();
+    return store::compact({{"program", store::parsed(program)},
+                           {"format", format},
+                           {"scene", scene},
+                           {"scene_hash", scene_hash},
+                           {"modes", modes},
+                           {"tap_rate_hz", tap_rate},
+                           {"duration_s", duration},
+                           {"from_s", from},
+                           {"taps", taps},
+                           {"runs", runs}});
 }
 
 std::string Certificate::key() const { return store::hash_of(identity()); }
@@ -137,7 +136,7 @@ std::optional<Certificate> read_certificate(const std::filesystem::path& path) {
         const Json& of = j.at("of");
         if (of.at("format") != format) throw std::runtime_error("of another format");
         Certificate c;
-        c.program = of.at("program").dump();
+        c.program = store::compact(of.at("program"));
         c.scene = of.at("scene");
         c.scene_hash = of.at("scene_hash");
         c.modes = store::whole<int>(of.at("modes"));

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bench/store/encoding.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
@@ -34,17 +35,18 @@ Json references_json(const Point& p) {
 }  // namespace
 
 void address(Plan& plan, const std::string& of_program) {
-    const Json program = Json::parse(of_program);
+    const Json program = store::parsed(of_program);
     for (Point& p : plan.points) {
         const Json references = references_json(p);
         const std::string limit = store::text_of(p.time_limit);
         p.hash = scene_hash(p.scene);
         if (p.true_hash.empty()) p.true_hash = p.whole ? scene_hash(*p.whole) : p.hash;
-        p.reference_key = p.true_hash + references.dump() + limit;
+        p.reference_key = p.true_hash + store::compact(references) + limit;
         if (!p.truth_modes) continue;
         Json modeless = references;
         for (Json& r : modeless) r["settings"].erase("modes");
-        p.truth_key = std::to_string(*p.truth_modes) + p.true_hash + modeless.dump() + limit;
+        p.truth_key =
+            std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) + limit;
     }
     std::set<std::string> seen;
     std::vector<Job> once;
@@ -65,7 +67,7 @@ void address(Plan& plan, const std::string& of_program) {
         if (p.alone) identity["reference_alone"] = true;
         if (job.repeats > 0) identity["repeats"] = job.repeats;
         if (!std::isinf(p.time_limit)) identity["time_limit_s"] = p.time_limit;
-        job.identity = identity.dump();
+        job.identity = store::compact(identity);
         job.id = store::hash_of(job.identity);
         if (seen.insert(job.identity).second) once.push_back(std::move(job));
     }

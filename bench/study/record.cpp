@@ -145,7 +145,7 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
 
 std::optional<Levels> read_levels(const std::filesystem::path& path, const std::string& name) {
     return store::read_kept(path, [&name](const Json& j) {
-        const Json measured = Json::parse(j.at("of").at("measured").get<std::string>());
+        const Json measured = store::parsed(j.at("of").at("measured").get<std::string>());
         if (std::find(measured.begin(), measured.end(), name) == measured.end())
             throw std::runtime_error("it was not measured");
         return levels_in(j.at("levels"));

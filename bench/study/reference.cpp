@@ -181,10 +181,9 @@ fs::path kept_runs_folder() {
 }
 
 std::string run_key(const Descriptor& reference, const Scene& scene, const Settings& s) {
-    return store::hash_of(Json{file_format, store::run_identity(), reference.name,
-                               scene_hash(scene), store::text_of(s.sample_rate),
-                               store::text_of(s.tap_rate), s.modes, s.options}
-                              .dump());
+    return store::hash_of(store::compact(Json{file_format, store::run_identity(), reference.name,
+                                              scene_hash(scene), store::text_of(s.sample_rate),
+                                              store::text_of(s.tap_rate), s.modes, s.options}));
 }
 
 void write_run(const fs::path& path, const std::string& key, const Run& r) {
@@ -202,7 +201,7 @@ void write_run(const fs::path& path, const std::string& key, const Run& r) {
                     {"stride", r.trace.stride},
                     {"rows", r.trace.rows},
                     {"names", r.trace.names}};
-    std::string content = head.dump() + "\n";
+    std::string content = store::compact(head) + "\n";
     for (int k = 0; k < r.trace.taps(); ++k)
         content.append(reinterpret_cast<const char*>(r.trace.column(k).data()),
                        r.trace.column(k).size_bytes());

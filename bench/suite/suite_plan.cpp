@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/compare_plan.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 
 namespace jvari::bench::suite {
@@ -18,7 +19,7 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
         if (set.measures(f.name)) measured.push_back(f.name);
     if (set.measures(measured::spectrogram) || set.measures(measured::sound))
         measured.push_back({{"tap", job.point->scene.taps.at(tap).name}});
-    job.measured = measured.dump();
+    job.measured = store::compact(measured);
     job.measure = [&set, tap](const study::Ran& ran, study::Record& into) {
         if (set.measures(measured::spectrogram))
             into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);

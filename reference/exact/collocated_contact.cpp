@@ -1,12 +1,12 @@
 #include "reference/exact/collocated_contact.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "reference/exact/macro_window.hpp"
 #include "reference/gauss_legendre.hpp"
+#include "schemes/decompositions.hpp"
 
 namespace jvari {
 
@@ -19,11 +19,12 @@ CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const Barri
     : window_(&w), law_(laws.begin(), laws.end()) {
     gauss_legendre(node_, weight_);
     using Real = long double;
-    Eigen::Matrix<Real, nodes, nodes> V;
-    for (int q = 0; q < nodes; ++q)
-        for (int n = 0; n < nodes; ++n)
-            V(q, n) = std::pow(static_cast<Real>(node_[q]), static_cast<Real>(n));
-    const Eigen::Matrix<Real, nodes, nodes> inverse = V.partialPivLu().inverse();  // [power][node]
+    std::vector<Real> V;  // by columns: powers of the nodes
+    for (int n = 0; n < nodes; ++n)
+        for (int q = 0; q < nodes; ++q)
+            V.push_back(std::pow(static_cast<Real>(node_[q]), static_cast<Real>(n)));
+    const std::vector<Real> inverted = inverse_of(V, nodes);
+    const auto inverse = [&](int power, int node) { return inverted[node * nodes + power]; };
     for (int n = 0; n < nodes; ++n)
         for (int j = 0; j < nodes; ++j) powers_[n * nodes + j] = static_cast<double>(inverse(n, j));
     // int_0^c (c - x)^l/l! x^n dx = n! c^(n+l+1)/(n+l+1)!

@@ -1,12 +1,11 @@
-// What a touching set is made of, in long double. Its decompositions are compiled here, at -O1.
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+// What a touching set is made of, in long double.
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "reference/exact/macro_window.hpp"
 #include "reference/exact/touching_set.hpp"
+#include "schemes/decompositions.hpp"
 
 namespace jvari {
 
@@ -15,6 +14,14 @@ using LongReal = long double;
 using LongComplex = std::complex<LongReal>;
 using LongMatrix = Eigen::Matrix<LongReal, Eigen::Dynamic, Eigen::Dynamic>;
 using LongComplexMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
+
+std::span<const LongReal> numbers(const LongMatrix& m) {
+    return {m.data(), static_cast<std::size_t>(m.size())};
+}
+LongMatrix inverse(const LongMatrix& m) {
+    return LongMatrix::Map(inverse_of(numbers(m), static_cast<int>(m.rows())).data(), m.rows(),
+                           m.cols());
+}
 
 // what a contact alone has in radians per window, and the slowest of what is split off
 constexpr LongReal stiff = 12, least = 10;
@@ -63,11 +70,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
     for (int a = 0; a < P; ++a)
         for (int b = 0; b < P; ++b)
             symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<LongReal>(k_[a]) / k_[b]);
-    const LongMatrix even = (symmetric + symmetric.transpose()) / 2;
-    const bool all_stiff =
-        Eigen::LLT<LongMatrix>(even - stiff * stiff * LongMatrix::Identity(P, P)).info() ==
-        Eigen::Success;
-    if (!all_stiff) {
+    const Eigen::MatrixXd even = ((symmetric + symmetric.transpose()) / 2).cast<double>();
+    if (!(symmetric_parts(std::span(even.data(), even.size()), P).value.front() > stiff * stiff)) {
         soften();
         return;
     }
@@ -78,23 +82,23 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
     LongMatrix L = first;
     LongReal change = 1;
     for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
-        const LongMatrix inverse = L.inverse();
-        LongMatrix next = first, power = inverse;
-        for (int j = 2; j < N; ++j, power = power * inverse)
+        const LongMatrix inverted = inverse(L);
+        LongMatrix next = first, power = inverted;
+        for (int j = 2; j < N; ++j, power = power * inverted)
             next.bottomRows(P) -= A[j] * power.topRows(P);
         change = (next - L).norm() / L.norm();
         L = next;
     }
     if (!(change < 1e-15L)) return;  // no part is so much faster than the others
-    const Eigen::EigenSolver<LongMatrix> eigen(L);
+    const Eigenpairs pairs = eigenpairs_of(numbers(L), 2 * P);
     std::vector<LongComplex> rates;
     LongComplexMatrix v(P, 2 * P);
     for (int k = 0; k < 2 * P; ++k) {
-        const LongComplex rate = eigen.eigenvalues()(k);
+        const LongComplex rate = pairs.value[k];
         if (rate.real() > 0 || std::abs(rate) < least) return;
         if (rate.imag() < 0) continue;
         const int now = static_cast<int>(rates.size());
-        v.col(now) = eigen.eigenvectors().col(k).head(P);
+        for (int a = 0; a < P; ++a) v(a, now) = pairs.vector[2 * P * k + a];
         v.col(now) /= v.col(now).norm();
         rates.push_back(rate);
     }
@@ -107,7 +111,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
         for (int j = n + 1 < N ? 0 : 1; j <= n + 1 && j < N; ++j)
             operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
     }
-    const LongMatrix G = operation.partialPivLu().inverse();
+    const LongMatrix G = inverse(operation);
 
     LongComplexMatrix q = LongComplexMatrix::Zero(P * N, E);
     for (int k = 0; k < E; ++k)
@@ -130,7 +134,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
         }
         if (oscillates) ++column;
     }
-    const LongMatrix inverse = start.inverse();
+    const LongMatrix started = inverse(start);
 
     pairs_ = E;
     growth_ = w.reach;
@@ -141,7 +145,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
     for (int k = 0, row = 0; k < E; ++k)
         for (int part = 0; part < (rates[k].imag() != 0 ? 2 : 1); ++part, ++row)
             for (int j = 0; j < 2 * P; ++j)
-                start_[(2 * k + part) * 2 * P + j] = static_cast<double>(inverse(row, j));
+                start_[(2 * k + part) * 2 * P + j] = static_cast<double>(started(row, j));
     inverse_.assign(static_cast<std::size_t>(P) * N * P * size, 0.0);
     for (int m = 0; m + 2 < N; ++m)
         for (int b = 0; b < P; ++b)

@@ -4,20 +4,20 @@
 // geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
 #include "schemes/contact/compliance.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/decompositions.hpp"
 #include "schemes/making.hpp"
 #include "schemes/scheme.hpp"
-#include "schemes/symmetric.hpp"
 
 namespace jvari {
 
@@ -297,16 +297,16 @@ void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutMo
     }
 }
 
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 // of what is more than rounding of a symmetric, positive matrix
-Square power_of(const std::vector<double>& m, int n, double power) {
+std::vector<double> power_of(const std::vector<double>& m, int n, double power) {
     const SymmetricParts parts = symmetric_parts(m, n);
-    const Eigen::Map<const Square> vectors(parts.vector.data(), n, n);  // in rows
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
-    for (int k = 0; k < n; ++k)
-        if (parts.value[k] > 1e-9 * parts.value[n - 1]) values[k] = std::pow(parts.value[k], power);
-    return vectors.transpose() * values.asDiagonal() * vectors;
+    std::vector<double> scaled(m.size());  // vectors in columns
+    for (int k = 0; k < n; ++k) {
+        if (!(parts.value[k] > 1e-9 * parts.value[n - 1])) continue;
+        const double value = std::pow(parts.value[k], power);
+        for (int a = 0; a < n; ++a) scaled[a * n + k] = parts.vector[k * n + a] * value;
+    }
+    return product_of(scaled, parts.vector, n);
 }
 
 // The patterns are those in which C and E of the cut modes are both diagonal. Modes above half the
@@ -319,25 +319,28 @@ Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& 
     for (auto* v : {&l.mass, &l.resistance}) v->assign(n, 0.0);
     for (auto* m : {&l.damper, &l.V}) m->assign(static_cast<std::size_t>(n) * n, 0.0);
     const double Z = std::sqrt(s.tension * s.linear_density);
-    Eigen::Map<Square> damper(l.damper.data(), n, n), patterns(l.V.data(), n, n);
     if (cut.C.empty()) {
-        damper = Z * Square::Identity(n, n);
+        for (int a = 0; a < n; ++a) l.damper[a * n + a] = Z;
         return l;
     }
-    const Square stiff = power_of(C, n, -1), white = power_of(cut.C, n, -0.5);
-    const Eigen::Map<const Square> folded(cut.folded.data(), n, n), E(cut.E.data(), n, n);
-    damper = 0.5 * dt * stiff * folded * stiff;
-    const Square slow = white * E * white;
-    const SymmetricParts parts = symmetric_parts({slow.data(), slow.data() + slow.size()}, n);
-    const Square V = Eigen::Map<const Square>(parts.vector.data(), n, n) * white;
+    const auto stiff = power_of(C, n, -1), white = power_of(cut.C, n, -0.5);
+    auto damped = product_of(stiff, cut.folded, n);
+    for (double& d : damped) d *= 0.5 * dt;
+    l.damper = product_of(damped, stiff, n);
+    const SymmetricParts parts =
+        symmetric_parts(product_of(product_of(white, cut.E, n), white, n), n);
+    const std::vector<double> V = product_of(parts.vector, white, n);
     for (int k = 0; k < n; ++k) {
         // a point that is alone moves with its mass
-        const double length = std::copysign(V.row(k).norm(), V(k, 0));
+        const std::span<const double> moves(V.data() + k * n, n);
+        const double square = std::inner_product(moves.begin(), moves.end(), moves.begin(), 0.0),
+                     length = std::copysign(std::sqrt(square), moves[0]);
         if (!(length != 0 && parts.value[k] > 0)) continue;
-        patterns.row(k) = V.row(k) / length;
         std::vector<double> g(cut.modes.count());
-        for (int a = 0; a < n; ++a)
-            for (std::size_t i = 0; i < g.size(); ++i) g[i] += patterns(k, a) * cut.g[a][i];
+        for (int a = 0; a < n; ++a) {
+            const double moved = l.V[k * n + a] = moves[a] / length;
+            for (std::size_t i = 0; i < g.size(); ++i) g[i] += moved * cut.g[a][i];
+        }
         const Answer answer{cut.modes, kept, std::move(g), 1 / (length * length)};
         const double mass = l.mass[k] = answer.mass(std::numbers::pi / dt);
         if (mass > 0)

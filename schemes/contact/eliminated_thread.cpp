@@ -1,12 +1,8 @@
 #include "schemes/contact/eliminated_thread.hpp"
 
-#include <Eigen/LU>
+#include "schemes/decompositions.hpp"
 
 namespace jvari {
-
-namespace {  // rounded once: an error here is one in the balance of every step, and of one sign
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-}
 
 EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts,
                                      std::span<const double> theta, double span)
@@ -14,17 +10,21 @@ EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts,
     const int n = contacts, m = count(), all = n + m;
     if (m == 0) return;
     for (const Thread& t : laws_) phi_.push_back(0.5 * t.stiffness + t.damping / span);
-    LongMatrix give = LongMatrix::Identity(m, m), across(m, n);
+    // rounded once: an error here is one in the balance of every step, and of one sign
+    const auto pull = [&](int t, int point) {
+        return static_cast<long double>(phi_[t]) * theta[(n + t) * all + point];
+    };
+    std::vector<long double> give;
+    for (int t = 0; t < m; ++t)
+        for (int u = 0; u < m; ++u) give.push_back((t == u ? 1 : 0) + pull(t, n + u));
+    const std::vector<long double> inverse = inverse_of(give, m);
     for (int t = 0; t < m; ++t) {
-        for (int u = 0; u < m; ++u)
-            give(t, u) += static_cast<long double>(phi_[t]) * theta[(n + t) * all + n + u];
-        for (int a = 0; a < n; ++a)
-            across(t, a) = static_cast<long double>(phi_[t]) * theta[(n + t) * all + a];
-    }
-    const LongMatrix inverse = give.inverse(), answer = inverse * across;
-    for (int t = 0; t < m; ++t) {
-        for (int u = 0; u < m; ++u) inverse_.push_back(static_cast<double>(inverse(t, u)));
-        for (int a = 0; a < n; ++a) answer_.push_back(static_cast<double>(answer(t, a)));
+        for (int u = 0; u < m; ++u) inverse_.push_back(static_cast<double>(inverse[t * m + u]));
+        for (int a = 0; a < n; ++a) {
+            long double answer = 0;
+            for (int u = 0; u < m; ++u) answer += inverse[t * m + u] * pull(u, a);
+            answer_.push_back(static_cast<double>(answer));
+        }
     }
     for (int a = 0; a < n; ++a)
         for (int t = 0; t < m; ++t) coupling_.push_back(theta[a * all + n + t]);

@@ -3,14 +3,14 @@
 // apart.
 #include "schemes/grid/finite_difference.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "scenes/excitation.hpp"
 #include "scenes/start.hpp"
+#include "schemes/decompositions.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari {
@@ -86,21 +86,30 @@ struct Fit {
 // Least squares with the powers 0, 1, 2 of x that `powers` has a bit for.
 Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma,
                const std::vector<double>& weight) {
-    const auto n = static_cast<Eigen::Index>(x.size());
-    Eigen::MatrixXd A(n, std::popcount(static_cast<unsigned>(powers)));
-    Eigen::VectorXd b(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const double scale = std::sqrt(weight[i]);
-        b[i] = scale * sigma[i];
-        for (int p = 0, column = 0; p < 3; ++p)
-            if (powers >> p & 1) A(i, column++) = scale * std::pow(x[i], p);
+    std::vector<int> power;
+    for (int p = 0; p < 3; ++p)
+        if (powers >> p & 1) power.push_back(p);
+    const std::size_t n = power.size();
+    // the normal equations: long double bears the square of their condition
+    std::vector<long double> normal(n * n), right(n);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (std::size_t a = 0; a < n; ++a) {
+            const long double root = x[i], weighted = weight[i] * std::pow(root, power[a]);
+            right[a] += weighted * sigma[i];
+            for (std::size_t b = 0; b < n; ++b)
+                normal[b * n + a] += weighted * std::pow(root, power[b]);
+        }
+    const std::vector<long double> inverse = inverse_of(normal, static_cast<int>(n));
+    double coefficient[3] = {};  // of each power
+    for (std::size_t a = 0; a < n; ++a)
+        coefficient[power[a]] = static_cast<double>(
+            std::inner_product(right.begin(), right.end(), inverse.begin() + a * n, 0.0L));
+    const auto [sigma0, sigma1, sigma2] = coefficient;
+    Fit fit{{sigma0, sigma1, sigma2}, 0};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double off = sigma0 + (sigma1 + sigma2 * x[i]) * x[i] - sigma[i];
+        fit.square += weight[i] * off * off;
     }
-    const Eigen::VectorXd coefficients = A.householderQr().solve(b);
-    Fit fit;
-    fit.square = (A * coefficients - b).squaredNorm();
-    double* const into[] = {&fit.loss.sigma0, &fit.loss.sigma1, &fit.loss.sigma2};
-    for (int p = 0, column = 0; p < 3; ++p)
-        if (powers >> p & 1) *into[p] = coefficients[column++];
     return fit;
 }
 }  // namespace

@@ -1,0 +1,29 @@
+// Products and decompositions of small dense matrices, n x n. Eigen's are compiled once, in
+// decompositions.cpp: where each place had its own they took two minutes.
+#pragma once
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace jvari {
+
+struct SymmetricParts {
+    std::vector<double> value;   // n, rising
+    std::vector<double> vector;  // n numbers of each value, one after another; orthonormal
+};
+SymmetricParts symmetric_parts(std::span<const double>, int n);
+
+struct Eigenpairs {
+    std::vector<std::complex<long double>> value;   // n
+    std::vector<std::complex<long double>> vector;  // n numbers of each value, one after another
+};
+Eigenpairs eigenpairs_of(std::span<const long double>, int n);  // stored by columns
+
+std::vector<double> product_of(std::span<const double>, std::span<const double>, int n);  // by rows
+
+// stored by rows or by columns, as the matrix is
+std::vector<double> inverse_of(std::span<const double>, int n);
+std::vector<long double> inverse_of(std::span<const long double>, int n);
+
+}  // namespace jvari
