@@ -10,6 +10,7 @@ Impacts::Impacts(const String& s) {
     for (const Barrier& b : s.barriers)
         profile_.push_back(std::holds_alternative<ProfileBarrier>(b));
     profile_.resize(s.barriers.size() + s.masses.size());
+    last_.resize(profile_.size());
 }
 
 // A scheme that touches at points of a profile has as many for each profile.
@@ -25,17 +26,14 @@ int Impacts::barrier_of(const BarrierOf& of) const {
 
 void Impacts::add(const Impact& part) {
     constexpr double rounding = 1e-12;  // of instants [s]
-    const auto barrier = static_cast<std::size_t>(part.barrier);
-    if (last_.size() <= barrier) last_.resize(barrier + 1);
-    Last& last = last_[barrier];
+    Last& last = last_[part.barrier];
     if (last.row < 0 || part.start > all_[last.row].end + rounding) {
-        last = {static_cast<int>(all_.size()), part.largest_force};
+        last.row = static_cast<int>(all_.size());
         all_.push_back(part);
         return;
     }
     Impact& row = all_[last.row];
-    last.force = part.largest_force + (part.end > row.end + rounding ? 0 : last.force);
-    row.largest_force = std::max(row.largest_force, last.force);
+    row.largest_force = std::max(row.largest_force, part.largest_force);
     row.impulse += part.impulse;
     row.energy_lost += part.energy_lost;
     row.speed_out = part.speed_out;
@@ -50,10 +48,12 @@ void Impacts::step(const BarrierOf& of, int a, double to, double lasts, double s
     Point& point = points_[a];
     const double speed = moved / span;
     const int barrier = barrier_of(of);
-    if (force != 0)
-        add({barrier, to - lasts, to, force, force * lasts, point.known ? -point.speed : unknown,
-             unknown, -force * speed * lasts});
-    else if (point.force != 0) all_[last_[barrier].row].speed_out = speed;
+    Last& last = last_[barrier];
+    if (force != 0) {
+        last = {last.row, force + (to == last.until ? last.force : 0), to};
+        add({barrier, to - lasts, to, last.force, force * lasts,
+             point.known ? -point.speed : unknown, unknown, -force * speed * lasts});
+    } else if (point.force != 0) all_[last.row].speed_out = speed;
     point = {speed, force, true};
 }
 

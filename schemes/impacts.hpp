@@ -29,7 +29,7 @@ class Impacts {
 public:
     explicit Impacts(const String&);  // of the scene
 
-    // a part of a contact, by one point of the barrier, in which it touched all the time
+    // a part of a contact in which the barrier touched all the time
     void add(const Impact& part);
 
     // A step of a scheme, which ends at `to` and stands for `lasts` [s]: the force on contact a,
@@ -45,9 +45,10 @@ private:
         double speed = 0, force = 0;  // in the last step
         bool known = false;
     };
-    struct Last {  // row of a barrier, and what its points push with together in the last part
+    struct
+        Last {  // row of a barrier, and what its points push with together in the step until then
         int row = -1;
-        double force = 0;
+        double force = 0, until = -1;
     };
     int barrier_of(const BarrierOf&) const;
 

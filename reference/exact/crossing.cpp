@@ -49,10 +49,47 @@ int Gap::terms_until(double u) const noexcept {
 
 double Gap::depth_bound(double end) const noexcept {
     double sum = sign * p[0], power = end;
-    // end <= 1, and 1/n! left out
-    for (int n = 1; n < size; ++n, power *= end) sum += std::abs(p[n]) * power;
+    for (int n = 1; n < size; power *= end / ++n) sum += std::abs(p[n]) * power;
     for (int k = 0; k < pairs; ++k) sum += std::abs(b[k]);
     return sum;
+}
+
+double Gap::one_turn(double u, double least) const noexcept {
+    double rate = std::isfinite(growth) ? growth : 0;
+    for (int k = 0; k < pairs; ++k)
+        if (std::abs(b[k]) * std::exp(lambda[k].real() * u) > least)
+            rate = std::max(rate, std::abs(lambda[k]));
+    return std::max(1.5 / rate, std::min(0.05 * u, 1e-4));  // of very many turns some
+}
+
+double Gap::greatest(double end, double known) const noexcept {
+    const double least = 1e-9 * known;
+    std::complex<double> heard[most_pairs], rates[most_pairs];  // the slopes of others are rounding
+    Gap g = *this;
+    g.b = heard, g.lambda = rates, g.pairs = 0;
+    for (int k = 0; k < pairs; ++k)
+        if (std::abs(b[k]) > least) heard[g.pairs] = b[k], rates[g.pairs++] = lambda[k];
+    double greatest = -HUGE_VAL;
+    Values before = g.at_start();
+    for (double from = 0, to; from < end; from = to) {
+        to = std::min(end, from + g.one_turn(from, least));
+        const Values after = g.at(to);
+        if (before.slope > 0 && after.slope < 0) {
+            // Newton's iteration, kept inside
+            double low = from, high = to, x = 0.5 * (from + to);
+            for (int i = 0; i < 30 && high - low > 1e-9 * to; ++i) {
+                const Values now = g.at(x);
+                (now.slope > 0 ? low : high) = x;
+                greatest = std::max(greatest, now.g);
+                const double next = x - now.slope / now.curvature;
+                if (std::abs(next - x) < 1e-9 * to) break;
+                x = next > low && next < high ? next : 0.5 * (low + high);
+            }
+        }
+        if (to < end) greatest = std::max(greatest, after.g);
+        before = after;
+    }
+    return greatest;
 }
 
 namespace {

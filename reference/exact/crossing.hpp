@@ -16,6 +16,8 @@
 
 namespace jvari {
 
+constexpr int most_pairs = 8;  // of a gap
+
 struct Gap {
     double sign;
     const double* p;  // [size], zeros behind
@@ -35,7 +37,13 @@ struct Gap {
     Values at_start() const noexcept;
     Values at(double u) const noexcept { return at(u, size); }
     int terms_until(double u) const noexcept;       // in whole vectors
-    double depth_bound(double end) const noexcept;  // of g in [0, end], end <= 1
+    double depth_bound(double end) const noexcept;  // of g in [0, end]
+    // the greatest g inside [0, end], where parts of 1e-9 of `known` are left out; -inf where it
+    // does not turn down
+    double greatest(double end, double known) const noexcept;
+    // how far it goes on from u with one turning point at most, by the fastest of its parts that
+    // are larger than `least`
+    double one_turn(double u, double least) const noexcept;
 };
 
 // In [0, end], or 2 if there is none. g(0) may be zero already: then what follows is asked for.

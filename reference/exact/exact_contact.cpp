@@ -36,7 +36,8 @@
 namespace jvari {
 
 namespace {
-constexpr int most_sets_of = 4;  // contacts, for every set of them to be split beforehand
+// contacts, for every set of them to be split beforehand
+constexpr int most_sets_of = most_pairs / 2;
 constexpr double negligible = 1e-18;
 // What one window, and one step of a collocated contact, may cut off of the tolerance, so that
 // every tap keeps it: 1317 taps of 400 random lossless strings of 20 to 60 modes over 20 ms do, but
@@ -49,18 +50,19 @@ constexpr double share_of(double tolerance, double share) {
 // (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
 constexpr long phases_between_questions = 64;
 
-// The largest value in [0, end]. A lossy contact pushes hardest on the way in and may pull on the
-// way out: the extremes of its force are those of a polynomial in time, sought by samples and,
+// The largest value in [from, end]. A lossy contact pushes hardest on the way in and may pull on
+// the way out: the extremes of its force are those of a polynomial in time, sought by samples and,
 // where a sample is the largest of three, by golden sections around it.
 template <class Force>
-double most_in(double end, const Force& force) {
+double most_in(double from, double end, const Force& force) {
     constexpr int samples = 16;
     constexpr double golden = 0.6180339887498949;
     double at[samples + 1], most = -HUGE_VAL;
-    for (int k = 0; k <= samples; ++k) most = std::max(most, at[k] = force(end * k / samples));
+    const auto sample = [&](int k) { return from + (end - from) * k / samples; };
+    for (int k = 0; k <= samples; ++k) most = std::max(most, at[k] = force(sample(k)));
     for (int k = 1; k < samples; ++k) {
         if (at[k] < std::max(at[k - 1], at[k + 1])) continue;
-        double low = end * (k - 1) / samples, high = end * (k + 1) / samples;
+        double low = sample(k - 1), high = sample(k + 1);
         for (int n = 0; n < 40; ++n) {
             const double a = high - golden * (high - low), b = low + golden * (high - low);
             const bool before = force(a) > force(b);
@@ -490,26 +492,16 @@ private:
             extremes_.smallest_force = std::min(
                 extremes_.smallest_force,
                 law_[a].elastic(std::max(0.0, leaves ? start.g : std::min(start.g, last.g))));
-        if (start.slope > 0 && last.slope < 0 && !nothing_new) {
-            // Newton's iteration for the turning point, kept inside
-            double low = 0, high = end, x = 0.5 * end;
-            for (int i = 0; i < 30 && high - low > 1e-9 * end; ++i) {
-                const auto now = g.at(x);
-                (now.slope > 0 ? low : high) = x;
-                deepest = std::max(deepest, now.g);
-                const double next = x - now.slope / now.curvature;
-                if (std::abs(next - x) < 1e-9 * end) break;
-                x = next > low && next < high ? next : 0.5 * (low + high);
-            }
-        }
+        if (!nothing_new)
+            deepest = std::max(deepest, g.greatest(end, std::max(deepest, extremes_.deepest)));
         extremes_.deepest = std::max(extremes_.deepest, deepest);
         if (elastic)
             extremes_.largest_force = std::max(extremes_.largest_force, law_[a].elastic(deepest));
     }
     void measure_force(int which, double end) noexcept {
         const auto force = [&](double at) { return collocation_.force(which, at); };
-        extremes_.largest_force = std::max(extremes_.largest_force, most_in(end, force));
-        double least = -most_in(end, [&](double at) { return -force(at); });
+        extremes_.largest_force = std::max(extremes_.largest_force, most_in(0, end, force));
+        double least = -most_in(0, end, [&](double at) { return -force(at); });
         // where it lets go a polynomial dips by what the step errs
         if (law_[touched_[which]].clipped) least = std::max(0.0, least);
         extremes_.smallest_force = std::min(extremes_.smallest_force, least);
@@ -529,13 +521,21 @@ private:
                 part.impulse += at(moment_, behind)[0] * second;
                 if (collocated_) part.energy_lost += collocation_.dissipated(behind);
             }
-            part.largest_force = most_in(end, [&](double at) {
+            const auto force = [&](double at) {
                 double sum = 0;
                 for (int i = first; i < behind; ++i)
                     sum += touch_ ? touch_->set.force(i, path_.data(), amplitude_.data(), at)
                                   : collocation_.force(i, at);
                 return sum;
-            });
+            };
+            part.largest_force = -HUGE_VAL;
+            for (double from = 0, to; from < end; from = to) {
+                to = end;
+                for (int i = first; i < behind; ++i)
+                    to = std::min(to, from + gap(touched_[i], window_.size)
+                                                 .one_turn(from, 1e-9 * extremes_.deepest));
+                part.largest_force = std::max(part.largest_force, most_in(from, to, force));
+            }
             impacts_->add(part);
         }
     }

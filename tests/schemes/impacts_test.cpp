@@ -135,6 +135,27 @@ TEST(Impacts, PushAsMuchAsTheRowsOfTheContactForce) {
     }
 }
 
+// What is rigid is met within 1 us: the force jumps to three times what the rows see, and the exact
+// solution finds it in a window of any length.
+TEST(Impacts, OfARigidBridgeHaveTheSameLargestForceWhateverTheRows) {
+    const Scene scene = lasting(read_scene("rigid_point_bridge"), 2e-3);
+    const auto largest = [&](int times) {
+        Settings settings = audio;
+        settings.modes = 40;
+        settings.tap_rate *= times;
+        const Told t = told("exact_contact", scene, settings, false);
+        double hardest = 0;
+        for (const Impact& i : t.impacts[0].all()) hardest = std::max(hardest, i.largest_force);
+        const double most = fact(t.run, "largest_contact_force");
+        EXPECT_NEAR(hardest, most, 1e-9 * most) << times;
+        for (const double f : t.run.trace.column(3)) EXPECT_LE(f, most) << times;
+        return most;
+    };
+    const double most = largest(1);
+    EXPECT_NEAR(most, 3.19, 0.01);
+    for (const int times : {4, 64}) EXPECT_NEAR(largest(times), most, 1e-9 * most) << times;
+}
+
 TEST(Impacts, NameTheBarrierThatIsTouched) {
     Scene scene = oscillator();
     scene.strings[0].barriers.insert(scene.strings[0].barriers.begin(),
