@@ -1,8 +1,8 @@
 // Estimates frequency and decay rate of partials from a trace, far more finely than the width of an
 // FFT bin.
 //
-// A band of the signal x = sum a_k exp((2 pi i f_k - sigma_k) t) is shifted to 0 Hz, filtered by a
-// Kaiser window and decimated. The filter changes only the amplitudes of damped exponentials, so
+// A band of the signal x = sum a_k exp((2 pi i f_k - sigma_k) t) is filtered by a Kaiser window,
+// decimated, and shifted to a quarter of the new rate. The filter changes only the amplitudes of damped exponentials, so
 // the result is again a sum of a few of them. The matrix pencil with a truncated singular value
 // decomposition gives their poles (Hua & Sarkar 1990; Van Huffel et al. 1994, HTLS). The estimate
 // is exact up to rounding, noise, and partials outside the band (150 dB down at twice its half
@@ -25,8 +25,9 @@ struct Partial {
 
 // The partials with from < f < to [Hz] that stand out of the noise and are at most 140 dB below the
 // signal's largest value, by ascending frequency. There are none if the signal is too short for the
-// band (the filter alone needs about 6.5/(to - from) seconds), not finite, or zero. Choose a band
-// at least twice as wide as the decay rate in Hz (sigma/pi), with fewer than about 40 partials.
+// band (the filter alone needs about 6.5/(to - from) seconds), not finite, or zero, or if the band
+// is wider than rate/5. Choose one at least twice as wide as the decay rate in Hz (sigma/pi), with
+// fewer than about 40 partials.
 std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from,
                                       double to);
 

@@ -75,8 +75,7 @@ only() {
 }
 only "toml++" 'toml' 'scenes/document'
 only GSL 'gsl/' 'analysis/'
-only Eigen 'Eigen/' \
-    'schemes/decompositions|reference/exact/touching_set_making|analysis/'
+only Eigen 'Eigen/' 'schemes/decompositions|reference/exact/touching_set_making'
 only Highway 'hwy/' 'schemes/|reference/exact/modal_sweep'
 only FFTW 'fftw' 'analysis/fftw'
 only SUNDIALS '(cvode|arkode|sundials|nvector|sunlin|sunmat|sunnonlin)' 'reference/sundials'

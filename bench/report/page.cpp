@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bench/folders.hpp"
 #include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bench/folders.hpp"
 #include "bench/report/report.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "bench/folders.hpp"
 #include "bench/store/records.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"

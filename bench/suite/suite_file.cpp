@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bench/folders.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/installed.hpp"

@@ -84,8 +84,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
     for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
         const LongMatrix inverted = inverse(L);
         LongMatrix next = first, power = inverted;
-        for (int j = 2; j < N; ++j, power = power * inverted)
-            next.bottomRows(P) -= A[j] * power.topRows(P);
+        for (int j = 2; j < N; ++j, power = power.lazyProduct(inverted).eval())
+            next.bottomRows(P) -= A[j].lazyProduct(power.topRows(P));
         change = (next - L).norm() / L.norm();
         L = next;
     }
@@ -118,9 +118,9 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
         for (int n = 0; n < N; ++n) {
             LongComplex power = LongComplex(1) / rates[k];
             for (int j = n + 2; j < N; ++j, power /= rates[k])
-                q.block(n * P, k, P, 1) += (A[j] * v.col(k)) * power;
+                q.block(n * P, k, P, 1) += A[j].lazyProduct(v.col(k)) * power;
         }
-    const LongComplexMatrix Q = G * q;
+    const LongComplexMatrix Q = G.lazyProduct(q);
 
     LongMatrix start(2 * P, 2 * P);  // Re beta, and -Im beta of pairs that oscillate -> p(0), p'(0)
     int column = 0;

@@ -144,6 +144,8 @@ TEST(Dispersion, HasNoPartialWhereThereIsNone) {
     EXPECT_TRUE(partials_between(Signal(1000, 1.0), rate, 100, 110).empty());
     Signal x = sum_of({{440, 1, 1, 0}}, 44100);
     EXPECT_TRUE(partials_between(x, rate, 200, 100).empty());
+    EXPECT_TRUE(partials_between(x, rate, 100, 100 + rate / 4).empty());  // it would meet its image
+    EXPECT_EQ(partials_between(x, rate, 100, 100 + rate / 5.01).size(), 1u);
     EXPECT_TRUE(std::isnan(strongest_near(Signal(44100, 0.0), rate, 440, 50).frequency));
     EXPECT_TRUE(std::isnan(strongest_near(x, rate, 440, 0).frequency));
     x[5] = std::nan("");
