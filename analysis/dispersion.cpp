@@ -45,8 +45,8 @@ std::vector<double> kaiser(long n) {
     return w;
 }
 
-// y[m] = Re sum_j w[j] x[m step + j] exp(i pi m/2 - i centre (m step + j)): the band around `centre`
-// [rad/row], moved to a quarter of the thinned rate.
+// y[m] = Re sum_j w[j] x[m step + j] exp(i pi m/2 - i centre (m step + j)): the band around
+// `centre` [rad/row], moved to a quarter of the thinned rate.
 std::vector<double> zoom(std::span<const double> x, const std::vector<double>& w, double centre,
                          long step, long rows) {
     std::vector<double> y(rows);

@@ -2,11 +2,12 @@
 // FFT bin.
 //
 // A band of the signal x = sum a_k exp((2 pi i f_k - sigma_k) t) is filtered by a Kaiser window,
-// decimated, and shifted to a quarter of the new rate. The filter changes only the amplitudes of damped exponentials, so
-// the result is again a sum of a few of them. The matrix pencil with a truncated singular value
-// decomposition gives their poles (Hua & Sarkar 1990; Van Huffel et al. 1994, HTLS). The estimate
-// is exact up to rounding, noise, and partials outside the band (150 dB down at twice its half
-// width). Use it on free strings: a string against an obstacle has no partials that stay constant.
+// decimated, and shifted to a quarter of the new rate. The filter changes only the amplitudes of
+// damped exponentials, so the result is again a sum of a few of them. The matrix pencil with a
+// truncated singular value decomposition gives their poles (Hua & Sarkar 1990; Van Huffel et al.
+// 1994, HTLS). The estimate is exact up to rounding, noise, and partials outside the band (150 dB
+// down at twice its half width). Use it on free strings: a string against an obstacle has no
+// partials that stay constant.
 #pragma once
 
 #include <span>

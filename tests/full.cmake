@@ -73,8 +73,8 @@ if(JVARI_PYTHON)
     jvari_full(Python.ScriptsBesideTheRecordsWriteTheirVerdicts)
 endif()
 
-# These make many runs, or call compilers. CI runs them, too, as it does the long tests of the programs
-# and of tests/fuzz.
+# These make many runs, or call compilers. CI runs them, too, as it does the long tests of the
+# programs and of tests/fuzz.
 set(long contract_test.numbers ContractPlugin.deaf Problems.AreWhatTheProgramExports
     OwnScheme.ItsTracesAreJudgedAndBadOnesAreRefused Plugin.AnyCompilerAndAnyHeaderOfTheVersion)
 jvari_full(${long})
