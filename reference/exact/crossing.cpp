@@ -59,7 +59,7 @@ double Gap::one_turn(double u, double least) const noexcept {
     for (int k = 0; k < pairs; ++k)
         if (std::abs(b[k]) * std::exp(lambda[k].real() * u) > least)
             rate = std::max(rate, std::abs(lambda[k]));
-    return std::max(1.5 / rate, std::min(0.05 * u, 1e-4));  // of very many turns some
+    return std::max({1.5 / rate, std::min(0.05 * u, 1e-4), 1e-12});  // of very many turns some
 }
 
 double Gap::greatest(double end, double known) const noexcept {
