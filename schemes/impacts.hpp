@@ -46,7 +46,7 @@ private:
         bool known = false;
     };
     struct
-        Last {  // row of a barrier, and what its points push with together in the step until then
+        Last {  // row of a barrier, and the force of all its points in the step that ends at `until`
         int row = -1;
         double force = 0, until = -1;
     };

@@ -59,16 +59,18 @@ double Gap::one_turn(double u, double least) const noexcept {
     for (int k = 0; k < pairs; ++k)
         if (std::abs(b[k]) * std::exp(lambda[k].real() * u) > least)
             rate = std::max(rate, std::abs(lambda[k]));
-    return std::max({1.5 / rate, std::min(0.05 * u, 1e-4), 1e-12});  // of very many turns some
+    return std::max(
+        {1.5 / rate, std::min(0.05 * u, 1e-4), 1e-12});  // of too many, some are skipped
 }
 
 double Gap::greatest(double end, double known) const noexcept {
     const double least = 1e-9 * known;
-    std::complex<double> heard[most_pairs], rates[most_pairs];  // the slopes of others are rounding
+    // the slope of a smaller pair is rounding error
+    std::complex<double> amplitudes[most_pairs], rates[most_pairs];
     Gap g = *this;
-    g.b = heard, g.lambda = rates, g.pairs = 0;
+    g.b = amplitudes, g.lambda = rates, g.pairs = 0;
     for (int k = 0; k < pairs; ++k)
-        if (std::abs(b[k]) > least) heard[g.pairs] = b[k], rates[g.pairs++] = lambda[k];
+        if (std::abs(b[k]) > least) amplitudes[g.pairs] = b[k], rates[g.pairs++] = lambda[k];
     double greatest = -HUGE_VAL;
     Values before = g.at_start();
     for (double from = 0, to; from < end; from = to) {

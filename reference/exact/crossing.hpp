@@ -38,11 +38,11 @@ struct Gap {
     Values at(double u) const noexcept { return at(u, size); }
     int terms_until(double u) const noexcept;       // in whole vectors
     double depth_bound(double end) const noexcept;  // of g in [0, end]
-    // the greatest g inside [0, end], where parts of 1e-9 of `known` are left out; -inf where it
-    // does not turn down
+    // The greatest g inside [0, end], or -inf where g has no maximum there. Pairs smaller than 1e-9
+    // of `known` are left out.
     double greatest(double end, double known) const noexcept;
-    // how far it goes on from u with one turning point at most, by the fastest of its parts that
-    // are larger than `least`
+    // A step from u in which g has one turning point at most. The fastest of the pairs that are
+    // larger than `least` decides.
     double one_turn(double u, double least) const noexcept;
 };
 

@@ -135,8 +135,8 @@ TEST(Impacts, PushAsMuchAsTheRowsOfTheContactForce) {
     }
 }
 
-// What is rigid is met within 1 us: the force jumps to three times what the rows see, and the exact
-// solution finds it in a window of any length.
+// The force on a rigid bridge jumps within 1 us to four times the largest row. The exact solution
+// finds this peak for rows, and so windows, of any length.
 TEST(Impacts, OfARigidBridgeHaveTheSameLargestForceWhateverTheRows) {
     const Scene scene = lasting(read_scene("rigid_point_bridge"), 2e-3);
     const auto largest = [&](int times) {
