@@ -45,8 +45,7 @@ private:
         double speed = 0, force = 0;  // in the last step
         bool known = false;
     };
-    struct
-        Last {  // row of a barrier, and the force of all its points in the step that ends at `until`
+    struct Last {  // of a barrier: its row, and the force of all points in the step to `until`
         int row = -1;
         double force = 0, until = -1;
     };
