@@ -163,10 +163,10 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
         const Motion m = motion(a, z);
         const Pull f = pull(a, m);
         acting_[a] = f.F;
-        const double v = m.v + (a >= contacts ? series_.at_once(a) * f.F : 0);
+        const double speed = m.v + (a >= contacts ? series_.at_once(a) * f.F : 0);
         add(row(gains_, a), f.F, dv, padded);
         sum[a < contacts ? bridge_impulse : thread_impulse] += f.F;
-        sum[dissipated] += f.drag * v * v;
+        sum[dissipated] += f.drag * speed * speed;
     }
     series_.speed(states(z), acting_.data(), states(dz));
     sum[dissipated] += series_.lost(states(dz), states(dz));
@@ -317,9 +317,9 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         const Motion d = motion(a, x);
         sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
         const double at_once_F = a >= contacts ? series_.at_once(a) : 0,
-                     v = motion_[a].v + at_once_F * pull_[a].F;
-        lost += 2 * pull_[a].drag * v * (d.v + at_once_F * force_[a]) -
-                pull_[a].drag_slope * v * v * d.y;
+                     speed = motion_[a].v + at_once_F * pull_[a].F;
+        lost += 2 * pull_[a].drag * speed * (d.v + at_once_F * force_[a]) -
+                pull_[a].drag_slope * speed * speed * d.y;
     }
     for (int a = 0; a < points; ++a) {
         acting_[a] = acts(a) ? pull_[a].F : 0;

@@ -345,8 +345,8 @@ int list_command(ListRequest r) {
     both.insert(both.end(), catalogue.references.begin(), catalogue.references.end());
     Json json = Json::object();
     Scenes scenes;
-    const auto add = [&](const char* name, const char* what, auto list) {
-        if (r.what.empty() || r.what == what) json[name] = list();
+    const auto add = [&](const char* key, const char* what, auto list) {
+        if (r.what.empty() || r.what == what) json[key] = list();
     };
     add("schemes", "schemes", [&] { return schemes_json(catalogue.schemes); });
     add("pairings", "schemes", pairings_json);

@@ -36,8 +36,8 @@ double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, 
     if (measure < study::Trust::columns.size())
         return of.trust.any() ? of.trust.of_scene(tap, measure) : nan;
     const double rate = of.run.trace.tap_rate;
-    const auto column = [&](const Trace& t) {
-        return rows_from(t.column(static_cast<int>(tap)), from, rate);
+    const auto column = [&](const Trace& trace) {
+        return rows_from(trace.column(static_cast<int>(tap)), from, rate);
     };
     const auto apart = [&](const Trace& a, const Trace& b) {
         return study::error_of(measure, column(a), column(b), rate);

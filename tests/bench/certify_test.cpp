@@ -95,11 +95,11 @@ TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     const Certificate c = certified(scene, {60, 44100});
     const Certificate::Pair &from_own = c.pairs[c.pairs.size() - 2], &doubled = c.pairs.back();
     ASSERT_EQ(c.entries[doubled.first].doubled, "modes");
-    const auto trace = [&scene](int modes, const Certificate::Options& options) {
+    const auto trace_of = [&scene](int modes, const Certificate::Options& options) {
         return run(exact_contact, scene, {0, 44100, modes, options}).trace;
     };
-    const Trace own = trace(60, {}), model = trace(60, matched_alone),
-                twice = trace(120, matched_alone), string = trace(600, matched_alone);
+    const Trace own = trace_of(60, {}), model = trace_of(60, matched_alone),
+                twice = trace_of(120, matched_alone), string = trace_of(600, matched_alone);
     for (int k = 0; k < model.taps(); ++k) {
         const double further = (and_further_ones - 1) * doubled.taps[k].relative_l2.back();
         for (const auto& [trace, pair] :
