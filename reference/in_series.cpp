@@ -87,8 +87,10 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
 
 double series_rate(const InSeries& s) {
     if (s.states == 0) return 0;
+    std::vector<long double> A;  // by columns
+    for (int column = 0; column < s.states; ++column)
+        for (int row = 0; row < s.states; ++row) A.push_back(s.A[row * s.states + column]);
     long double fastest = 0;
-    const std::vector<long double> A(s.A.begin(), s.A.end());  // transposed: the same rates
     for (const auto& rate : eigenpairs_of(A, s.states).value)
         fastest = std::max(fastest, std::abs(rate));
     return static_cast<double>(fastest);
