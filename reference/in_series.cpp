@@ -87,7 +87,7 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
 
 double series_rate(const InSeries& s) {
     if (s.states == 0) return 0;
-    std::vector<long double> A;  // by columns
+    std::vector<long double> A;  // by columns; rates of the transposed matrix round otherwise
     for (int column = 0; column < s.states; ++column)
         for (int row = 0; row < s.states; ++row) A.push_back(s.A[row * s.states + column]);
     long double fastest = 0;

@@ -13,7 +13,7 @@ for program in clang-format-14 clang-format; do
         xargs "$program" --dry-run --Werror <"$list" ||
             { echo "mend by: $program -i FILE" >&2; exit 1; }
         ! LC_ALL=C.UTF-8 xargs grep -nE '^.{101}' <"$list" ||
-            { echo "a line has at most 100 columns, with its comment" >&2; exit 1; }
+            { echo "wider than 100 columns: break the line, or shorten its comment" >&2; exit 1; }
         find bench tests web results -name '*.js' -o -name '*.mjs' -o -name '*.css' | sort |
             xargs node_modules/.bin/prettier --check ||
                 { echo "mend by: npx prettier --write FILE" >&2; exit 1; }

@@ -138,12 +138,12 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
             own.references.push_back(fmt::format("{} {} -> {}", column, was, is));
     };
     const auto add_figures = [&](const std::string& tap) {
-        for (const auto& [title, part] : study::figure_parts)
+        for (const auto& [part_name, part] : study::figure_parts)
             for (std::size_t m = 0; m < study::measures().size(); ++m) {
                 const study::Measure& measure = study::measures()[m];
                 if (tap == (measure.bridge ? before.headline_bridge : before.headline_nut))
                     continue;  // as the headline's
-                add((part == &study::Figure::value ? "" : std::string(title) + " of ") +
+                add((part == &study::Figure::value ? "" : std::string(part_name) + " of ") +
                         measure.column + (tap.empty() ? "" : " of " + tap),
                     turn_of(part, m, tap, before, after),
                     store::text_of(before.figure(m, tap).*part),

@@ -424,9 +424,9 @@ void check_matching(const RandomCase& c, Matching kind, Tally& tally, const Find
         }
         ++tally.runs;
         for (std::size_t k = 0; k < off.size(); ++k) {
-            const double uncertain = off[k][whole], before = cells[pair].cell.errors[k][whole],
+            const double uncertain = off[k][whole], unmatched = cells[pair].cell.errors[k][whole],
                          error = cells[pair + 1].cell.errors[k][whole],
-                         ratio = (error - uncertain) / (before + uncertain);
+                         ratio = (error - uncertain) / (unmatched + uncertain);
             if (error > harm_matters && ratio > worst)
                 worst = ratio, tap = truth.names[k] + " errs by " + text(error);
         }
