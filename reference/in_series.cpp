@@ -67,7 +67,7 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     for (double omega : modes.omega0) own.push_back(1 / (modes.mass * omega * omega));
     InSeries series;
     const Modes kept = modes_of(s, modes.count());
-    series.C = modal_missing_matrix(descriptor, scene, kept, 0, own);
+    series.C = modal_missing_matrix(descriptor, scene, kept, std::nullopt, own);
     series.points = series.C.contacts + (series.C.thread ? 1 : 0);
     if (series.points > most_contacts) refuse("takes few contacts");
     if (series.points == 0) return series;

@@ -21,6 +21,8 @@ struct FactName {
     FACT(largest_contact_force, "N", "greatest force that a contact put on the string") \
     FACT(deepest_penetration, "m", "deepest that the string went below an obstacle's surface") \
     FACT(contact_points, "", "points at which the obstacle's force acts") \
+    FACT(conserving_contacts, "", \
+         "contacts by the rule that conserves energy in a step (G); the others by rule D") \
     FACT(contact_solves, "", "contact equations solved") \
     FACT(coupled_contact_points, "", \
          "points whose forces are solved for together: what a step of a dense contact costs " \

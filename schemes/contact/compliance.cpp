@@ -312,7 +312,7 @@ std::vector<double> power_of(const std::vector<double>& m, int n, double power) 
 // The patterns are those in which C and E of the cut modes are both diagonal. Modes above half the
 // sample rate fold down to any frequency: sampled, they are a spring with a damper of dt/2 over
 // their compliance, without inertia. In a step of constant velocity a mass takes up what is exact,
-// 1 - exp(-R dt/M).
+// 1 - exp(-R dt/M). dt 0: in continuous time.
 Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& cut, int n,
                  int kept, double dt) {
     Ladder l;
@@ -342,10 +342,12 @@ Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& 
             for (std::size_t i = 0; i < g.size(); ++i) g[i] += moved * cut.g[a][i];
         }
         const Answer answer{cut.modes, kept, std::move(g), 1 / (length * length)};
-        const double mass = l.mass[k] = answer.mass(std::numbers::pi / dt);
-        if (mass > 0)
-            l.resistance[k] =
-                2 * mass / dt * std::tanh(0.5 * dt * answer.touching_resistance(2 * Z) / mass);
+        const double mass = l.mass[k] =
+                         answer.mass(dt > 0 ? pi / dt : std::numeric_limits<double>::infinity()),
+                     resistance = mass > 0 ? answer.touching_resistance(2 * Z) : 2 * Z;
+        if (dt == 0) l.resistance[k] = resistance;
+        else if (mass > 0)
+            l.resistance[k] = 2 * mass / dt * std::tanh(0.5 * dt * resistance / mass);
     }
     return l;
 }
@@ -372,14 +374,16 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps,
 }  // namespace
 
 MissingMatrix missing_matrix(const std::string& who, const String& s, const Sites& sites,
-                             std::size_t taps, int kept, double dt, const OwnResponse& own) {
+                             std::size_t taps, int kept, std::optional<double> step,
+                             const OwnResponse& own) {
     MissingMatrix m = difference(s, sites, taps, own);
     const int n = sites.points();
     const auto put_ladder = [&] {
-        if (!(dt > 0 && n > 0)) return;
-        const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, pi / dt);
+        if (!step || n == 0) return;
+        const double nyquist = *step > 0 ? pi / *step : std::numeric_limits<double>::infinity();
+        const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, nyquist);
         refuse_swinging(who, m, cut, kept);
-        m.ladder = ladder_of(s, m.C, cut, n, kept, dt);
+        m.ladder = ladder_of(s, m.C, cut, n, kept, *step);
     };
     if (n <= 1 + (m.thread ? 1 : 0)) {
         refuse_soft(who, m.contacts > 0 ? m.C.front() : 0, n == 2 ? m.C[1] : 0,

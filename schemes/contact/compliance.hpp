@@ -16,6 +16,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -119,11 +120,12 @@ struct MissingMatrix {
         return sum;
     }
 };
-// `kept`: how many of the string's modes the scheme has, dt its step, 0 if it is exact in time.
+// `kept`: how many of the string's modes the scheme has. step: dt of one that samples what stands
+// in series, 0 of one that is exact in it; none: no ladder.
 // Refuses a string that is too soft already, since what is missing can stand in series only where
 // it is more than nothing; `who` opens the sentence.
 MissingMatrix missing_matrix(const std::string& who, const String&, const Sites&, std::size_t taps,
-                             int kept, double dt, const OwnResponse& own);
+                             int kept, std::optional<double> step, const OwnResponse& own);
 
 // Whether compliance=matched is asked for, of a scheme that leaves out contact loss and a moving
 // body then: Refusal where the scene has one.

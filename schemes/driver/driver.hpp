@@ -8,6 +8,10 @@
 // stored(n-1) = supplied - dissipated, over the steps after the former row, where the rule
 // conserves. Stored is the string's own (string_step.hpp) and the points' potential at the same
 // instants, P(n) or [P(n) + P(n+1)]/2.
+//
+// Moments. A force is constant in a step, or a line, whose two moments stand one after the other
+// (moments/moment_obstacle.hpp): arrays over the points have the means first, so that rows, masses
+// and impacts are the same for both.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +22,7 @@
 #include "schemes/driver/string_step.hpp"
 #include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
+#include "schemes/moments/moment_obstacle.hpp"
 
 namespace jvari {
 
@@ -49,15 +54,14 @@ private:
 template <StringStep String>
 class Driver final : public Scheme {
 public:
-    static constexpr int levels = String::levels;
+    static constexpr int levels = String::levels, moments = moments_of<String>;
 
     Driver(std::unique_ptr<String> string, int steps_per_row, const MakeRule& make_rule)
         : string_(std::move(string)),
           steps_(steps_per_row),
           means_(points().count(), levels, steps_per_row),
           masses_(points()),
-          obstacle_(points().contacts, points().threads, masses_.yielding(points().theta, levels),
-                    levels * points().dt, levels, make_rule, series()) {
+          obstacle_(obstacle_of(make_rule)) {
         if constexpr (levels == 2) {
             std::vector<double> theta = points().start_theta;
             for (double x : points().theta)
@@ -66,7 +70,7 @@ public:
                 obstacle_.halved(string_->thread_start(), masses_.yielding(theta, 1), series());
         }
         for (auto* v : {&older_, &free_, &now_, &force_, &moving_, &resting_})
-            v->assign(points().count(), 0.0);
+            v->assign(static_cast<std::size_t>(moments) * points().count(), 0.0);
         for (std::size_t p = 0; p < points().start_velocity.size(); ++p)
             moving_[p] = points().dt * points().start_velocity[p];
         masses_.subtract_way(moving_.data(), 1);
@@ -74,7 +78,7 @@ public:
         plucked_in_series_ = points().series && !points().series->pluck.empty();
         dt_ = points().dt;
         if constexpr (fuses)
-            if (masses_.empty()) string_->fuse(obstacle_.one(), obstacle_.series(), steps_);
+            if (masses_.empty()) string_->fuse(obstacle_, steps_);
         Driver::reset();
     }
 
@@ -167,6 +171,14 @@ private:
     };
     const StringPoints& points() const { return string_->points(); }
     const MissingMatrix* series() const { return points().series ? &*points().series : nullptr; }
+    using Points = std::conditional_t<moments == 2, MomentObstacle, Obstacle>;
+    Points obstacle_of(const MakeRule& make_rule) const {
+        const StringPoints& p = points();
+        std::vector<double> theta = masses_.yielding(p.theta, levels);
+        if constexpr (moments == 2) return {p.contacts, p.threads, theta, p.dt, series()};
+        else
+            return {p.contacts, p.threads, theta, levels * p.dt, levels, make_rule, series()};
+    }
 
     void step(bool probed, bool last_of_row) noexcept {
         string_->approach(last_of_row);
@@ -207,8 +219,19 @@ private:
     ReadingsBeforeStep at_contacts(const ReadingsBeforeStep& at, long older, long now,
                                    long newer) noexcept {
         if (!plucked_in_series_ && masses_.empty()) return at;
+        const int P = points().count();
         const double a = pluck_at(older), b = pluck_at(now), c = pluck_at(newer);
-        for (int p = 0; p < points().count(); ++p) {
+        if constexpr (moments == 2) {
+            const double turned = turned_pluck(older);
+            for (int p = 0; p < P; ++p) {
+                const double yield = plucked_in_series_ ? points().series->pluck[p] : 0;
+                free_[p] = at.free[p] + yield * (c - a);
+                free_[P + p] = at.free[P + p] + yield * turned;
+            }
+            masses_.subtract_way(free_.data(), 1);
+            return {nullptr, nullptr, free_.data()};
+        }
+        for (int p = 0; p < P; ++p) {
             const double yield = plucked_in_series_ ? points().series->pluck[p] : 0;
             older_[p] = at.older[p] + yield * a;
             now_[p] = at.now[p] + yield * b;
@@ -219,13 +242,23 @@ private:
         masses_.subtract_way(free_.data(), static_cast<double>(newer - older));
         return {older_.data(), now_.data(), free_.data()};
     }
+    // int F' P_1 dt of the pluck over a step, by parts [N]
+    double turned_pluck(long n) const {
+        if (!plucked_in_series_) return 0;
+        const double t = static_cast<double>(n) * points().dt;
+        return pluck_at(n) + pluck_at(n + 1) - 2 * mean_force(*points().pluck, t, points().dt);
+    }
     // the work that the forces do there [J]
     double by_way_of_series(long older, long newer) const noexcept {
         double work = 0;
         if (!plucked_in_series_) return work;
-        const double change = pluck_at(newer) - pluck_at(older);
-        for (int p = 0; p < points().count(); ++p)
+        const double change = pluck_at(newer) - pluck_at(older),
+                     turned = moments == 2 ? turned_pluck(older) : 0;
+        for (int p = 0; p < points().count(); ++p) {
             work += force_[p] * points().series->pluck[p] * change;
+            if constexpr (moments == 2)
+                work += force_[points().count() + p] * points().series->pluck[p] * turned;
+        }
         return work / levels;
     }
 
@@ -265,8 +298,8 @@ private:
     bool plucked_in_series_ = false;
     double dt_ = 0;
     RowForces means_;
-    FreeMasses<levels> masses_;
-    Obstacle obstacle_;
+    FreeMasses<levels, moments> masses_;
+    Points obstacle_;
     std::optional<Obstacle> start_;  // of three-point schemes
     std::vector<double> older_, free_, now_, force_;
     std::vector<double> moving_, resting_;  // at t = 0: of dt by their speeds [m], forces [N]
@@ -280,7 +313,8 @@ private:
 template <StringStep String>
 std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme,
                                const Settings& settings, const RuleChoice& rule) {
-    const bool stiff = rule.rigid && string->points().contacts.any_rigid();
+    const bool stiff =
+        (rule.rigid || moments_of<String> == 2) && string->points().contacts.any_rigid();
     if (stiff && string->points().start_force.empty()) {
         std::vector<double> start(string->points().count());
         string->reset();

@@ -5,7 +5,9 @@
 //
 // In two-point steps z^{n+1} = z^n + d - dt^2/2m F, with v = d/dt at n; in three-point ones d = z^n
 // - z^{n-1}, and z is one ahead as the string is. Both keep m d^2/(2 dt^2) + the contact's energy:
-// the invariant of string_step.hpp.
+// the invariant of string_step.hpp. Under forces that are lines in the step the motion is exact:
+//
+//     z <- z + d - dt^2/m (phi_0/2 - phi_1/6),   d <- d - dt^2/m phi_0
 #pragma once
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 
 namespace jvari {
 
-template <int levels>
+template <int levels, int moments = 1>
 class FreeMasses {
 public:
     explicit FreeMasses(const StringPoints& p)
@@ -38,8 +40,15 @@ public:
     }
     // of a step that spans so many dt, row-major over the points [m/N]
     std::vector<double> yielding(std::vector<double> theta, int span) const {
-        for (std::size_t k = 0; k < masses_.size(); ++k)
-            theta[(first_ + k) * (heard_.size() + 1)] += span * yields(k);
+        const std::size_t P = heard_.size(), all = moments * P;
+        for (std::size_t k = 0; k < masses_.size(); ++k) {
+            const std::size_t a = first_ + k;
+            theta[a * (all + 1)] += span * yields(k);
+            if constexpr (moments == 2) {
+                theta[a * all + P + a] -= yields(k) / 3;
+                theta[(P + a) * all + a] += yields(k) / 3;
+            }
+        }
         return theta;
     }
     // From the string's to those of the contacts: `steps` from the instant of z on. And of the way
@@ -57,6 +66,7 @@ public:
     void pass(const double* force) noexcept {
         for (std::size_t k = 0; k < z_.size(); ++k) {
             if (levels == 1) z_[k] += d_[k] - yields(k) * force[first_ + k];
+            if (moments == 2) z_[k] += yields(k) / 3 * force[heard_.size() + first_ + k];
             d_[k] -= 2 * yields(k) * force[first_ + k];
         }
     }

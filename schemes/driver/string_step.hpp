@@ -109,6 +109,14 @@ concept StringStep = requires(S string, const S known, const double* force, doub
     { known.free_modes() } -> std::same_as<std::vector<FreeMode>>;  //
 };
 
+// Of the points' forces in a step: 1, or 2 where they are lines in it. Then `free` and theta have
+// the means of all points first and the first moments after them.
+template <class S>
+constexpr int moments_of = [] {
+    if constexpr (requires { S::moments; }) return S::moments;
+    else return 1;
+}();
+
 struct FusedRows {
     int rows = 0;
     long steps = 0;  // 0: the row cannot be made so
@@ -117,7 +125,7 @@ struct FusedRows {
 // A string may have fused_rows(out, row, sum): the rows from this one on whose steps the pluck does
 // not act in, by a kernel that makes each step and the obstacle's in one. `sum` are the sums of the
 // points' forces since the last row. They are what the driver makes of approach, Obstacle::solve,
-// pass and tap, to the last bit. The obstacle's part comes by fuse(), before the first.
+// pass and tap, to the last bit. The obstacle comes by fuse(), before the first.
 // Of three points also: start(force, a), which ends the first half step, and thread_start(). A
 // string that a moving body can carry has inertia(), pluck(), momentum() and, of three points,
 // share(): schemes/body/instrument.hpp.

@@ -7,7 +7,8 @@
 namespace jvari {
 
 MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& scene,
-                                   const Modes& modes, double dt, std::span<const double> own) {
+                                   const Modes& modes, std::optional<double> step,
+                                   std::span<const double> own) {
     const String& s = scene.strings.front();
     const Sites sites = sites_of(scene);
     std::vector<std::vector<double>> g, w;
@@ -16,7 +17,7 @@ MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& sc
     for (const Reading& r : sites.readings)
         w.push_back(r.nut_force ? nut_force_weights(modes, s)
                                 : footprint_weights(modes, r.at.position, r.at.width));
-    return missing_matrix(descriptor.name, s, sites, scene.taps.size(), modes.count(), dt,
+    return missing_matrix(descriptor.name, s, sites, scene.taps.size(), modes.count(), step,
                           [&](int r, int f) {
                               double sum = 0;
                               for (int i = 0; i < modes.count(); ++i)

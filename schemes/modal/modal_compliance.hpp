@@ -13,10 +13,10 @@ namespace jvari {
 
 inline constexpr Option matched_options[] = {compliance_option, profile_points_option};
 
-// own: what the scheme makes of 1 N of steady modal force on each mode [m/N]; dt: its step, 0 if it
-// is exact in time.
-MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&, double dt,
-                                   std::span<const double> own);
+// own: what the scheme makes of 1 N of steady modal force on each mode [m/N]; step: as of
+// missing_matrix.
+MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&,
+                                   std::optional<double> step, std::span<const double> own);
 
 // How much the string's only contact, which is no profile's, yields under a steady force, relative
 // to the true string of the same modes.

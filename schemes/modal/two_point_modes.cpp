@@ -245,7 +245,9 @@ Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
     return spent;
 }
 
-void TwoPointModes::fuse(ContactAndThread* touching, Residual* series, int steps_per_row) {
+void TwoPointModes::fuse(Obstacle& obstacle, int steps_per_row) {
+    ContactAndThread* touching = obstacle.one();
+    Residual* series = obstacle.series();
     if (!unplucked_ || !touching) return;
     fused_ = two_point_kernel(touching->contact, touching->thread, series && p_.count() > 0);
     touching_ = touching;

@@ -57,8 +57,7 @@ public:
     double momentum() const;  // sum mu_i v_i' [kg m/s]
     double pluck() const { return F_e_; }
 
-    // touching: nullptr where the contacts are more, or act by another rule
-    void fuse(ContactAndThread* touching, Residual* series, int steps_per_row);
+    void fuse(Obstacle&, int steps_per_row);
     FusedRows fused_rows(const Block&, int row, double* sum) noexcept;
 
 private:

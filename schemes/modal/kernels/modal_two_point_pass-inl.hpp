@@ -35,35 +35,6 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Col
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
-// Sums over the lanes of four vectors at once: half the shuffles of four sums, each by halves of
-// halves.
-HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
-    const D d;
-#if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-    const hn::CappedTag<double, 4> four;
-    const V ac = hn::Add(hn::ConcatLowerLower(d, c, a), hn::ConcatUpperUpper(d, c, a));
-    const V be = hn::Add(hn::ConcatLowerLower(d, e, b), hn::ConcatUpperUpper(d, e, b));
-    const V pairs = hn::Add(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(be), ac),
-                            hn::OddEvenBlocks(be, hn::SwapAdjacentBlocks(ac)));
-    const V all = hn::Add(pairs, hn::Shuffle01(pairs));  // a a b b c c e e
-    hn::Store(hn::LowerHalf(four, hn::ConcatEven(d, all, all)), four, to);
-#else
-    to[0] = hn::GetLane(hn::SumOfLanes(d, a));
-    to[1] = hn::GetLane(hn::SumOfLanes(d, b));
-    to[2] = hn::GetLane(hn::SumOfLanes(d, c));
-    to[3] = hn::GetLane(hn::SumOfLanes(d, e));
-#endif
-}
-
-// In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for
-// one, and a pass waits for its loads.
-HWY_INLINE V in_register(V v) {
-#if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-    asm("" : "+v"(v.raw));
-#endif
-    return v;
-}
-
 // One pass: the update and the next dots. Presence of contact, thread and pluck is a template
 // argument: an absent part costs nothing. Two accumulators per dot hide the latency of adding.
 template <bool barrier, bool thread, bool pluck, bool dots_of_y = true>

@@ -1,0 +1,213 @@
+// The pass of the two-moment string, and its fused rows, compiled once per instruction set by
+// Highway. The number of points is a template argument up to five: what a scene lacks costs
+// nothing.
+#include "schemes/modal/kernels/two_moment_kernel.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "schemes/modal/kernels/two_moment_kernel.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+
+#include "schemes/modal/kernels/vectors-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace jvari {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+namespace {
+using Stream = TwoMomentStream;
+constexpr int any_number = -1;  // of points, at run time
+
+HWY_INLINE double column_dot(const double* HWY_RESTRICT w, const Stream& m, int column) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    V even = hn::Zero(d), odd = hn::Zero(d);
+    for (int i = 0; i < m.size; i += 2 * N) {
+        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, m.stream + m.at(column, i)), even);
+        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, m.stream + m.at(column, i + N)), odd);
+    }
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
+}
+
+// forced: whether contacts push; a thread always does.
+template <int points, bool thread, bool forced>
+HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d));
+    constexpr int columns = Stream::weights + 2 * points, some = points > 0 ? points : 1,
+                  from = forced ? 0 : points - thread;
+    V force_0[some], force_1[some], sum_0[some], sum_1[some];
+    for (int p = 0; p < points; ++p) {
+        force_0[p] = hn::Set(d, phi[p]), force_1[p] = hn::Set(d, phi[points + p]);
+        sum_0[p] = sum_1[p] = hn::Zero(d);
+    }
+    double* HWY_RESTRICT line = m.stream;
+    for (int i = 0; i < m.modes; i += Stream::line, line += columns * Stream::line)
+        for (int k = 0; k < Stream::line; k += N) {
+            double* HWY_RESTRICT q = line + k;
+            const auto load = [&](int column) HWY_ATTR __attribute__((always_inline)) {
+                return hn::Load(d, q + column * Stream::line);
+            };
+            V a = load(Stream::a), b = load(Stream::b), p_0[some], p_1[some];
+            for (int p = 0; p < points; ++p) {
+                p_0[p] = in_register(load(Stream::weights + p));
+                p_1[p] = in_register(load(Stream::weights + points + p));
+                if (p < from) continue;
+                b = hn::MulAdd(p_0[p], force_0[p], b);  // (2)
+                a = hn::MulAdd(p_1[p], force_1[p], a);
+            }
+            const V turn = load(Stream::A12),  // (3)
+                new_a = hn::MulAdd(load(Stream::A11), a, hn::Mul(turn, b)),
+                    new_b = hn::NegMulAdd(turn, a, hn::Mul(load(Stream::A22), b));
+            hn::Store(new_a, d, q + Stream::a * Stream::line);
+            hn::Store(new_b, d, q + Stream::b * Stream::line);
+            for (int p = 0; p < points; ++p) {  // (1)
+                sum_0[p] = hn::MulAdd(p_0[p], new_b, sum_0[p]);
+                sum_1[p] = hn::MulAdd(p_1[p], new_a, sum_1[p]);
+            }
+        }
+    for (int p = 0; p < points; p += 2) {
+        const int next = p + 1 < points ? p + 1 : p;
+        alignas(64) double four[4];
+        sums(sum_0[p], sum_0[next], sum_1[p], sum_1[next], four);
+        m.free[p] = four[0], m.free[next] = four[1];
+        m.free[points + p] = four[2], m.free[points + next] = four[3];
+    }
+}
+
+// As many points as there are: forces and sums pass through memory, a line at a time.
+HWY_INLINE void many_points(Stream& m, const double* HWY_RESTRICT phi, bool forced) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d)), points = m.points,
+              columns = Stream::weights + 2 * points, from = forced ? 0 : points - m.thread;
+    double* HWY_RESTRICT line = m.stream;
+    double* HWY_RESTRICT sums = m.free;
+    for (int j = 0; j < 2 * points * Stream::line; ++j) sums[j] = 0;
+    for (int i = 0; i < m.modes; i += Stream::line, line += columns * Stream::line)
+        for (int k = 0; k < Stream::line; k += N) {
+            double* HWY_RESTRICT q = line + k;
+            const auto load = [&](int column) HWY_ATTR __attribute__((always_inline)) {
+                return hn::Load(d, q + column * Stream::line);
+            };
+            V a = load(Stream::a), b = load(Stream::b);
+            for (int p = from; p < points; ++p) {
+                b = hn::MulAdd(load(Stream::weights + p), hn::Set(d, phi[p]), b);
+                a = hn::MulAdd(load(Stream::weights + points + p), hn::Set(d, phi[points + p]), a);
+            }
+            const V turn = load(Stream::A12),
+                new_a = hn::MulAdd(load(Stream::A11), a, hn::Mul(turn, b)),
+                    new_b = hn::NegMulAdd(turn, a, hn::Mul(load(Stream::A22), b));
+            hn::Store(new_a, d, q + Stream::a * Stream::line);
+            hn::Store(new_b, d, q + Stream::b * Stream::line);
+            for (int p = 0; p < points; ++p) {
+                double *s_0 = sums + p * Stream::line + k,
+                       *s_1 = sums + (points + p) * Stream::line + k;
+                hn::Store(hn::MulAdd(load(Stream::weights + p), new_b, hn::Load(d, s_0)), d, s_0);
+                hn::Store(hn::MulAdd(load(Stream::weights + points + p), new_a, hn::Load(d, s_1)),
+                          d, s_1);
+            }
+        }
+    for (int p = 0; p < 2 * points; ++p) {
+        V sum = hn::Zero(d);
+        for (int k = 0; k < Stream::line; k += N)
+            sum = hn::Add(sum, hn::Load(d, sums + p * Stream::line + k));
+        sums[p] = hn::GetLane(hn::SumOfLanes(d, sum));  // behind all that are still to be read
+    }
+}
+
+template <int points, bool thread>
+HWY_INLINE void pass(Stream& m, const double* phi, bool contacts) {
+    if constexpr (points == any_number) {
+        many_points(m, phi, contacts);
+    } else if constexpr (points > thread) {
+        if (contacts) few_points<points, thread, true>(m, phi);
+        else few_points<points, thread, false>(m, phi);
+    } else {
+        few_points<points, thread, true>(m, phi);
+    }
+}
+template <int points, bool thread>
+void pass_of(Stream& m, const double* phi, bool contacts) {
+    pass<points, thread>(m, phi, contacts);
+}
+
+HWY_INLINE void write(const Stream& m, MomentObstacle& at, const Block& out, int row,
+                      TwoMomentRows& r) {
+    double* HWY_RESTRICT mean = r.mean;
+    for (int p = 0; p < m.points; ++p) {
+        mean[p] = r.sum[p] / static_cast<double>(r.steps_per_row);
+        r.sum[p] = 0;
+    }
+    const double* spring = at.forces(0);
+    for (int k = 0; k < out.taps; ++k) {
+        const TwoMomentTap& t = r.taps[k];
+        double x = 0, of_springs = 0;
+        if (t.on_a)
+            x += column_dot(t.on_a, m, Stream::a) + column_dot(t.on_b, m, Stream::b);
+        for (int p = 0; t.on_mean && p < m.points; ++p) x += t.on_mean[p] * mean[p];
+        for (int p = 0; t.on_series && p < m.points; ++p) of_springs += t.on_series[p] * spring[p];
+        out.tap[k * out.stride + row] = t.on_series ? x + of_springs : x;
+    }
+}
+
+template <int points, bool thread>
+bool rows_of(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
+    for (int row = r.first; row < r.end; ++row) {
+        write(m, at, out, row, r);
+        for (long i = 0; i < r.steps_per_row; ++i) {
+            ++r.steps;
+            const bool converged = at.step<points, thread>(m.free, r.force);
+            for (int p = 0; p < m.points; ++p) r.sum[p] += r.force[p];
+            pass<points, thread>(m, r.force, at.any_force(r.force));
+            if (!converged) {
+                r.converged = false;
+                r.end = row + 1;
+                return true;
+            }
+            if (out.stopped(i, steps_between_questions)) return false;
+        }
+    }
+    return true;
+}
+}  // namespace
+
+#define JVARI_BY_POINTS(function)                                                             \
+    {                                                                                         \
+        {function<0, false>, function<1, false>, function<2, false>, function<3, false>,      \
+         function<4, false>, function<5, false>, function<any_number, false>},                \
+        {function<any_number, true>, function<1, true>, function<2, true>, function<3, true>, \
+         function<4, true>, function<5, true>, function<any_number, true>}                    \
+    }
+TwoMomentPass choose_moment_pass(int points, bool thread) {
+    static constexpr TwoMomentPass table[2][7] = JVARI_BY_POINTS(pass_of);
+    return table[thread][points <= 5 ? points : 6];
+}
+TwoMomentRowsKernel choose_moment_rows(int points, bool thread) {
+    static constexpr TwoMomentRowsKernel table[2][7] = JVARI_BY_POINTS(rows_of);
+    return table[thread][points <= 5 ? points : 6];
+}
+#undef JVARI_BY_POINTS
+double dot_of_moment_column(const double* w, const TwoMomentStream& m, int column) {
+    return column_dot(w, m, column);
+}
+TwoMomentDot choose_moment_dot() { return dot_of_moment_column; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace jvari
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace jvari {
+HWY_EXPORT(choose_moment_pass);
+HWY_EXPORT(choose_moment_rows);
+HWY_EXPORT(choose_moment_dot);
+
+TwoMomentPass two_moment_pass(int points, bool thread) {
+    return HWY_DYNAMIC_DISPATCH(choose_moment_pass)(points, thread);
+}
+TwoMomentRowsKernel two_moment_rows(int points, bool thread) {
+    return HWY_DYNAMIC_DISPATCH(choose_moment_rows)(points, thread);
+}
+TwoMomentDot two_moment_dot() { return HWY_DYNAMIC_DISPATCH(choose_moment_dot)(); }
+}  // namespace jvari
+#endif

@@ -1,0 +1,60 @@
+// State and kernels of a string in its modes under forces that are lines in the step;
+// two_moment_modes.hpp has the equations.
+//
+// One step is one pass over the modes: forces (2), the turn to the next centre (3), and the sums
+// (1) that the next step's forces need. Whole rows are made with the obstacle's steps.
+#pragma once
+
+#include <cstddef>
+
+#include "schemes/moments/moment_obstacle.hpp"
+#include "schemes/scheme.hpp"
+
+namespace jvari {
+
+// A line of eight modes of each column, then the next eight: a, b, A11, A12, A22, then p_0 of each
+// point, then p_1 of each.
+struct TwoMomentStream {
+    enum Column { a, b, A11, A12, A22, weights };
+    static constexpr int line = 8;
+    int modes = 0, size = 0;  // size: padded with zeros to a multiple of modal_padding
+    int points = 0;
+    bool thread = false;  // the last point
+    double* stream = nullptr;
+    double* free = nullptr;  // moments of the points without forces, of the step to come
+
+    int columns() const { return weights + 2 * points; }
+    std::ptrdiff_t at(int column, std::ptrdiff_t mode) const {
+        return (mode / line * columns() + column) * line + mode % line;
+    }
+};
+
+// Makes a step of the modes; phi: means of all points, then first moments.
+using TwoMomentPass = void (*)(TwoMomentStream&, const double* phi, bool contacts);
+TwoMomentPass two_moment_pass(int points, bool thread);
+
+struct TwoMomentTap {
+    const double *on_a = nullptr, *on_b = nullptr;  // weights on the modes; nullptr: none
+    // of the points' mean forces, and of the springs in series with them; nullptr: none
+    const double *on_mean = nullptr, *on_series = nullptr;
+};
+struct TwoMomentRows {
+    const TwoMomentTap* taps;
+    int first, end;  // rows of the block
+    long steps_per_row;
+    double* sum;            // of the points' mean forces since the last row [N]
+    double* mean;           // workspaces: these over the steps, and moments of the points'
+    double* force;          // forces
+    long steps = 0;         // made
+    bool converged = true;  // the last of them
+};
+// False: the caller wants no more.
+using TwoMomentRowsKernel = bool (*)(TwoMomentStream&, MomentObstacle&, const Block&,
+                                     TwoMomentRows&);
+TwoMomentRowsKernel two_moment_rows(int points, bool thread);
+
+// Sum of w and a column, over the padded modes.
+using TwoMomentDot = double (*)(const double* w, const TwoMomentStream&, int column);
+TwoMomentDot two_moment_dot();
+
+}  // namespace jvari

@@ -1,0 +1,441 @@
+// Source: docs/two-moments.md. Discrete gradient: Gonzalez 1996; moments of the force: Galerkin in
+// time, Betsch & Steinmann 2001; contact loss: Hunt & Crossley 1975.
+#include "schemes/moments/moment_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace jvari {
+
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double radiates = 0.2;  // rho from which on rule D takes the contact
+constexpr int most_newton = 100, most_halvings = 25;
+
+MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
+    return {a.m00 * b.m00 + a.m01 * b.m10, a.m00 * b.m01 + a.m01 * b.m11,
+            a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11};
+}
+MomentMatrix inverse(const MomentMatrix& a) {
+    const double det = a.m00 * a.m11 - a.m01 * a.m10;
+    return {a.m11 / det, -a.m01 / det, -a.m10 / det, a.m00 / det};
+}
+}  // namespace
+
+MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const MomentMatrix& T,
+                       double span)
+    : law_(law),
+      beta_(beta),
+      span_(span),
+      c_(law.rigid() ? 0 : 1 / law.k),
+      clipped_(loss == LossLaw::clipped),
+      galerkin_(!law.rigid() && 3 * T.m11 < radiates * T.m00),
+      linear_(!galerkin_ && beta == 0 && (law.alpha == 1 || law.rigid())),
+      own_(T) {
+    const double twice = 2 * law.alpha;
+    if (twice == std::floor(twice) && twice <= 8) twice_ = static_cast<int>(twice);
+}
+
+MomentRule::Powers MomentRule::powers(double eta) const noexcept {
+    if (!(eta > 0)) return {0, 0, 0};
+    double power = 1;
+    if (twice_ > 0) {
+        for (int i = 2; i <= twice_; i += 2) power *= eta;
+        if (twice_ % 2 == 1) power *= std::sqrt(eta);
+    } else {
+        power = std::pow(eta, law_.alpha);
+    }
+    const double force = law_.k * power;
+    return {force * eta / (law_.alpha + 1), force, law_.alpha * force / eta};
+}
+
+MomentRule::Quotient MomentRule::quotient(double from, double to, const Powers& a,
+                                          const Powers& b) const noexcept {
+    if (from <= 0 && to <= 0) return {0, 0, 0};
+    if (law_.alpha == 1 && from > 0 && to > 0)
+        return {0.5 * (a.force + b.force), 0.5 * law_.k, 0.5 * law_.k};
+    const double d = to - from;
+    if (std::abs(d) < 1e-5 * std::max(from, to)) {  // the middle, up to d^2
+        const double middle = 0.5 * (from + to);
+        const Powers m = powers(middle);
+        const double bend = m.slope * (law_.alpha - 1) / middle;
+        return {m.force + bend * d * d / 24, 0.5 * m.slope, 0.5 * m.slope};
+    }
+    const double value = (b.V - a.V) / d;
+    return {value, (value - a.force) / d, (b.force - value) / d};
+}
+
+bool MomentRule::stays_out(double eta, double b_0, double b_1) const {
+    const double E_1 = eta - b_0;
+    if (!galerkin_) return E_1 <= 0 && eta + b_1 <= 0;
+    if (eta > 0 || E_1 > 0) return false;
+    const double slope = 3 * b_1 - b_0;  // the parabola may rise above both ends
+    return b_1 <= 0 || slope <= 0 || slope >= 6 * b_1 ||
+           eta + slope * slope / (12 * b_1) <= 0;
+}
+
+// Exponent 1, or rigid: c phi in place of penetrations, so that no case divides by c.
+bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
+                          MomentContact& s) const noexcept {
+    const auto put = [&](double phi_0, double phi_1, double from, double to, double stored) {
+        s.phi_0 = phi_0, s.phi_1 = phi_1, s.from = from, s.to = to, s.stored = stored;
+        return true;
+    };
+    s.touches = false;
+    if (E_0 <= 0 && E_1 <= 0) return put(0, 0, E_0, E_1, 0);
+    {  // full
+        const double a = c_ + T.m00, b = c_ + T.m01, d = c_ - T.m10, e = -c_ - T.m11,
+                     det = a * e - b * d, phi_0 = (e * E_1 - b * E_0) / det,
+                     phi_1 = (a * E_0 - d * E_1) / det;
+        if (phi_0 > std::abs(phi_1)) {
+            s.touches = true;
+            const double to = c_ * (phi_0 + phi_1);
+            return put(phi_0, phi_1, c_ * (phi_0 - phi_1), to, 0.5 * (phi_0 + phi_1) * to);
+        }
+    }
+    const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
+    if (E_1 > 0) {  // enters: (A_0^2 + 2 c m) x^2 - 2 c (E_1 m + w) x + 2 c E_1 w = 0, x = e_1
+        const double m = A_0 + A_1, w = A_0 * E_0 + A_1 * E_1, A = A_0 * A_0 + 2 * c_ * m,
+                     B = c_ * (E_1 * m + w), C = -2 * c_ * E_1 * w, square = B * B + A * C;
+        if (square >= 0) {
+            const double root = std::sqrt(square),
+                         x = c_ == 0 ? 0 : B > 0 ? (B + root) / A : C / (root - B),
+                         p = (E_1 - x) / A_0, from = E_0 + A_1 * p;
+            if (p > 0 && from <= 0 && x >= 0) {
+                s.touches = true;
+                const double V = c_ == 0 ? -p * from : 0.5 * x * x / c_;
+                return put(p, p, std::min(0.0, x - V / p), x, V);
+            }
+        }
+    }
+    // leaves: V'(e_0) = q = X_0 + X_1 p, e_1 = y_0 + y_1 p, 2 p (e_0 - e_1) = c q^2
+    const double X_0 = E_0 / (c_ + T.m11), X_1 = A_1 / (c_ + T.m11), y_0 = E_1 + T.m01 * X_0,
+                 y_1 = -A_0 + T.m01 * X_1;
+    const auto leaves = [&](double p) {
+        const double q = X_0 + X_1 * p, from = c_ * q, to = y_0 + y_1 * p;
+        if (!(p >= 0 && q >= 0 && to <= 1e-15 * std::abs(E_1))) return false;
+        s.touches = false;
+        const double end = p > 0 && c_ > 0 ? std::min(0.0, from - 0.5 * q * from / p) : to;
+        return put(p, p - q, from, std::min(end, 0.0), 0);
+    };
+    if (c_ == 0) return leaves(0) || leaves(-y_0 / y_1);
+    const double A = 2 * (c_ * X_1 - y_1) - c_ * X_1 * X_1,
+                 B = 2 * (c_ * X_0 - y_0) - 2 * c_ * X_0 * X_1, C = -c_ * X_0 * X_0,
+                 square = B * B - 4 * A * C;
+    if (!(square >= 0)) return false;
+    const double half = -0.5 * (B + std::copysign(std::sqrt(square), B));
+    return (half != 0 && leaves(C / half)) || (A != 0 && leaves(half / A));
+}
+
+// One scalar equation in x = e_0: p = (x + T_11 V'(x) - E_0)/A_1, e_1 = E_1 - A_0 p + T_01 V'(x),
+// g = p - DV(x, e_1) = 0.   (9)
+void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
+                           MomentContact& s) const noexcept {
+    s.touches = false;
+    if (E_0 <= 0 && E_1 <= 0) {
+        s.phi_0 = s.phi_1 = s.stored = 0, s.from = E_0, s.to = E_1;
+        return;
+    }
+    const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
+    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(), x = 0;
+    {  // first guess: the law's tangent at the present penetration, in full contact
+        const double at = eta > 0 ? eta : 0.5 * std::max(E_0, E_1);
+        const Powers l = powers(at);
+        const double k = l.slope, F = l.force - k * at;
+        const double a = 1 - 0.5 * k * A_1 + k * T.m11, b = -0.5 * k * A_1,
+                     c = 0.5 * k * A_0 - k * T.m01, d = 1 + 0.5 * k * A_0,
+                     R_0 = E_0 + T.m10 * F, R_1 = E_1 - T.m00 * F;
+        x = (d * R_0 - b * R_1) / (a * d - b * c);
+        if (eta <= 0 && E_0 <= 0) {  // enters
+            const double out = E_0 + A_1 * E_1 / A_0;
+            if (out <= 0) x = low + 0.999 * (out - low);
+        }
+        if (!(x > low)) x = eta > low ? eta : low + std::max(1e-3 * std::abs(E_0 - E_1), 1e-14);
+    }
+    double p = 0, to = 0;
+    Powers a{}, b{};
+    Quotient v{};
+    const auto look = [&] {
+        a = powers(x);
+        p = (x + T.m11 * a.force - E_0) / A_1;
+        to = E_1 - A_0 * p + T.m01 * a.force;
+        b = powers(to);
+        v = quotient(x, to, a, b);
+    };
+    s.converged = false;
+    for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
+        look();
+        const double g = p - v.value, by_x = (1 + T.m11 * a.slope) / A_1,
+                     slope = by_x - v.by_from - v.by_to * (T.m01 * a.slope - A_0 * by_x);
+        if (g > 0) high = std::min(high, x);
+        else low = std::max(low, x);
+        double next = x - g / slope;
+        const bool small = std::abs(next - x) <= 1e-8 * std::abs(x) && std::abs(g) <= 1e-6 * v.value;
+        s.residual = std::abs(g) / std::max(std::abs(v.value), 1e-300);
+        s.converged = small || std::abs(g) <= 2e-15 * v.value;
+        if (!small && (!(next > low && next < high) || !(slope > 0)))
+            next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
+        s.converged = s.converged || std::abs(next - x) <= epsilon * std::abs(x);
+        if (small) x = next;
+        if (s.converged) break;
+        x = next;
+    }
+    look();
+    s.phi_0 = p, s.phi_1 = p - a.force, s.from = x, s.to = to;
+    if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) {  // enters: the end from the energy
+        for (int i = 0; i < 8; ++i) {
+            const double next = s.to - (b.V - p * (s.to - x)) / (b.force - p);
+            if (!(next > 0)) break;
+            const bool same = std::abs(next - s.to) <= epsilon * s.to;
+            s.to = next;
+            b = powers(next);
+            if (same) break;
+        }
+    } else {
+        s.phi_0 = v.value, s.phi_1 = v.value - a.force;
+    }
+    s.stored = b.V;
+    s.touches = s.to > 0;
+}
+
+void MomentRule::without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
+                              MomentContact& s) const noexcept {
+    const bool lines = law_.alpha == 1 || law_.rigid();
+    if (!lines || !by_lines(T, E_0, E_1, s)) by_newton(T, eta, E_0, E_1, s);
+}
+
+// The step with the dampers l_0, l_1 of (11).
+void MomentRule::damped(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0,
+                        double l_1, MomentContact& s) const noexcept {
+    const MomentMatrix L{l_0 / span_, l_1 / span_, l_1 / span_, 3 * l_0 / span_};
+    MomentMatrix one = times(T, L);
+    one.m00 += 1, one.m11 += 1;
+    const MomentMatrix I = inverse(one), less = times(I, T);
+    without_loss(less, eta, eta + I.m10 * b_0 + I.m11 * b_1, eta - I.m00 * b_0 - I.m01 * b_1, s);
+    const double r_0 = eta - s.to, r_1 = s.from - eta, d_0 = L.m00 * r_0 + L.m01 * r_1,
+                 d_1 = L.m10 * r_0 + L.m11 * r_1;
+    const Powers from = powers(s.from);
+    s.lost = potential(eta, 0) - from.V - from.force * (eta - s.from) + d_0 * r_0 + d_1 * r_1;
+    s.phi_0 -= d_0, s.phi_1 -= d_1;
+    s.slope = {-L.m00, -L.m01, -L.m10, -L.m11};
+}
+
+// l_0 = beta DV(e_0, e_1), bracketed from 0 by regula falsi (Illinois); l_1 in a fixed ratio to it.
+void MomentRule::with_loss(const MomentMatrix& T, double eta, double b_0, double b_1,
+                           MomentContact& s) const noexcept {
+    damped(T, eta, b_0, b_1, 0, 0, s);
+    if (s.phi_0 == 0 && s.phi_1 == 0) return;
+    int passes = 1;
+    double ratio = 0, elastic = 0;
+    const auto miss = [&](double l_0) {
+        damped(T, eta, b_0, b_1, l_0, ratio * l_0, s);
+        ++passes;
+        const Powers from = powers(s.from);
+        elastic = quotient(s.from, s.to, from, powers(s.to)).value;
+        return l_0 - beta_ * elastic;
+    };
+    miss(0);
+    double low = 0, high = beta_ * elastic, f_low = -high;
+    if (high > 0) {
+        miss(high);
+        if (elastic > 0)
+            ratio = std::clamp((elastic - powers(s.from).force) / elastic, -1.0, 1.0);
+        high = std::max(beta_ * elastic, 1e-300);
+        double f_high = miss(high);
+        for (; f_high < 0 && passes < most_newton; f_high = miss(high))
+            low = high, f_low = f_high, high *= 4;
+        int side = 0;
+        for (; passes < most_newton && high - low > 1e-14 * high; ) {
+            double l = (low * f_high - high * f_low) / (f_high - f_low);
+            if (!(l > low && l < high)) l = 0.5 * (low + high);
+            const double f = miss(l);
+            if (std::abs(f) <= 1e-12 * l) break;
+            if (f > 0) {
+                high = l, f_high = f;
+                if (side == 1) f_low *= 0.5;
+                side = 1;
+            } else {
+                low = l, f_low = f;
+                if (side == -1) f_high *= 0.5;
+                side = -1;
+            }
+        }
+    }
+    if (clipped_ && s.phi_0 < 0)
+        shrink(T, eta, b_0, b_1, beta_ * elastic, ratio * beta_ * elastic, s);
+    s.iterations = std::max(s.iterations, passes);
+}
+
+// A clipped loss: less of the dampers until the contact does not pull in the mean.
+double MomentRule::shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0,
+                          double l_1, MomentContact& s) const noexcept {
+    double low = 0, high = 1;
+    for (int i = 0; i < 50; ++i) {
+        const double part = 0.5 * (low + high);
+        damped(T, eta, b_0, b_1, part * l_0, part * l_1, s);
+        (s.phi_0 < 0 ? high : low) = part;
+    }
+    damped(T, eta, b_0, b_1, low * l_0, low * l_1, s);
+    return low;
+}
+
+namespace {
+// Gauss's rules on [0, 1]
+struct Node {
+    double at, weight;
+};
+constexpr std::array<Node, 3> three = {{{0.1127016653792583, 0.2777777777777778},
+                                        {0.5, 0.4444444444444444},
+                                        {0.8872983346207417, 0.2777777777777778}}};
+constexpr std::array<Node, 8> eight = {{{0.0198550717512319, 0.0506142681451881},
+                                        {0.1016667612931866, 0.1111905172266872},
+                                        {0.2372337950418355, 0.1568533229389436},
+                                        {0.4082826787521751, 0.1813418916891810},
+                                        {0.5917173212478249, 0.1813418916891810},
+                                        {0.7627662049581645, 0.1568533229389436},
+                                        {0.8983332387068134, 0.1111905172266872},
+                                        {0.9801449282487681, 0.0506142681451881}}};
+}  // namespace
+
+MomentRule::Integrals MomentRule::integrals(double eta, double r_0, double r_1) const noexcept {
+    const double A = -3 * r_1, B = 3 * r_1 - r_0, end = eta - r_0;
+    std::array<double, 5> cut{};
+    std::size_t cuts = 0;
+    const auto add = [&](double s) {
+        if (s > 0 && s < 1) cut[cuts++] = s;
+    };
+    if (const double square = B * B - 4 * A * eta; square > 0) {
+        const double half = -0.5 * (B + std::copysign(std::sqrt(square), B));
+        if (half != 0) add(eta / half);
+        if (A != 0) add(half / A);
+    }
+    if (clipped_ && beta_ > 0 && A != 0) add(-(span_ / beta_ + B) / (2 * A));
+    std::sort(cut.begin(), cut.begin() + static_cast<long>(cuts));
+    cut[cuts++] = 1;
+    Integrals all;
+    const bool polynomial = law_.alpha == 1;
+    const std::span<const Node> nodes =
+        polynomial ? std::span<const Node>(three) : std::span<const Node>(eight);
+    double begin = 0, elastic_0 = 0, elastic_1 = 0;
+    for (std::size_t i = 0; i < cuts; begin = cut[i++]) {
+        const double length = cut[i] - begin, middle = begin + 0.5 * length;
+        if (!((A * middle + B) * middle + eta > 0)) continue;
+        for (const Node& node : nodes) {
+            const double s = begin + node.at * length, P_1 = 2 * s - 1, w = node.weight * length,
+                         rate = (2 * A * s + B) / span_;  // eta'
+            const Powers v = powers((A * s + B) * s + eta);
+            const bool open = clipped_ && 1 + beta_ * rate < 0;
+            const double damping = open ? -1 : beta_ * rate, F = v.force * (1 + damping);
+            elastic_0 += w * v.force, elastic_1 += 3 * w * v.force * P_1;
+            all.phi_0 += w * F, all.phi_1 += 3 * w * F * P_1;
+            all.lost += w * v.force * damping * rate * span_;
+            const double by_eta = open ? 0 : v.slope * (1 + damping),
+                         by_rate = open ? 0 : v.force * beta_ / span_;
+            const double by_0 = -s * by_eta - by_rate,
+                         by_1 = 3 * (s - s * s) * by_eta - 3 * P_1 * by_rate;
+            all.slope.m00 += w * by_0, all.slope.m01 += w * by_1;
+            all.slope.m10 += 3 * w * P_1 * by_0, all.slope.m11 += 3 * w * P_1 * by_1;
+        }
+    }
+    // Powers are no polynomials: the rest of the energy along r (Gonzalez 1996).
+    if (const double size = r_0 * r_0 + 3 * r_1 * r_1; !polynomial && size > 0) {
+        const double rest = (law_.potential(eta) - law_.potential(end) - elastic_0 * r_0 -
+                             elastic_1 * r_1) /
+                            size;
+        all.phi_0 += rest * r_0, all.phi_1 += 3 * rest * r_1;
+    }
+    return all;
+}
+
+// Newton's steps in r with a line search on the residual of r = b + T phi(r).
+void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, double b_1,
+                             MomentContact& s) const noexcept {
+    if (stays_out(eta, b_0, b_1)) {
+        s.from = eta, s.to = eta - b_0;
+        return;
+    }
+    without_loss(T, eta, eta + b_1, eta - b_0, s);  // first guess: rule D
+    double r_0 = eta - s.to, r_1 = s.from - eta;
+    struct Point {
+        Integrals at;
+        double e_0, e_1, size;
+    };
+    const auto look = [&](double x_0, double x_1) {
+        Point p{integrals(eta, x_0, x_1), 0, 0, 0};
+        p.e_0 = x_0 - b_0 - T.m00 * p.at.phi_0 - T.m01 * p.at.phi_1;
+        p.e_1 = x_1 - b_1 - T.m10 * p.at.phi_0 - T.m11 * p.at.phi_1;
+        p.size = p.e_0 * p.e_0 + p.e_1 * p.e_1;
+        return p;
+    };
+    const double scale = b_0 * b_0 + b_1 * b_1 + eta * eta + 1e-60;
+    Point now = look(r_0, r_1);
+    s.converged = false;
+    for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
+        if (now.size <= 1e-29 * scale) {
+            s.converged = true;
+            break;
+        }
+        MomentMatrix J = times(T, now.at.slope);
+        J = inverse({1 - J.m00, -J.m01, -J.m10, 1 - J.m11});
+        const double d_0 = -(J.m00 * now.e_0 + J.m01 * now.e_1),
+                     d_1 = -(J.m10 * now.e_0 + J.m11 * now.e_1);
+        int halved = 0;
+        for (double part = 1; halved < most_halvings; ++halved, part *= 0.5) {
+            const Point next = look(r_0 + part * d_0, r_1 + part * d_1);
+            if (!(next.size < now.size)) continue;
+            r_0 += part * d_0, r_1 += part * d_1;
+            now = next;
+            break;
+        }
+        if (halved == most_halvings) {  // rounding
+            s.converged = now.size <= 1e-24 * scale;
+            break;
+        }
+    }
+    s.residual = std::sqrt(now.size / scale);
+    s.phi_0 = now.at.phi_0, s.phi_1 = now.at.phi_1, s.slope = now.at.slope;
+    s.from = eta, s.to = eta - r_0, s.lost = now.at.lost;
+    s.stored = law_.potential(s.to);
+    s.touches = s.to > 0;
+}
+
+MomentContact MomentRule::solve(const MomentMatrix& T, double eta, double stored, double b_0,
+                                double b_1) const noexcept {
+    MomentContact s;
+    if (galerkin_) by_galerkin(T, eta, b_0, b_1, s);
+    else if (beta_ > 0) with_loss(T, eta, b_0, b_1, s);
+    else {
+        without_loss(T, eta, eta + b_1, eta - b_0, s);
+        if (law_.alpha == 1 || law_.rigid())
+            s.lost = lost_linear(eta, stored, s.from, s.phi_0 - s.phi_1);
+        else {
+            const Powers from = powers(s.from);
+            s.lost = law_.potential(eta) - from.V - from.force * (eta - s.from);
+        }
+    }
+    return s;
+}
+
+MomentMatrix MomentRule::answer(const MomentMatrix& T, const MomentContact& s) const noexcept {
+    MomentMatrix K = s.slope;
+    if (!galerkin_) {
+        const bool rigid = law_.rigid();
+        const double stiff = 1e9 / T.m00;  // in place of a rigid barrier
+        Powers a = powers(s.from), b = powers(s.to);
+        if (rigid) {
+            a = {0, std::max(0.0, s.phi_0 - s.phi_1), s.phi_0 > s.phi_1 ? stiff : 0};
+            b = {s.stored, s.touches ? s.phi_0 + s.phi_1 : 0, s.touches ? stiff : 0};
+        }
+        const Quotient v = rigid ? Quotient{s.phi_0, 0.5 * a.slope, 0.5 * b.slope}
+                                 : quotient(s.from, s.to, a, b);
+        K.m00 -= v.by_to, K.m01 += v.by_from;
+        K.m10 -= v.by_to, K.m11 += v.by_from - a.slope;
+    }
+    const MomentMatrix one = times(T, K);
+    return times(K, inverse({1 - one.m00, -one.m01, -one.m10, 1 - one.m11}));
+}
+
+}  // namespace jvari
