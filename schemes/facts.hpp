@@ -23,6 +23,8 @@ struct FactName {
     FACT(contact_points, "", "points at which the obstacle's force acts") \
     FACT(conserving_contacts, "", \
          "contacts by the rule that conserves energy in a step (G); the others by rule D") \
+    FACT(constant_force_steps, "", \
+         "steps with constant contact forces, since lines were not found") \
     FACT(contact_solves, "", "contact equations solved") \
     FACT(coupled_contact_points, "", \
          "points whose forces are solved for together: what a step of a dense contact costs " \

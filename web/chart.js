@@ -2,6 +2,7 @@
 // each sample rate. Costs are of this browser.
 const chart = {points: [], own: [], cells: 0, whole: false, why: ""};
 const chart_schemes = [
+  ["modal_two_moment", "matched"],
   ["modal_two_point", "own"],
   ["modal_two_point", "matched"],
   ["modal_quadratised", "matched"],
@@ -12,6 +13,7 @@ const chart_schemes = [
 ];
 const chart_rates = [1, 2, 4, 8].map(k => 44100 * k);
 const colours = {
+  modal_two_moment: "#0a4f80",
   modal_two_point: "#0072b2",
   modal_quadratised: "#7a4fb5",
   modal_spatial_newton: "#00805a",

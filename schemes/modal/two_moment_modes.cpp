@@ -16,7 +16,7 @@ template class Driver<TwoMomentModes>;
 using std::numbers::pi;
 
 namespace {
-using Column = TwoMomentStream::Column;
+using Moments = TwoMomentStream;
 }  // namespace
 
 // cos 2z = cos(omega H)/cosh(sigma H), cosh in place of cos where a mode is overdamped; by its half
@@ -56,7 +56,7 @@ ExactMode::ExactMode(double mass, double omega0, double sigma, double H)
     const double turned = std::sin(2 * z), w = 2 * z / H, over = turned != 0 ? 1 / turned : 0;
     by_v = sine_of * over;
     by_y = sigma * by_v - cosine_of * std::tanh(decay) * over;
-    if (!(by_v * w > 0.5 * R)) by_v = R / w, by_y = 0;
+    if (!(by_v * w > 1e-3 * R)) by_v = R / w, by_y = 0;
 }
 
 double ExactMode::p_1() const {
@@ -69,11 +69,10 @@ double ExactMode::p_1() const {
     return -S_1 / kappa;
 }
 
-TwoMomentModes::TwoMomentModes(const Descriptor& descriptor, const Scene& given,
+TwoMomentModes::TwoMomentModes(const Descriptor& descriptor, const Scene& scene,
                                const Settings& settings)
     : dt_(1 / settings.sample_rate) {
-    Scene scene = given;
-    const String s = scene.strings.front() = with_profile_points(scene.strings.front(), settings);
+    const String& s = scene.strings.front();
     const Modes modes = modes_of(s, settings);
     const int count = m_.modes = modes.count();
     m_.size = (count + modal_padding - 1) / modal_padding * modal_padding;
@@ -124,15 +123,15 @@ void TwoMomentModes::put_points(const Modes& modes, const Scene& scene) {
     const auto put = [&](int column, const auto& of) {
         for (int i = 0; i < m_.modes; ++i) stream_[m_.at(column, i)] = of(i);
     };
-    put(Column::A11, [&](int i) {
+    put(Moments::A11, [&](int i) {
         const ExactMode& e = modes_[i];
         return e.cosine * e.cosine - e.delta * e.sine * e.sine;
     });
-    put(Column::A12, [&](int i) {
+    put(Moments::A12, [&](int i) {
         const ExactMode& e = modes_[i];
         return (1 + e.delta) * e.sine * e.cosine;
     });
-    put(Column::A22, [&](int i) {
+    put(Moments::A22, [&](int i) {
         const ExactMode& e = modes_[i];
         return e.delta * e.cosine * e.cosine - e.sine * e.sine;
     });
@@ -141,8 +140,8 @@ void TwoMomentModes::put_points(const Modes& modes, const Scene& scene) {
     for (int p = 0; p < P; ++p) {
         const Footprint& f = sites.forces[p];
         g.push_back(footprint_weights(modes, f.position, f.width));
-        put(Column::weights + p, [&](int i) { return g[p][i] * modes_[i].p_0(); });
-        put(Column::weights + P + p, [&](int i) { return g[p][i] * modes_[i].p_1(); });
+        put(Moments::weights + p, [&](int i) { return g[p][i] * modes_[i].p_0(); });
+        put(Moments::weights + P + p, [&](int i) { return g[p][i] * modes_[i].p_1(); });
         readings_.push_back(reading_of(g[p], false));
     }
     p_.theta.assign(static_cast<std::size_t>(D) * D, 0.0);
@@ -233,16 +232,16 @@ bool TwoMomentModes::start_from(const TwoMomentModes& before) noexcept {
 
 void TwoMomentModes::reset() noexcept {
     for (int i = 0; i < m_.size; ++i) {
-        stream_[m_.at(Column::a, i)] = a0_[i];
-        stream_[m_.at(Column::b, i)] = b0_[i];
+        stream_[m_.at(Moments::a, i)] = a0_[i];
+        stream_[m_.at(Moments::b, i)] = b0_[i];
     }
     step_ = 0;
     sum_ = 0;
     for (int p = 0; p < m_.points; ++p) {
         free_sums_[p] = free_sums_[m_.points + p] = 0;
         for (int i = 0; i < m_.modes; ++i) {
-            free_sums_[p] += at(Column::weights + p, i) * b0_[i];
-            free_sums_[m_.points + p] += at(Column::weights + m_.points + p, i) * a0_[i];
+            free_sums_[p] += at(Moments::weights + p, i) * b0_[i];
+            free_sums_[m_.points + p] += at(Moments::weights + m_.points + p, i) * a0_[i];
         }
     }
 }
@@ -280,10 +279,10 @@ Spent TwoMomentModes::spent(const double* force) const noexcept {
         const auto [y, u] = at_row(i);
         double kick_a = 0, kick_b = 0;
         for (int p = 0; p < P; ++p) {
-            kick_b += at(Column::weights + p, i) * force[p];
-            kick_a += at(Column::weights + P + p, i) * force[P + p];
+            kick_b += at(Moments::weights + p, i) * force[p];
+            kick_a += at(Moments::weights + P + p, i) * force[P + p];
         }
-        const double a = at(Column::a, i), b = at(Column::b, i);
+        const double a = at(Moments::a, i), b = at(Moments::b, i);
         if (F_0_ != 0 || F_1_ != 0) {
             kick_b += pluck_.p_0[i] * F_0_, kick_a += pluck_.p_1[i] * F_1_;
             r_0 += pluck_.p_0[i] * (b + 0.5 * kick_b), r_1 += pluck_.p_1[i] * (a + 0.5 * kick_a);
@@ -300,8 +299,8 @@ Spent TwoMomentModes::pass(const double* force, double, bool probed) noexcept {
     ++step_;
     if (F_0_ != 0 || F_1_ != 0)
         for (int i = 0; i < m_.modes; ++i) {
-            stream_[m_.at(Column::b, i)] += pluck_.p_0[i] * F_0_;
-            stream_[m_.at(Column::a, i)] += pluck_.p_1[i] * F_1_;
+            stream_[m_.at(Moments::b, i)] += pluck_.p_0[i] * F_0_;
+            stream_[m_.at(Moments::a, i)] += pluck_.p_1[i] * F_1_;
         }
     bool contacts = false;
     for (int p = 0; p < m_.points - m_.thread; ++p)
@@ -335,7 +334,7 @@ double TwoMomentModes::tap(int k, const double* mean) const noexcept {
 void TwoMomentModes::fuse(MomentObstacle& obstacle, int steps_per_row) {
     obstacle_ = &obstacle;
     steps_per_row_ = steps_per_row;
-    rows_ = two_moment_rows(m_.points, m_.thread);
+    rows_ = two_moment_rows(m_.points, m_.thread, obstacle.has_series());
     force_.assign(3 * static_cast<std::size_t>(m_.points), 0.0);
     for (std::size_t k = 0; k < taps_.size(); ++k) {
         const TapOfModes& t = taps_[k];

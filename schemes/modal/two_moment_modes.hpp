@@ -89,8 +89,7 @@ private:
     Spent spent(const double* force) const noexcept;
     double at(int column, int i) const { return stream_[m_.at(column, i)]; }
     double dot(const Reading& r) const noexcept {
-        return dot_(r.on_a.data(), m_, TwoMomentStream::a) +
-               dot_(r.on_b.data(), m_, TwoMomentStream::b);
+        return sum_of_(r.on_a.data(), r.on_b.data(), m_);
     }
 
     double dt_ = 0;
@@ -102,7 +101,7 @@ private:
     std::vector<Reading> readings_;  // of each point
     PluckForce pluck_;
     double F_0_ = 0, F_1_ = 0;  // the pluck's moments in the step [N]
-    const TwoMomentDot dot_ = two_moment_dot();
+    const TwoMomentSum sum_of_ = two_moment_sum();
     TwoMomentPass pass_ = nullptr;
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;

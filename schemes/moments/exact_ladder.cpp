@@ -118,52 +118,48 @@ ExactLadder::ExactLadder(const MissingMatrix& m, double span)
     }
 }
 
-void ExactLadder::add_compliance(std::vector<double>& theta) const {
-    const int n = points_, all = 2 * n;
-    for (std::size_t k = 0; k < patterns_.size(); ++k)
-        for (int i = 0; i < 2; ++i)
-            for (int j = 0; j < 2; ++j)
-                for (int p = 0; p < n; ++p)
-                    for (int q = 0; q < n; ++q)
-                        theta[(i * n + p) * all + j * n + q] +=
-                            w(k, p) * patterns_[k].by[i][2 + j] * w(k, q);
-}
-
-void ExactLadder::rest(const double* force) noexcept {
-    for (std::size_t k = 0; k < patterns_.size(); ++k) {
-        Pattern& s = patterns_[k];
+void ExactLadder::rest(const double* force, double* x) const noexcept {
+    for (int k = 0; k < points_; ++k) {
         double u = 0;
         for (int p = 0; p < points_; ++p) u += w(k, p) * force[p];
-        s.d = s.c * u;
-        s.v = 0;
-        s.before = {};
+        x[k] = pattern(k).c * u;
+        x[points_ + k] = 0;
     }
 }
 
-void ExactLadder::start_from(const ExactLadder& before) noexcept {
-    for (std::size_t k = 0; k < patterns_.size(); ++k)
-        patterns_[k].d = before.patterns_[k].d, patterns_[k].v = before.patterns_[k].v;
-}
-
-void ExactLadder::forces(double* out) const noexcept {
-    for (int p = 0; p < points_; ++p) {
-        out[p] = 0;
-        for (std::size_t k = 0; k < patterns_.size(); ++k)
-            out[p] += V_[k * points_ + p] * patterns_[k].d / patterns_[k].c;
-    }
-}
-
-double ExactLadder::stored() const noexcept {
+double ExactLadder::yields(const double* x, int p) const noexcept {
     double sum = 0;
-    for (const Pattern& s : patterns_) sum += 0.5 * (s.d * s.d / s.c + s.mass * s.v * s.v);
+    for (int k = 0; k < points_; ++k) sum += w(k, p) * x[k];
     return sum;
 }
 
-double ExactLadder::lost() const noexcept {
+void ExactLadder::forces(const double* x, double* out) const noexcept {
+    for (int p = 0; p < points_; ++p) {
+        out[p] = 0;
+        for (int k = 0; k < points_; ++k) out[p] += V_[k * points_ + p] * x[k] / pattern(k).c;
+    }
+}
+
+double ExactLadder::stored(const double* x) const noexcept {
     double sum = 0;
-    for (const Pattern& s : patterns_)
-        for (int x = 0; x < 4; ++x)
-            for (int y = 0; y < 4; ++y) sum += s.before[x] * s.loss[x][y] * s.before[y];
+    for (int k = 0; k < points_; ++k) {
+        const double d = x[k], v = x[points_ + k];
+        sum += 0.5 * (d * d / pattern(k).c + pattern(k).mass * v * v);
+    }
+    return sum;
+}
+
+double ExactLadder::lost(const double* x, const double* force) const noexcept {
+    double sum = 0;
+    for (int k = 0; k < points_; ++k) {
+        double y[4] = {x[k], x[points_ + k], 0, 0};
+        for (int p = 0; p < points_; ++p) {
+            y[2] += w(k, p) * force[p];
+            y[3] += w(k, p) * force[points_ + p];
+        }
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j) sum += y[i] * pattern(k).loss[i][j] * y[j];
+    }
     return sum;
 }
 

@@ -11,8 +11,9 @@
 namespace jvari {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double half_bit = std::numeric_limits<double>::epsilon();
 constexpr double radiates = 0.2;  // rho from which on rule D takes the contact
+constexpr double stiff = 1e10;    // of a rigid barrier, k T_00
 constexpr int most_newton = 100, most_halvings = 25;
 
 MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
@@ -26,16 +27,15 @@ MomentMatrix inverse(const MomentMatrix& a) {
 }  // namespace
 
 MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const MomentMatrix& T,
-                       double span)
-    : law_(law),
+                       double span, bool alone)
+    : law_(law.rigid() ? ContactLaw{stiff / T.m00, 1} : law),
       beta_(beta),
       span_(span),
-      c_(law.rigid() ? 0 : 1 / law.k),
+      c_(1 / law_.k),
       clipped_(loss == LossLaw::clipped),
-      galerkin_(!law.rigid() && 3 * T.m11 < radiates * T.m00),
-      linear_(!galerkin_ && beta == 0 && (law.alpha == 1 || law.rigid())),
-      own_(T) {
-    const double twice = 2 * law.alpha;
+      galerkin_(alone && !law.rigid() && 3 * T.m11 < radiates * T.m00),
+      linear_(!galerkin_ && beta == 0 && law_.alpha == 1) {
+    const double twice = 2 * law_.alpha;
     if (twice == std::floor(twice) && twice <= 8) twice_ = static_cast<int>(twice);
 }
 
@@ -77,24 +77,20 @@ bool MomentRule::stays_out(double eta, double b_0, double b_1) const {
            eta + slope * slope / (12 * b_1) <= 0;
 }
 
-// Exponent 1, or rigid: c phi in place of penetrations, so that no case divides by c.
+// Exponent 1.   (8)
 bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
                           MomentContact& s) const noexcept {
-    const auto put = [&](double phi_0, double phi_1, double from, double to, double stored) {
-        s.phi_0 = phi_0, s.phi_1 = phi_1, s.from = from, s.to = to, s.stored = stored;
+    const auto put = [&s](double phi_0, double phi_1, double from, double to) {
+        s.phi_0 = phi_0, s.phi_1 = phi_1, s.from = from, s.to = to;
         return true;
     };
-    s.touches = false;
-    if (E_0 <= 0 && E_1 <= 0) return put(0, 0, E_0, E_1, 0);
+    if (E_0 <= 0 && E_1 <= 0) return put(0, 0, E_0, E_1);
     {  // full
         const double a = c_ + T.m00, b = c_ + T.m01, d = c_ - T.m10, e = -c_ - T.m11,
                      det = a * e - b * d, phi_0 = (e * E_1 - b * E_0) / det,
                      phi_1 = (a * E_0 - d * E_1) / det;
-        if (phi_0 > std::abs(phi_1)) {
-            s.touches = true;
-            const double to = c_ * (phi_0 + phi_1);
-            return put(phi_0, phi_1, c_ * (phi_0 - phi_1), to, 0.5 * (phi_0 + phi_1) * to);
-        }
+        if (phi_0 > std::abs(phi_1))
+            return put(phi_0, phi_1, c_ * (phi_0 - phi_1), c_ * (phi_0 + phi_1));
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
     if (E_1 > 0) {  // enters: (A_0^2 + 2 c m) x^2 - 2 c (E_1 m + w) x + 2 c E_1 w = 0, x = e_1
@@ -102,31 +98,24 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
                      B = c_ * (E_1 * m + w), C = -2 * c_ * E_1 * w, square = B * B + A * C;
         if (square >= 0) {
             const double root = std::sqrt(square),
-                         x = c_ == 0 ? 0 : B > 0 ? (B + root) / A : C / (root - B),
-                         p = (E_1 - x) / A_0, from = E_0 + A_1 * p;
-            if (p > 0 && from <= 0 && x >= 0) {
-                s.touches = true;
-                const double V = c_ == 0 ? -p * from : 0.5 * x * x / c_;
-                return put(p, p, std::min(0.0, x - V / p), x, V);
-            }
+                         x = B > 0 ? (B + root) / A : C / (root - B), p = (E_1 - x) / A_0;
+            if (p > 0 && E_0 + A_1 * p <= 0 && x >= 0)
+                return put(p, p, std::min(0.0, x - 0.5 * x * x / (c_ * p)), x);
         }
     }
     // leaves: V'(e_0) = q = X_0 + X_1 p, e_1 = y_0 + y_1 p, 2 p (e_0 - e_1) = c q^2
     const double X_0 = E_0 / (c_ + T.m11), X_1 = A_1 / (c_ + T.m11), y_0 = E_1 + T.m01 * X_0,
                  y_1 = -A_0 + T.m01 * X_1;
-    const auto leaves = [&](double p) {
-        const double q = X_0 + X_1 * p, from = c_ * q, to = y_0 + y_1 * p;
-        if (!(p >= 0 && q >= 0 && to <= 1e-15 * std::abs(E_1))) return false;
-        s.touches = false;
-        const double end = p > 0 && c_ > 0 ? std::min(0.0, from - 0.5 * q * from / p) : to;
-        return put(p, p - q, from, std::min(end, 0.0), 0);
-    };
-    if (c_ == 0) return leaves(0) || leaves(-y_0 / y_1);
     const double A = 2 * (c_ * X_1 - y_1) - c_ * X_1 * X_1,
                  B = 2 * (c_ * X_0 - y_0) - 2 * c_ * X_0 * X_1, C = -c_ * X_0 * X_0,
                  square = B * B - 4 * A * C;
     if (!(square >= 0)) return false;
     const double half = -0.5 * (B + std::copysign(std::sqrt(square), B));
+    const auto leaves = [&](double p) {
+        const double q = X_0 + X_1 * p, from = c_ * q, to = y_0 + y_1 * p;
+        if (!(p >= 0 && q >= 0 && to <= 1e-15 * std::abs(E_1))) return false;
+        return put(p, p - q, from, std::min(0.0, p > 0 ? from - 0.5 * q * from / p : to));
+    };
     return (half != 0 && leaves(C / half)) || (A != 0 && leaves(half / A));
 }
 
@@ -134,9 +123,8 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
 // g = p - DV(x, e_1) = 0.   (9)
 void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
                            MomentContact& s) const noexcept {
-    s.touches = false;
     if (E_0 <= 0 && E_1 <= 0) {
-        s.phi_0 = s.phi_1 = s.stored = 0, s.from = E_0, s.to = E_1;
+        s.phi_0 = s.phi_1 = 0, s.from = E_0, s.to = E_1;
         return;
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
@@ -178,7 +166,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         s.converged = small || std::abs(g) <= 2e-15 * v.value;
         if (!small && (!(next > low && next < high) || !(slope > 0)))
             next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
-        s.converged = s.converged || std::abs(next - x) <= epsilon * std::abs(x);
+        s.converged = s.converged || std::abs(next - x) <= half_bit * std::abs(x);
         if (small) x = next;
         if (s.converged) break;
         x = next;
@@ -189,7 +177,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         for (int i = 0; i < 8; ++i) {
             const double next = s.to - (b.V - p * (s.to - x)) / (b.force - p);
             if (!(next > 0)) break;
-            const bool same = std::abs(next - s.to) <= epsilon * s.to;
+            const bool same = std::abs(next - s.to) <= half_bit * s.to;
             s.to = next;
             b = powers(next);
             if (same) break;
@@ -197,14 +185,49 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     } else {
         s.phi_0 = v.value, s.phi_1 = v.value - a.force;
     }
-    s.stored = b.V;
-    s.touches = s.to > 0;
+}
+
+// The same with p as the unknown, between 0 and a force that is too large: slower, for what rounding
+// keeps from by_lines and by_newton.
+void MomentRule::by_bracket(const MomentMatrix& T, double E_0, double E_1,
+                            MomentContact& s) const noexcept {
+    const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
+    Powers a{};
+    const auto miss = [&](double p) {
+        s.from = depth_in_series(law_, E_0 + A_1 * p, T.m11);
+        a = powers(s.from);
+        s.to = E_1 - A_0 * p + T.m01 * a.force;
+        s.phi_0 = quotient(s.from, s.to, a, powers(s.to)).value;
+        s.phi_1 = s.phi_0 - a.force;
+        return p - s.phi_0;
+    };
+    double low = 0, f_low = miss(0), high = s.phi_0, f_high = miss(high);
+    for (int i = 0; f_high < 0 && i < most_newton; ++i, f_high = miss(high))
+        low = high, f_low = f_high, high *= 4;
+    int side = 0;
+    s.converged = f_low == 0;
+    for (s.iterations = 1; s.iterations < 2 * most_newton && !s.converged; ++s.iterations) {
+        double p = (low * f_high - high * f_low) / (f_high - f_low);
+        if (!(p > low && p < high)) p = 0.5 * (low + high);
+        const double f = miss(p);
+        s.converged = std::abs(f) <= 4 * half_bit * p || high - low <= 4 * half_bit * high;
+        if (f > 0) {
+            high = p, f_high = f;
+            if (side == 1) f_low *= 0.5;
+            side = 1;
+        } else {
+            low = p, f_low = f;
+            if (side == -1) f_high *= 0.5;
+            side = -1;
+        }
+    }
 }
 
 void MomentRule::without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
                               MomentContact& s) const noexcept {
-    const bool lines = law_.alpha == 1 || law_.rigid();
-    if (!lines || !by_lines(T, E_0, E_1, s)) by_newton(T, eta, E_0, E_1, s);
+    s.converged = law_.alpha == 1 && by_lines(T, E_0, E_1, s);
+    if (!s.converged && T.m10 + T.m11 > 1e-6 * T.m00) by_newton(T, eta, E_0, E_1, s);
+    if (!s.converged) by_bracket(T, E_0, E_1, s);
 }
 
 // The step with the dampers l_0, l_1 of (11).
@@ -218,7 +241,7 @@ void MomentRule::damped(const MomentMatrix& T, double eta, double b_0, double b_
     const double r_0 = eta - s.to, r_1 = s.from - eta, d_0 = L.m00 * r_0 + L.m01 * r_1,
                  d_1 = L.m10 * r_0 + L.m11 * r_1;
     const Powers from = powers(s.from);
-    s.lost = potential(eta, 0) - from.V - from.force * (eta - s.from) + d_0 * r_0 + d_1 * r_1;
+    s.lost = law_.potential(eta) - from.V - from.force * (eta - s.from) + d_0 * r_0 + d_1 * r_1;
     s.phi_0 -= d_0, s.phi_1 -= d_1;
     s.slope = {-L.m00, -L.m01, -L.m10, -L.m11};
 }
@@ -304,8 +327,11 @@ MomentRule::Integrals MomentRule::integrals(double eta, double r_0, double r_1) 
     const double A = -3 * r_1, B = 3 * r_1 - r_0, end = eta - r_0;
     std::array<double, 5> cut{};
     std::size_t cuts = 0;
-    const auto add = [&](double s) {
-        if (s > 0 && s < 1) cut[cuts++] = s;
+    const auto add = [&](double s) {  // in order
+        if (!(s > 0 && s < 1)) return;
+        std::size_t i = cuts++;
+        for (; i > 0 && cut[i - 1] > s; --i) cut[i] = cut[i - 1];
+        cut[i] = s;
     };
     if (const double square = B * B - 4 * A * eta; square > 0) {
         const double half = -0.5 * (B + std::copysign(std::sqrt(square), B));
@@ -313,7 +339,6 @@ MomentRule::Integrals MomentRule::integrals(double eta, double r_0, double r_1) 
         if (A != 0) add(half / A);
     }
     if (clipped_ && beta_ > 0 && A != 0) add(-(span_ / beta_ + B) / (2 * A));
-    std::sort(cut.begin(), cut.begin() + static_cast<long>(cuts));
     cut[cuts++] = 1;
     Integrals all;
     const bool polynomial = law_.alpha == 1;
@@ -350,14 +375,9 @@ MomentRule::Integrals MomentRule::integrals(double eta, double r_0, double r_1) 
     return all;
 }
 
-// Newton's steps in r with a line search on the residual of r = b + T phi(r).
-void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, double b_1,
-                             MomentContact& s) const noexcept {
-    if (stays_out(eta, b_0, b_1)) {
-        s.from = eta, s.to = eta - b_0;
-        return;
-    }
-    without_loss(T, eta, eta + b_1, eta - b_0, s);  // first guess: rule D
+// Newton's steps in r with a line search on the residual of r = b + T phi(r), from the guess in s.
+bool MomentRule::galerkin_from(const MomentMatrix& T, double eta, double b_0, double b_1,
+                               MomentContact& s) const noexcept {
     double r_0 = eta - s.to, r_1 = s.from - eta;
     struct Point {
         Integrals at;
@@ -372,17 +392,14 @@ void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, doub
     };
     const double scale = b_0 * b_0 + b_1 * b_1 + eta * eta + 1e-60;
     Point now = look(r_0, r_1);
-    s.converged = false;
-    for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
-        if (now.size <= 1e-29 * scale) {
-            s.converged = true;
-            break;
-        }
+    int halved = 0;
+    for (int i = 0; i < most_newton && now.size > 1e-29 * scale && halved < most_halvings; ++i) {
+        ++s.iterations;
         MomentMatrix J = times(T, now.at.slope);
         J = inverse({1 - J.m00, -J.m01, -J.m10, 1 - J.m11});
         const double d_0 = -(J.m00 * now.e_0 + J.m01 * now.e_1),
                      d_1 = -(J.m10 * now.e_0 + J.m11 * now.e_1);
-        int halved = 0;
+        halved = 0;
         for (double part = 1; halved < most_halvings; ++halved, part *= 0.5) {
             const Point next = look(r_0 + part * d_0, r_1 + part * d_1);
             if (!(next.size < now.size)) continue;
@@ -390,47 +407,63 @@ void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, doub
             now = next;
             break;
         }
-        if (halved == most_halvings) {  // rounding
-            s.converged = now.size <= 1e-24 * scale;
-            break;
-        }
     }
     s.residual = std::sqrt(now.size / scale);
     s.phi_0 = now.at.phi_0, s.phi_1 = now.at.phi_1, s.slope = now.at.slope;
-    s.from = eta, s.to = eta - r_0, s.lost = now.at.lost;
-    s.stored = law_.potential(s.to);
-    s.touches = s.to > 0;
+    s.from = eta + r_1, s.to = eta - r_0, s.lost = now.at.lost;
+    return now.size <= 1e-22 * scale;  // down to rounding
 }
 
-MomentContact MomentRule::solve(const MomentMatrix& T, double eta, double stored, double b_0,
+// First from rule D's step, else by a path from no compliances to all; a step that has neither is
+// rule D's, which loses what is lost there.
+void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, double b_1,
+                             MomentContact& s) const noexcept {
+    if (stays_out(eta, b_0, b_1)) {
+        s.from = eta, s.to = eta - b_0;
+        return;
+    }
+    without_loss(T, eta, eta + b_1, eta - b_0, s);
+    s.converged = galerkin_from(T, eta, b_0, b_1, s);
+    if (!s.converged) {
+        s.from = eta + b_1, s.to = eta - b_0;
+        for (double part = 1.0 / 64; part <= 1; part *= 2)
+            s.converged = galerkin_from(
+                {part * T.m00, part * T.m01, part * T.m10, part * T.m11}, eta, b_0, b_1, s);
+    }
+    if (s.converged) {
+        s.from = eta, s.by_parabola = true;
+        return;
+    }
+    s.slope = {};
+    by_rule_d(T, eta, b_0, b_1, s);
+}
+
+void MomentRule::by_rule_d(const MomentMatrix& T, double eta, double b_0, double b_1,
+                           MomentContact& s) const noexcept {
+    if (beta_ > 0) {
+        with_loss(T, eta, b_0, b_1, s);
+        return;
+    }
+    without_loss(T, eta, eta + b_1, eta - b_0, s);
+    const Powers from = powers(s.from);
+    s.lost = law_.alpha == 1 ? lost_linear(eta, s.from)
+                             : law_.potential(eta) - from.V - from.force * (eta - s.from);
+}
+
+MomentContact MomentRule::solve(const MomentMatrix& T, double eta, double b_0,
                                 double b_1) const noexcept {
     MomentContact s;
     if (galerkin_) by_galerkin(T, eta, b_0, b_1, s);
-    else if (beta_ > 0) with_loss(T, eta, b_0, b_1, s);
-    else {
-        without_loss(T, eta, eta + b_1, eta - b_0, s);
-        if (law_.alpha == 1 || law_.rigid())
-            s.lost = lost_linear(eta, stored, s.from, s.phi_0 - s.phi_1);
-        else {
-            const Powers from = powers(s.from);
-            s.lost = law_.potential(eta) - from.V - from.force * (eta - s.from);
-        }
-    }
+    else by_rule_d(T, eta, b_0, b_1, s);
+    s.touches = s.to > 0;
     return s;
 }
 
 MomentMatrix MomentRule::answer(const MomentMatrix& T, const MomentContact& s) const noexcept {
     MomentMatrix K = s.slope;
-    if (!galerkin_) {
-        const bool rigid = law_.rigid();
-        const double stiff = 1e9 / T.m00;  // in place of a rigid barrier
-        Powers a = powers(s.from), b = powers(s.to);
-        if (rigid) {
-            a = {0, std::max(0.0, s.phi_0 - s.phi_1), s.phi_0 > s.phi_1 ? stiff : 0};
-            b = {s.stored, s.touches ? s.phi_0 + s.phi_1 : 0, s.touches ? stiff : 0};
-        }
-        const Quotient v = rigid ? Quotient{s.phi_0, 0.5 * a.slope, 0.5 * b.slope}
-                                 : quotient(s.from, s.to, a, b);
+    if (!s.by_parabola) {
+        const Powers a = powers(s.from);
+        const Quotient v = quotient(s.from, s.to, a, powers(s.to));
         K.m00 -= v.by_to, K.m01 += v.by_from;
         K.m10 -= v.by_to, K.m11 += v.by_from - a.slope;
     }

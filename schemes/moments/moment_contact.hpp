@@ -8,12 +8,12 @@
 //     E_1, E_0  eta_0 - b_0 and eta_0 + b_1: the ends of the line without forces   m
 //     e_0, e_1  ends of the line that the contact sees: eta_0 + r_1, eta_0 - r_0   m
 //     V, DV     potential; discrete gradient [V(e_1) - V(e_0)]/(e_1 - e_0)         J, N
-//     c         1/k, nothing where the barrier is rigid                            m/N
+//     c         1/k; a rigid barrier has 1e-10 T_00                                m/N
 //     rho       3 T_11/T_00: 1 of a point that only radiates, 0 of a free mass     1
 //
-// Rule D (rho >= 0.2, and rigid barriers):  phi_0 = DV, phi_1 = DV - V'(e_0), eta -> e_1.   (6)
+// Rule D (rho >= 0.2, and rigid barriers):   phi_0 = DV, phi_1 = DV - V'(e_0), eta -> e_1.   (6)
 //     lost = V(eta_0) - V(e_0) - V'(e_0) (eta_0 - e_0) >= 0                                 (7)
-// Rule G (rho < 0.2): moments of V' over the parabola eta_0 - r_0 s - 3 r_1 (s^2 - s).     (10)
+// Rule G (rho < 0.2, of a contact that is alone): moments of V' over the parabola eta_0 - r_0 s - 3 r_1 (s^2 - s).     (10)
 //
 // Contact loss V'(eta) (1 + beta eta'): rule G integrates it as it stands. In rule D it is a line
 // lambda >= 0 of dampers with the moments l_0, l_1 (11); the step with the compliances
@@ -31,9 +31,9 @@ struct MomentMatrix {  // rows r_0, r_1; columns phi_0, phi_1
 struct MomentContact {  // over a step
     double phi_0 = 0, phi_1 = 0;  // force on the string [N]
     double from = 0, to = 0;      // e_0 and e_1; by rule G eta_0 and e_1 [m]
-    double stored = 0;            // V at the end of the step, of a rigid barrier [J]
     double lost = 0;              // [J]
     bool touches = false;         // at the end of the step
+    bool by_parabola = false;     // by rule G
     MomentMatrix slope;           // d phi/d r, where asked for [N/m]
     int iterations = 0;           // 0: closed form
     bool converged = true;
@@ -43,31 +43,26 @@ struct MomentContact {  // over a step
 class MomentRule {
 public:
     MomentRule() = default;
-    // T: of the contact alone, the thread eliminated [m/N]; span: H [s]
-    MomentRule(const ContactLaw&, double beta, LossLaw, const MomentMatrix& T, double span);
+    // T: of the contact alone, the thread eliminated [m/N]; span: H [s]; alone: rule G may have it
+    MomentRule(const ContactLaw&, double beta, LossLaw, const MomentMatrix& T, double span,
+               bool alone = true);
 
     bool conserves() const { return galerkin_; }  // rule G
     // closed form, by rule D without loss, exponent 1
     bool is_linear() const { return linear_; }
     double c() const { return c_; }
-    const ContactLaw& law() const { return law_; }
+    const ContactLaw& law() const { return law_; }  // a rigid barrier's is a stiff spring
 
     // stays out, without forces
     bool stays_out(double eta, double b_0, double b_1) const;
-    // One step from eta, where a rigid barrier has stored V. T: the compliances, own or with
-    // others eliminated. last: the penetration of the step before, for a first guess.
-    MomentContact solve(const MomentMatrix& T, double eta, double stored, double b_0,
-                        double b_1) const noexcept;
+    // One step from eta. T: the compliances, own or with others eliminated.
+    MomentContact solve(const MomentMatrix& T, double eta, double b_0, double b_1) const noexcept;
     // d phi/d b = slope (1 - T slope)^-1 of a step solved with these T
     MomentMatrix answer(const MomentMatrix& T, const MomentContact&) const noexcept;
 
-    double potential(double eta, double stored) const {
-        return law_.rigid() ? stored : law_.potential(eta);
-    }
     // (7) of a linear contact, without cancellation
-    double lost_linear(double eta, double stored, double from, double force_from) const {
-        if (from <= 0 && force_from <= 0) return potential(eta, stored);
-        if (law_.rigid()) return stored - force_from * eta;
+    double lost_linear(double eta, double from) const {
+        if (from <= 0) return law_.potential(eta);
         return eta > 0 ? 0.5 * law_.k * (eta - from) * (eta - from)
                        : 0.5 * law_.k * from * (from - 2 * eta);
     }
@@ -85,6 +80,7 @@ private:
     bool by_lines(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
     void by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
                    MomentContact&) const noexcept;
+    void by_bracket(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
     void without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
                       MomentContact&) const noexcept;
     void with_loss(const MomentMatrix& T, double eta, double b_0, double b_1,
@@ -99,6 +95,10 @@ private:
         MomentMatrix slope;
     };
     Integrals integrals(double eta, double r_0, double r_1) const noexcept;
+    bool galerkin_from(const MomentMatrix& T, double eta, double b_0, double b_1,
+                       MomentContact&) const noexcept;
+    void by_rule_d(const MomentMatrix& T, double eta, double b_0, double b_1,
+                   MomentContact&) const noexcept;
     void by_galerkin(const MomentMatrix& T, double eta, double b_0, double b_1,
                      MomentContact&) const noexcept;
 
@@ -106,7 +106,6 @@ private:
     double beta_ = 0, span_ = 1, c_ = 0;
     bool clipped_ = false, galerkin_ = false, linear_ = true;
     int twice_ = 0;  // 2 alpha where that is a small whole number: no pow
-    MomentMatrix own_;
 };
 
 }  // namespace jvari

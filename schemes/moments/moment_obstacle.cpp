@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "schemes/decompositions.hpp"
 
 namespace jvari {
 
 namespace {
-constexpr int most_blocks = 25, most_sweeps = 2000;
+constexpr int most_blocks = 60, most_sweeps = 200;
 constexpr std::size_t kept_sets = 16;
 
 // Gauss's elimination with pivots, in place: rows of `columns` numbers, the first n of which are
@@ -47,117 +49,172 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
     if (n_ > most_contacts)
         throw Refusal("forces that are lines in the step: at most " +
                       std::to_string(most_contacts) + " contacts, here " + std::to_string(n_));
-    const int P = points_, n = n_, D = 2 * P;
-    if (series && P > 0) {
-        ladder_.emplace(*series, span);
-        ladder_->add_compliance(theta_);
-    }
-    for (auto* v : {&f_, &moved_, &spring_}) v->assign(D, 0.0);
+    const int n = n_, D = 2 * points_;
+    if (series && D > 0) ladder_.emplace(*series, span);
     if (!threads.empty()) thread_ = threads.front();
-    std::vector<long double> T(static_cast<std::size_t>(4) * n * n);
-    const auto at = [&](int i, int p, int j, int q) { return theta_[(i * P + p) * D + j * P + q]; };
+    put_linear_part();
+    for (int a = 0; a < n; ++a) {
+        rules_.emplace_back(contacts.laws[a], contacts.loss[a], contacts.loss_law[a], own(a), span,
+                            n == 1);
+        if (rules_[a].is_linear()) linear_ |= std::uint64_t{1} << a;
+    }
+    if (n > 1) {
+        std::vector<ContactLaw> laws;
+        std::vector<double> means;
+        for (int a = 0; a < n; ++a) {
+            laws.push_back(rules_[a].law());
+            for (int c = 0; c < n; ++c) means.push_back(T(0, a, 0, c));
+        }
+        gram_ = ContactGram(laws, means);
+    }
+    found_.resize(n);
+    active_.resize(n);
+    for (auto* v : {&moved_, &spring_, &ends_, &trial_, &step_, &last_}) v->assign(D, 0.0);
+    b_.assign(2 * static_cast<std::size_t>(D), 0.0);
+    for (auto* v : {&next_, &x_before_}) v->assign(x_.size(), 0.0);
+    matrix_.assign(static_cast<std::size_t>(2 * n) * (4 * n + 1), 0.0);
+    sets_.resize(n > 1 ? kept_sets : 1);
+    for (Kept& s : sets_) {
+        s.contacts.assign(n, 0);
+        s.inverse.assign(static_cast<std::size_t>(4) * n * n, 0.0);
+    }
+    if (n == 1 && linear_) std::copy_n(kept(1).inverse.begin(), 4, inverse_);
+}
+
+// The matrices of a step. F = free + G x, G the ladder's own motion; pull = K_f F_c + K_s Y_c.
+void MomentObstacle::put_linear_part() {
+    const int P = points_, n = n_, D = 2 * P, c = n, ladder = ladder_ ? D : 0,
+              S = ladder + (thread_ ? 1 : 0);
+    using Real = long double;
+    std::vector<Real> theta(theta_.begin(), theta_.end()), G(static_cast<std::size_t>(D) * ladder);
+    for (int k = 0; ladder_ && k < P; ++k)
+        for (int i = 0; i < 2; ++i)
+            for (int p = 0; p < P; ++p) {
+                const auto& by = ladder_->pattern(k).by[i];
+                const Real w = ladder_->w(k, p);
+                G[(i * P + p) * ladder + k] = w * by[0];
+                G[(i * P + p) * ladder + P + k] = w * by[1];
+                for (int j = 0; j < 2; ++j)
+                    for (int q = 0; q < P; ++q)
+                        theta[(i * P + p) * D + j * P + q] += w * by[2 + j] * ladder_->w(k, q);
+            }
+    std::vector<Real> pull_by_free(4), pull_by_stretch(2), answer(4 * n);
     if (thread_) {
-        const double k = thread_->stiffness, r = thread_->damping / span;
-        const long double K[2][2] = {{0.5 * k + r, -0.5 * k}, {0.5 * k, 3 * r}};
-        std::vector<long double> S(4);
+        const double k = thread_->stiffness, r = thread_->damping / span_;
+        const Real K[2][2] = {{0.5 * k + r, -0.5 * k}, {0.5 * k, 3 * r}};
+        std::vector<Real> one(4);
         for (int i = 0; i < 2; ++i)
             for (int j = 0; j < 2; ++j)
-                S[2 * i + j] = (i == j) + K[i][0] * at(0, n, j, n) + K[i][1] * at(1, n, j, n);
-        S = inverse_of(S, 2);
-        answer_.assign(4 * n, 0.0);
-        std::vector<long double> answer(4 * n);
+                one[2 * i + j] = (i == j) + K[i][0] * theta[c * D + j * P + c] +
+                                 K[i][1] * theta[(P + c) * D + j * P + c];
+        one = inverse_of(one, 2);
         for (int i = 0; i < 2; ++i) {
-            pull_by_stretch_[i] = static_cast<double>(-S[2 * i] * k);
+            pull_by_stretch[i] = -one[2 * i] * k;
             for (int j = 0; j < 2; ++j) {
-                long double by = 0;
-                for (int l = 0; l < 2; ++l) {
-                    by += S[2 * i + l] * K[l][j];
-                    for (int a = 0; a < n; ++a)
+                pull_by_free[2 * i + j] = -(one[2 * i] * K[0][j] + one[2 * i + 1] * K[1][j]);
+                for (int a = 0; a < n; ++a)
+                    for (int l = 0; l < 2; ++l)
                         for (int m = 0; m < 2; ++m)
-                            answer[(2 * i + j) * n + a] += S[2 * i + l] * K[l][m] * at(m, n, j, a);
-                }
-                pull_by_free_[i][j] = static_cast<double>(-by);
+                            answer[(2 * i + j) * n + a] -= one[2 * i + l] * K[l][m] *
+                                                           theta[(m * P + c) * D + j * P + a];
             }
         }
-        std::copy(answer.begin(), answer.end(), answer_.begin());
-        for (int i = 0; i < 2; ++i)
-            for (int a = 0; a < n; ++a)
-                for (int j = 0; j < 2; ++j)
-                    for (int b = 0; b < n; ++b)
-                        for (int l = 0; l < 2; ++l)
-                            T[((i * n + a) * 2 + j) * n + b] -=
-                                at(i, a, l, n) * answer[(2 * l + j) * n + b];
+    }
+    pull_by_.assign(answer.begin(), answer.end());
+    // A: b and pull by F and Y_c
+    std::vector<Real> A(static_cast<std::size_t>(D) * D), A_Y(D);
+    for (int i = 0; i < 2; ++i)
+        for (int p = 0; p < P; ++p) {
+            const int row = i * P + p;
+            if (p < n) A[row * D + row] = 1;
+            for (int l = 0; thread_ && l < 2; ++l) {
+                const Real by = p < n ? theta[row * D + l * P + c] : (l == i ? 1 : 0);
+                A_Y[row] += by * pull_by_stretch[l];
+                for (int j = 0; j < 2; ++j) A[row * D + j * P + c] += by * pull_by_free[2 * l + j];
+            }
+        }
+    points_by_.assign(static_cast<std::size_t>(S + D) * D, 0.0);
+    for (int row = 0; row < D; ++row) {
+        for (int x = 0; x < ladder; ++x) {
+            Real sum = 0;
+            for (int f = 0; f < D; ++f) sum += A[row * D + f] * G[f * ladder + x];
+            points_by_[x * D + row] = static_cast<double>(sum);
+        }
+        if (thread_) points_by_[ladder * D + row] = static_cast<double>(A_Y[row]);
+        for (int f = 0; f < D; ++f)
+            points_by_[(S + f) * D + row] = static_cast<double>(A[row * D + f]);
+    }
+    state_by_.assign(static_cast<std::size_t>(S + D) * S, 0.0);
+    for (int k = 0; ladder_ && k < P; ++k)
+        for (int row = 0; row < 2; ++row) {  // d, v
+            const auto& by = ladder_->pattern(k).by[2 * row];
+            const int to = row * P + k;
+            for (int x = 0; x < 2; ++x)
+                state_by_[(x * P + k) * S + to] = by[x] + (x == row ? 1 : 0);
+            for (int j = 0; j < 2; ++j)
+                for (int p = 0; p < P; ++p)
+                    state_by_[(S + j * P + p) * S + to] = by[2 + j] * ladder_->w(k, p);
+        }
+    if (thread_) {
+        for (int x = 0; x < ladder; ++x)
+            state_by_[x * S + S - 1] = static_cast<double>(G[c * ladder + x]);
+        state_by_[ladder * S + S - 1] = 1;
+        for (int f = 0; f < D; ++f)
+            state_by_[(S + f) * S + S - 1] = static_cast<double>(theta[c * D + f]);
     }
     for (int i = 0; i < 2; ++i)
         for (int a = 0; a < n; ++a)
             for (int j = 0; j < 2; ++j)
-                for (int b = 0; b < n; ++b)
-                    T_.push_back(static_cast<double>(T[((i * n + a) * 2 + j) * n + b] +
-                                                     at(i, a, j, b)));
-    for (int a = 0; a < n; ++a) {
-        rules_.emplace_back(contacts.laws[a], contacts.loss[a], contacts.loss_law[a], own(a), span);
-        if (rules_[a].is_linear()) linear_ |= std::uint64_t{1} << a;
-    }
-    found_.resize(n);
-    active_.resize(2 * n);
-    ends_.assign(D, 0.0);
-    trial_.assign(D, 0.0);
-    matrix_.assign(static_cast<std::size_t>(2 * n) * (4 * n + 1), 0.0);
-    if (n == 1 && linear_) {
-        const Kept& full = (sets_.resize(1), kept(1));
-        std::copy_n(full.inverse.begin(), 4, inverse_);
-    } else if (n > 1) {
-        sets_.resize(kept_sets);
-        for (Kept& s : sets_) {
-            s.contacts.assign(n, 0);
-            s.inverse.assign(static_cast<std::size_t>(4) * n * n, 0.0);
-        }
-    }
-}
-
-int MomentObstacle::dofs() const {
-    return static_cast<int>(std::count_if(contacts_.laws.begin(), contacts_.laws.end(),
-                                          [](const ContactLaw& l) { return l.rigid(); }));
+                for (int b = 0; b < n; ++b) {
+                    Real sum = theta[(i * P + a) * D + j * P + b];
+                    for (int l = 0; thread_ && l < 2; ++l)
+                        sum += theta[(i * P + a) * D + l * P + c] * answer[(2 * l + j) * n + b];
+                    T_.push_back(static_cast<double>(sum));
+                }
+    x_.assign(S, 0.0);
 }
 
 void MomentObstacle::begin(const double* reading, const double*, const double* force) {
-    if (ladder_) ladder_->rest(force);
+    if (ladder_) ladder_->rest(force, x_.data());
+    const auto at = [&](int p) {
+        return reading[p] + (ladder_ ? ladder_->yields(x_.data(), p) : 0);
+    };
     for (int a = 0; a < n_; ++a) {
         at_[a] = {};
-        at_[a].eta = contacts_.heights[a] - reading[a] - (ladder_ ? ladder_->yields(a) : 0);
+        at_[a].eta = contacts_.heights[a] - at(a);
     }
-    if (thread_) stretch_ = reading[n_] + (ladder_ ? ladder_->yields(n_) : 0) - thread_->height;
-    stretch_before_ = stretch_;
-    moved_thread_ = pull_1_ = 0;
+    if (thread_) x_.back() = at(n_) - thread_->height;
+    x_before_ = x_;
+    std::fill(last_.begin(), last_.end(), 0.0);
     set_ = 0;
 }
 
 void MomentObstacle::start_from(const MomentObstacle& before) noexcept {
     if (!ladder_) return;
-    for (int p = 0; p < points_; ++p) spring_[p] = ladder_->yields(p);
-    ladder_->start_from(*before.ladder_);
-    for (int a = 0; a < n_; ++a) at_[a].eta += spring_[a] - ladder_->yields(a);
-    if (thread_) stretch_ += ladder_->yields(n_) - spring_[n_];
+    const auto yields = [&](int p) { return ladder_->yields(x_.data(), p); };
+    for (int p = 0; p < points_; ++p) spring_[p] = yields(p);
+    std::copy_n(before.x_.begin(), 2 * points_, x_.begin());
+    for (int a = 0; a < n_; ++a) at_[a].eta += spring_[a] - yields(a);
+    if (thread_) x_.back() += yields(n_) - spring_[n_];
 }
 
 double MomentObstacle::potential(const double*, int) const {
-    double sum = ladder_ ? ladder_->stored() : 0;
-    for (int a = 0; a < n_; ++a) sum += rules_[a].potential(at_[a].eta, at_[a].stored);
-    if (thread_) sum += 0.5 * thread_->stiffness * stretch_ * stretch_;
+    double sum = ladder_ ? ladder_->stored(x_.data()) : 0;
+    for (int a = 0; a < n_; ++a) sum += rules_[a].law().potential(at_[a].eta);
+    if (thread_) sum += 0.5 * thread_->stiffness * x_.back() * x_.back();
     return sum;
 }
 
 double MomentObstacle::loss() const {
-    double lost = ladder_ ? ladder_->lost() : 0;
+    double lost = ladder_ ? ladder_->lost(x_before_.data(), last_.data()) : 0;
     for (int a = 0; a < n_; ++a) {
         const Point& p = at_[a];
-        lost += p.closed ? rules_[a].lost_linear(p.eta_before, p.stored_before, p.from, p.force_from)
-                         : p.lost;
+        lost += p.closed ? rules_[a].lost_linear(p.eta_before, p.from) : p.lost;
     }
     if (thread_ && thread_->damping > 0) {  // r_c/H (r_0^2 + 3 r_1^2), r_1 from phi_c1
-        const double r = thread_->damping / span_,
-                     r_1 = -(pull_1_ + 0.5 * thread_->stiffness * moved_thread_) / (3 * r);
-        lost += r * (moved_thread_ * moved_thread_ + 3 * r_1 * r_1);
+        const double r = thread_->damping / span_, r_0 = x_.back() - x_before_.back(),
+                     r_1 = -(last_.back() + 0.5 * thread_->stiffness * r_0) / (3 * r);
+        lost += r * (r_0 * r_0 + 3 * r_1 * r_1);
     }
     return lost / span_;
 }
@@ -165,31 +222,33 @@ double MomentObstacle::loss() const {
 void MomentObstacle::take(int a, const MomentContact& s) noexcept {
     Point& p = at_[a];
     moved_[a] = p.eta - s.to;
-    p = {s.to, s.stored, p.eta, p.stored, s.from, 0, false, s.lost};
+    p = {s.to, p.eta, s.from, false, s.lost};
     if (s.touches && rules_[a].is_linear()) set_ |= std::uint64_t{1} << a;
     if (s.phi_0 != 0 || s.phi_1 != 0)
         tally_.note(s.phi_0, std::max({p.eta_before, p.eta, s.from}));
 }
 
-void MomentObstacle::take_linear(int a, double phi_0, double phi_1, double from,
-                                 double to) noexcept {
+void MomentObstacle::take_out(int a, double moved) noexcept {
+    Point& p = at_[a];
+    moved_[a] = moved;
+    const double lost = rules_[a].conserves() ? 0 : rules_[a].law().potential(p.eta);
+    p = {p.eta - moved, p.eta, p.eta, false, lost};
+}
+
+void MomentObstacle::take_linear(int a, double phi_0, double from, double to) noexcept {
     Point& p = at_[a];
     moved_[a] = p.eta - to;
-    p = {to, 0.5 * (phi_0 + phi_1) * std::max(to, 0.0), p.eta, p.stored, from, phi_0 - phi_1, true,
-         0};
+    p = {to, p.eta, from, true, 0};
     if (phi_0 != 0) tally_.note(phi_0, std::max({p.eta_before, p.eta, from}));
 }
 
 bool MomentObstacle::alone(const double* b, double* force) noexcept {
     if (rules_[0].stays_out(at_[0].eta, b[0], b[points_])) {
         force[0] = force[points_] = 0;
-        MomentContact out;
-        out.from = out.to = at_[0].eta - b[0];
-        out.lost = rules_[0].conserves() ? 0 : rules_[0].potential(at_[0].eta, at_[0].stored);
-        take(0, out);
+        take_out(0, b[0]);
         return true;
     }
-    const MomentContact s = rules_[0].solve(own(0), at_[0].eta, at_[0].stored, b[0], b[points_]);
+    const MomentContact s = rules_[0].solve(own(0), at_[0].eta, b[0], b[points_]);
     force[0] = s.phi_0, force[points_] = s.phi_1;
     take(0, s);
     tally_.note(s.iterations, s.residual);
@@ -199,9 +258,8 @@ bool MomentObstacle::alone(const double* b, double* force) noexcept {
 // Of the linear contacts in full contact: c (phi_0 + phi_1) + (T phi)_0 = E_1 and c (phi_0 - phi_1)
 // - (T phi)_1 = E_0.
 const MomentObstacle::Kept& MomentObstacle::kept(std::uint64_t set) noexcept {
-    Kept& s = sets_[sets_.size() == 1 ? 0 : (set ^ (set >> 7) ^ (set >> 19)) % sets_.size()];
+    Kept& s = sets_[(set ^ (set >> 7) ^ (set >> 19)) % sets_.size()];
     if (s.set == set) return s;
-    if (s.contacts.empty()) s.contacts.assign(n_, 0), s.inverse.assign(4 * n_ * n_, 0.0);
     s.set = set;
     s.size = 0;
     for (int a = 0; a < n_; ++a)
@@ -277,13 +335,9 @@ bool MomentObstacle::several(const double* b, double* force) noexcept {
         for (int a = 0; a < n_; ++a) {
             if (set >> a & 1) {
                 const double c = rules_[a].c(), phi_0 = force[a], phi_1 = force[P + a];
-                take_linear(a, phi_0, phi_1, c * (phi_0 - phi_1), c * (phi_0 + phi_1));
+                take_linear(a, phi_0, c * (phi_0 - phi_1), c * (phi_0 + phi_1));
             } else {
-                MomentContact out;
-                out.from = out.to = at_[a].eta - trial_[a];
-                out.lost = rules_[a].conserves() ? 0
-                                                 : rules_[a].potential(at_[a].eta, at_[a].stored);
-                take(a, out);
+                take_out(a, trial_[a]);
             }
         }
         if (set) tally_.note(0, 0);
@@ -321,7 +375,7 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b,
         less.m00 += t_0 * by_0, less.m01 += t_0 * by_1;
         less.m10 += t_1 * by_0, less.m11 += t_1 * by_1;
     }
-    const MomentContact own = rules_[a].solve(less, at_[a].eta, at_[a].stored, b_0, b_1);
+    const MomentContact own = rules_[a].solve(less, at_[a].eta, b_0, b_1);
     if (!own.converged) return false;
     std::fill_n(trial_.data(), 2 * P, 0.0);
     trial_[a] = own.phi_0, trial_[P + a] = own.phi_1;
@@ -344,7 +398,7 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b,
         double c_0, c_1;
         moved_by_others(c, b, trial_.data(), c_0, c_1);
         if (!rules_[c].stays_out(at_[c].eta, c_0, c_1)) return false;
-        ends_[c] = at_[c].eta - c_0;
+        ends_[c] = c_0;
     }
     set_ = others;
     for (int c = 0; c < n_; ++c) {
@@ -353,99 +407,119 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b,
             take(a, own);
         } else if (others >> c & 1) {
             const double give = rules_[c].c();
-            take_linear(c, force[c], force[P + c], give * (force[c] - force[P + c]),
+            take_linear(c, force[c], give * (force[c] - force[P + c]),
                         give * (force[c] + force[P + c]));
         } else {
-            MomentContact out;
-            out.from = out.to = ends_[c];
-            out.lost =
-                rules_[c].conserves() ? 0 : rules_[c].potential(at_[c].eta, at_[c].stored);
-            take(c, out);
+            take_out(c, ends_[c]);
         }
     }
     tally_.note(own.iterations, own.residual);
     return true;
 }
 
-// phi_a = S_a(b_a + the others' T phi) for all contacts: Newton's steps with S_a' = answer().
-bool MomentObstacle::by_newton(const double* b, double* force) noexcept {
+// Each contact solved for itself under the others' forces: found_. What is left of phi = S(phi): the
+// sum of squares, and the largest against the largest force.
+MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) noexcept {
+    Rest rest;
+    double largest = 0;
+    for (int a = 0; a < n_; ++a) {
+        double b_0, b_1;
+        moved_by_others(a, b, force, b_0, b_1);
+        const MomentContact& s = found_[a] =
+            rules_[a].solve(own(a), at_[a].eta, b_0, b_1);
+        const double d_0 = s.phi_0 - force[a], d_1 = s.phi_1 - force[points_ + a];
+        rest.squares += d_0 * d_0 + d_1 * d_1;
+        rest.relative = std::max({rest.relative, std::abs(d_0), std::abs(d_1)});
+        largest = std::max({largest, std::abs(s.phi_0), std::abs(s.phi_1)});
+    }
+    rest.relative = rest.relative > 0 ? rest.relative / largest : 0;
+    return rest;
+}
+
+// Newton's step of phi = S(phi), S' = answer() T, into step_. False where its matrix is singular.
+bool MomentObstacle::newton_step(const double* force) noexcept {
     const int P = points_;
-    int iterations = 0;
-    const auto index = [&](int x) { return x % 2 * P + x / 2; };
-    for (; iterations < most_blocks; ++iterations) {
-        double worst = 0, largest = 0;
-        int active = 0;
+    int active = 0;
+    for (int a = 0; a < n_; ++a) {
+        step_[a] = found_[a].phi_0 - force[a], step_[P + a] = found_[a].phi_1 - force[P + a];
+        if (found_[a].phi_0 != 0 || found_[a].phi_1 != 0) active_[active++] = a;
+    }
+    const int size = 2 * active, columns = size + 1;
+    for (int i = 0; i < active; ++i) {
+        const int a = active_[i];
+        const MomentMatrix S = rules_[a].answer(own(a), found_[a]);
+        double *first = matrix_.data() + 2 * i * columns, *second = first + columns;
+        for (int k = 0; k < size; ++k) {
+            const int c = active_[k / 2], j = k % 2;
+            const double t_0 = c == a ? 0 : T(0, a, j, c), t_1 = c == a ? 0 : T(1, a, j, c);
+            first[k] = (k == 2 * i) - (S.m00 * t_0 + S.m01 * t_1);
+            second[k] = (k == 2 * i + 1) - (S.m10 * t_0 + S.m11 * t_1);
+        }
+        first[size] = step_[a], second[size] = step_[P + a];
+    }
+    if (!eliminate(matrix_.data(), size, columns)) return false;
+    for (int i = 0; i < size; ++i)
+        step_[i % 2 * P + active_[i / 2]] = matrix_[i * columns + size];
+    return true;
+}
+
+// Newton's steps with a search along each, then one contact after another with half of each change.
+bool MomentObstacle::by_newton(const double* b, double* force) noexcept {
+    constexpr double enough = 1e-13;
+    const int D = 2 * points_;
+    int iterations = 0, halved = 0;
+    double squares = std::numeric_limits<double>::infinity();
+    bool solved = false;
+    for (; iterations < most_blocks && !solved; ++iterations) {
+        const Rest rest = look(b, force);
+        solved = rest.relative <= enough;
+        if (solved) break;
+        if (rest.squares >= squares && halved < 6) {
+            ++halved;
+            for (int i = 0; i < D; ++i) step_[i] *= 0.5, force[i] = trial_[i] + step_[i];
+            continue;
+        }
+        halved = 0;
+        squares = rest.squares;
+        std::copy_n(force, D, trial_.begin());
+        if (!newton_step(force)) break;
+        for (int i = 0; i < D; ++i) force[i] += step_[i];
+    }
+    for (int sweep = 0; sweep < most_sweeps && !solved; ++sweep, ++iterations) {
         for (int a = 0; a < n_; ++a) {
             double b_0, b_1;
             moved_by_others(a, b, force, b_0, b_1);
-            found_[a] = rules_[a].solve(own(a), at_[a].eta, at_[a].stored, b_0, b_1);
-            const MomentContact& s = found_[a];
-            worst = std::max({worst, std::abs(s.phi_0 - force[a]),
-                              std::abs(s.phi_1 - force[P + a])});
-            largest = std::max({largest, std::abs(s.phi_0), std::abs(s.phi_1)});
-            if (s.phi_0 == 0 && s.phi_1 == 0) force[a] = force[P + a] = 0;
-            else active_[active++] = 2 * a, active_[active++] = 2 * a + 1;
+            const MomentContact s = rules_[a].solve(own(a), at_[a].eta, b_0, b_1);
+            force[a] += 0.5 * (s.phi_0 - force[a]);
+            force[points_ + a] += 0.5 * (s.phi_1 - force[points_ + a]);
         }
-        if (worst <= 1e-13 * largest) break;
-        const int columns = active + 1;
-        for (int i = 0; i < active; i += 2) {
-            const int a = active_[i] / 2;
-            const MomentMatrix S = rules_[a].answer(own(a), found_[a]);
-            double *first = matrix_.data() + i * columns, *second = first + columns;
-            for (int k = 0; k < active; ++k) {
-                const int c = active_[k] / 2, j = active_[k] % 2;
-                const double t_0 = c == a ? 0 : T(0, a, j, c), t_1 = c == a ? 0 : T(1, a, j, c);
-                first[k] = (k == i) - (S.m00 * t_0 + S.m01 * t_1);
-                second[k] = (k == i + 1) - (S.m10 * t_0 + S.m11 * t_1);
-            }
-            first[active] = found_[a].phi_0 - force[a];
-            second[active] = found_[a].phi_1 - force[P + a];
-        }
-        if (!eliminate(matrix_.data(), active, columns)) {
-            iterations = most_blocks;
-            break;
-        }
-        for (int i = 0; i < active; ++i)
-            force[index(active_[i])] += matrix_[i * columns + active];
+        solved = look(b, force).relative <= enough;
     }
-    if (iterations == most_blocks) return in_turn(b, force, iterations);
+    for (int a = 0; a < n_; ++a) solved = solved && found_[a].converged;
+    if (!solved) return by_constant_forces(b, force);
     set_ = 0;
-    bool converged = true;
     for (int a = 0; a < n_; ++a) {
-        force[a] = found_[a].phi_0, force[P + a] = found_[a].phi_1;
-        converged = converged && found_[a].converged;
+        force[a] = found_[a].phi_0, force[points_ + a] = found_[a].phi_1;
         take(a, found_[a]);
     }
     tally_.note(std::max(iterations, 1), 0);
-    return converged;
+    return true;
 }
 
-// One contact after another, the others' forces held, until no force changes.
-bool MomentObstacle::in_turn(const double* b, double* force, int iterations) noexcept {
-    const int P = points_;
-    std::fill_n(force, n_, 0.0);
-    std::fill_n(force + P, n_, 0.0);
-    bool converged = false;
-    for (int sweep = 0; sweep < most_sweeps && !converged; ++sweep, ++iterations) {
-        double worst = 0, largest = 0;
-        converged = true;
-        for (int a = 0; a < n_; ++a) {
-            double b_0, b_1;
-            moved_by_others(a, b, force, b_0, b_1);
-            found_[a] = rules_[a].solve(own(a), at_[a].eta, at_[a].stored, b_0, b_1);
-            const MomentContact& s = found_[a];
-            worst = std::max({worst, std::abs(s.phi_0 - force[a]),
-                              std::abs(s.phi_1 - force[P + a])});
-            largest = std::max({largest, std::abs(s.phi_0), std::abs(s.phi_1)});
-            force[a] = s.phi_0, force[P + a] = s.phi_1;
-            converged = converged && s.converged;
-        }
-        converged = converged && worst <= 1e-13 * largest;
-    }
+bool MomentObstacle::by_constant_forces(const double* b, double* force) noexcept {
+    for (int a = 0; a < n_; ++a) trial_[a] = at_[a].eta, ends_[a] = -b[a];
+    const GramSolution s = gram_.solve(trial_.data(), ends_.data(), step_.data(), force);
     set_ = 0;
-    for (int a = 0; a < n_; ++a) take(a, found_[a]);
-    tally_.note(iterations, 0);
-    return converged;
+    ++constant_;
+    for (int a = 0; a < n_; ++a) {
+        force[points_ + a] = 0;
+        MomentContact one;
+        one.phi_0 = force[a], one.from = at_[a].eta, one.to = at_[a].eta - step_[a];
+        one.touches = one.to > 0;
+        take(a, one);
+    }
+    tally_.note(s.iterations, s.residual);
+    return s.converged;
 }
 
 std::vector<Fact> MomentObstacle::facts() const {
@@ -453,9 +527,16 @@ std::vector<Fact> MomentObstacle::facts() const {
                                         [](const MomentRule& r) { return r.conserves(); });
     std::vector<Fact> f = {{facts::contact_points, static_cast<double>(n_)},
                            {facts::conserving_contacts, static_cast<double>(conserve)},
+                           {facts::constant_force_steps, static_cast<double>(constant_)},
                            {facts::smallest_contact_force, tally_.force.least},
                            {facts::largest_contact_force, tally_.force.most},
                            {facts::deepest_penetration, tally_.deepest}};
+    if (contacts_.any_rigid())
+        f.push_back({facts::rigid_stiffness,
+                     std::accumulate(rules_.begin(), rules_.end(), 0.0,
+                                     [](double k, const MomentRule& r) {
+                                         return std::max(k, r.law().k);
+                                     })});
     const double solves = static_cast<double>(tally_.solves);
     f.push_back({facts::contact_solves, solves});
     f.push_back({facts::contact_iterations_mean,

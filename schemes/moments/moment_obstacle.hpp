@@ -5,17 +5,23 @@
 //     r = free + Theta phi,   phi_c = -k_c (Y_c, 0) - K_c r_c of the thread, eliminated         (5)
 //     K_c = [[k_c/2 + r_c/H, -k_c/2], [k_c/2, 3 r_c/H]]
 //
+// All but the contacts is linear. With x the ladder's state and the stretch Y_c of the thread, one
+// matrix makes b of each contact and the pull of the thread alone of x and free, others make phi_c
+// and the next x.
+//
 // Several contacts (docs/two-moments.md, section 7):
 //   1. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
 //   2. where one contact does not agree, its own equation with the others eliminated;
-//   3. else Newton's steps on all of them, each contact solved for itself.
+//   3. else Newton's steps on all of them, each contact solved for itself; where they do not end,
+//      forces that are constant in the step (contact_gram.hpp), which are always found.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "schemes/contact/contact_gram.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/obstacle.hpp"
 #include "schemes/moments/exact_ladder.hpp"
@@ -33,8 +39,8 @@ public:
 
     int contacts() const { return contacts_.count(); }
     int points() const { return points_; }
-    int dofs() const;  // beyond what follows from the string's state
-    void clear() { tally_ = {}; }
+    int dofs() const { return 0; }  // beyond what follows from the string's state
+    void clear() { tally_ = {}, constant_ = 0; }
     void begin(const double* reading, const double* moving, const double* force);
     bool is_like(const MomentObstacle& other) const {
         return contacts() == other.contacts() && points() == other.points() &&
@@ -44,19 +50,21 @@ public:
 
     // As Obstacle's, of readings whose `free` has two moments a point. Allocates nothing.
     bool solve(const ReadingsBeforeStep& at, double* force, bool = false) noexcept {
-        return step<0, false>(at.free, force);
+        return step<0, false, false>(at.free, force);
     }
-    template <int few, bool thread>
+    // few: points, where known to the compiler, and then whether there are a thread and a ladder
+    template <int few, bool thread, bool series>
     [[gnu::always_inline]] bool step(const double* free, double* force) noexcept;
     const double* moved() const { return moved_.data(); }
 
     double potential(const double*, int = 0) const;  // [J]
     double loss() const;                             // in the last step [W]
     const double* forces(int) noexcept {  // of the springs in series [N]
-        if (ladder_) ladder_->forces(spring_.data());
+        if (ladder_) ladder_->forces(x_.data(), spring_.data());
         return spring_.data();
     }
     std::vector<Fact> facts() const;
+    bool has_series() const { return ladder_.has_value(); }
     bool any_force(const double* force) const noexcept {
         for (int a = 0; a < contacts(); ++a)
             if (force[a] != 0 || force[points_ + a] != 0) return true;
@@ -64,12 +72,12 @@ public:
     }
 
 private:
-    struct Point {                               // a contact
-        double eta = 0, stored = 0;              // penetration [m]; V of a rigid barrier [J]
-        double eta_before = 0, stored_before = 0;  // at the beginning of the last step
-        double from = 0, force_from = 0;         // e_0 [m] and V'(e_0) [N] of the last step,
-        bool closed = true;                      // where that had a closed form; else
-        double lost = 0;                         // [J]
+    struct Point {  // a contact
+        double eta = 0;         // penetration [m]
+        double eta_before = 0;  // at the beginning of the last step
+        double from = 0;        // e_0 of the last step,
+        bool closed = true;     // where that had a closed form; else
+        double lost = 0;        // [J]
     };
     struct Kept {  // a set of linear contacts in full contact
         std::uint64_t set = 0;
@@ -88,12 +96,20 @@ private:
     const Kept& kept(std::uint64_t set) noexcept;
     bool by_set(const Kept&, const double* b, double* force) noexcept;
     bool with_one(std::uint64_t others, int a, const double* b, double* force) noexcept;
+    struct Rest {
+        double squares = 0, relative = 0;
+    };
+    Rest look(const double* b, const double* force) noexcept;
+    bool newton_step(const double* force) noexcept;
     bool by_newton(const double* b, double* force) noexcept;
-    bool in_turn(const double* b, double* force, int iterations) noexcept;
+    bool by_constant_forces(const double* b, double* force) noexcept;
     void moved_by_others(int a, const double* b, const double* force, double& b_0,
                          double& b_1) const noexcept;
     void take(int a, const MomentContact&) noexcept;
-    void take_linear(int a, double phi_0, double phi_1, double from, double to) noexcept;
+    void take_linear(int a, double phi_0, double from, double to) noexcept;
+    void take_out(int a, double moved) noexcept;
+
+    void put_linear_part();
 
     Contacts contacts_;
     int n_, points_;
@@ -102,60 +118,73 @@ private:
     std::vector<MomentRule> rules_;
     std::vector<Point> at_;
     std::optional<Thread> thread_;
-    double stretch_ = 0, stretch_before_ = 0;  // Y_c - h_c [m]
-    double moved_thread_ = 0, pull_1_ = 0;     // r_c0 and phi_c1 in the last step
-    double pull_by_free_[2][2] = {}, pull_by_stretch_[2] = {};
-    std::vector<double> answer_;  // of phi_c to the contacts' phi, 2 x 2n [1]
     std::optional<ExactLadder> ladder_;
-    double inverse_[4] = {};  // of one linear contact in full contact
+    // d and v of the ladder, then the thread's stretch Y_c - h_c; at the beginning of the last step
+    std::vector<double> x_, x_before_;
+    // By columns: b of the contacts and the pull of the thread, of x, then of free; the next x, of
+    // x, then of phi.
+    std::vector<double> points_by_, state_by_;
+    std::vector<double> pull_by_;  // phi_c of the contacts' phi, 2 x 2n
+    std::vector<double> last_;     // phi of the last step
+    double inverse_[4] = {};       // of one linear contact in full contact
     ContactTally tally_;
-    std::vector<double> f_, moved_, spring_;  // workspaces: free moments; r_0; C^-1 D
-    std::vector<double> ends_, trial_, matrix_;
+    std::vector<double> b_, next_, moved_, spring_;  // workspaces; r_0; C^-1 D
+    std::vector<double> ends_, trial_, step_, matrix_;
     std::vector<MomentContact> found_;
+    ContactGram gram_;
+    long constant_ = 0;  // steps by it
     std::vector<int> active_;
     std::uint64_t set_ = 0, linear_ = 0;  // touching linear contacts; all linear contacts
     std::vector<Kept> sets_;
 };
 
-// Inline for the kernels that make whole steps. few: points, where known.
-template <int few, bool thread>
+// to += sum over columns of M x; columns of `rows` numbers
+template <int known>
+[[gnu::always_inline]] inline void add_product(const double* M, const double* x, int columns,
+                                               int rows, double* to) noexcept {
+    for (int c = 0; c < columns; ++c, M += known > 0 ? known : rows)
+        for (int r = 0; r < (known > 0 ? known : rows); ++r) to[r] += M[r] * x[c];
+}
+
+// Inline for the kernels that make whole steps.
+template <int few, bool thread, bool series>
 [[gnu::always_inline]] inline bool MomentObstacle::step(const double* free,
                                                         double* force) noexcept {
-    const int P = few > 0 ? few : points_, n = few > 0 ? few - thread : n_, c = n;
+    constexpr int D = few > 0 ? 2 * few : 0, S = few > 0 ? 2 * few * series + thread : 0;
+    const int P = few > 0 ? few : points_, n = few > 0 ? few - thread : n_, c = n,
+              states = few > 0 ? S : static_cast<int>(x_.size());
     const bool has_thread = few > 0 ? thread : thread_.has_value();
-    double local[few > 0 ? 2 * few : 1];
-    double* f = few > 0 ? local : f_.data();
-    for (int i = 0; i < 2 * P; ++i) f[i] = free[i];
-    if (ladder_) ladder_->add_free<few>(f);
-    double pull_0 = 0, pull_1 = 0;
-    if (has_thread) {
-        pull_0 = pull_by_free_[0][0] * f[c] + pull_by_free_[0][1] * f[P + c] +
-                 pull_by_stretch_[0] * stretch_;
-        pull_1 = pull_by_free_[1][0] * f[c] + pull_by_free_[1][1] * f[P + c] +
-                 pull_by_stretch_[1] * stretch_;
-        moved_thread_ = f[c];
-        for (int i = 0; i < 2; ++i)
-            for (int a = 0; a < n; ++a) {
-                const double* row = theta_.data() + (i * P + a) * 2 * P;
-                f[i * P + a] += row[c] * pull_0 + row[P + c] * pull_1;
-            }
+    double local[D > 0 ? 2 * D : 1], state[S > 0 ? S : 1];
+    double *b = few > 0 ? local : b_.data(), *by_free = b + 2 * P,
+           *next = few > 0 ? state : next_.data();
+    const double* x = x_.data();
+    if (states == 0) {
+        for (int i = 0; i < 2 * P; ++i) b[i] = free[i];
+    } else {
+        for (int i = 0; i < 2 * P; ++i) b[i] = by_free[i] = 0;
+        add_product<D>(points_by_.data(), x, states, 2 * P, b);
+        add_product<D>(points_by_.data() + states * 2 * P, free, 2 * P, 2 * P, by_free);
+        for (int i = 0; i < 2 * P; ++i) b[i] += by_free[i];
+        for (int i = 0; i < states; ++i) next[i] = 0;
+        add_product<S>(state_by_.data(), x, states, states, next);
     }
     bool converged = true;
-    if (n == 1) converged = one<few>(f, force);
-    else if (n > 1) converged = several(f, force);
+    if (n == 1) converged = one<few>(b, force);
+    else if (n > 1) converged = several(b, force);
     if (has_thread) {
+        double pull_0 = b[c], pull_1 = b[P + c];
         for (int a = 0; a < n; ++a) {
-            pull_0 -= answer_[a] * force[a] + answer_[n + a] * force[P + a];
-            pull_1 -= answer_[2 * n + a] * force[a] + answer_[3 * n + a] * force[P + a];
+            pull_0 += pull_by_[a] * force[a] + pull_by_[n + a] * force[P + a];
+            pull_1 += pull_by_[2 * n + a] * force[a] + pull_by_[3 * n + a] * force[P + a];
         }
         force[c] = pull_0, force[P + c] = pull_1;
-        const double* row = theta_.data() + c * 2 * P;
-        for (int i = 0; i < 2 * P; ++i) moved_thread_ += row[i] * force[i];
-        pull_1_ = pull_1;
-        stretch_before_ = stretch_;
-        stretch_ += moved_thread_;
+        next[states - 1] += free[c];
     }
-    if (ladder_) ladder_->step<few>(force);
+    if (states > 0) {
+        add_product<S>(state_by_.data() + states * states, force, 2 * P, states, next);
+        for (int i = 0; i < states; ++i) x_before_[i] = x_[i], x_[i] = next[i];
+        for (int i = 0; i < 2 * P; ++i) last_[i] = force[i];
+    }
     return converged;
 }
 
@@ -168,7 +197,7 @@ template <int few>
         if (E_0 <= 0 && E_1 <= 0) {
             force[0] = force[P] = 0;
             moved_[0] = b[0];
-            at = {E_1, 0, at.eta, at.stored, E_0, 0, true, 0};
+            at = {E_1, at.eta, E_0, true, 0};
             return true;
         }
         const double phi_0 = inverse_[0] * E_1 + inverse_[1] * E_0,
@@ -177,8 +206,7 @@ template <int few>
             force[0] = phi_0, force[P] = phi_1;
             const double c = rules_[0].c(), to = c * (phi_0 + phi_1);
             moved_[0] = at.eta - to;
-            at = {to, 0.5 * (phi_0 + phi_1) * to, at.eta, at.stored, c * (phi_0 - phi_1),
-                  phi_0 - phi_1, true, 0};
+            at = {to, at.eta, c * (phi_0 - phi_1), true, 0};
             tally_.note(phi_0, std::max(at.eta_before, to));
             tally_.note(0, 0);
             return true;

@@ -12,7 +12,8 @@ namespace jvari {
 namespace {
 
 using std::numbers::pi;
-const std::vector<std::string> forms{"modal_two_point",
+const std::vector<std::string> forms{"modal_two_moment",
+                                     "modal_two_point",
                                      "modal_two_point_trapezoidal",
                                      "modal_three_point",
                                      "modal_spatial_newton",

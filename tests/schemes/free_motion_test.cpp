@@ -33,7 +33,8 @@ std::vector<ExactClaim> exact_claims() {
     const Scene lossy = c3_free(), quiet = lossless(c3_free());
     const Start wide = TriangleShape{0.2, 2e-3, 0.02};
     const std::string two = "modal_two_point", three = "modal_quadratised levels=3",
-                      newton = "modal_spatial_newton";
+                      newton = "modal_spatial_newton",
+                      moments = "modal_two_moment";
     std::vector<ExactClaim> all{
         {"QuadratisedInTwoLevels", "modal_quadratised", heard(quiet, wide, 0.5), 44100, 100},
         {"QuadratisedInThreeLevels", three, heard(quiet, wide, 0.5), 44100, 100},
@@ -46,6 +47,15 @@ std::vector<ExactClaim> exact_claims() {
          1,
          {0},
          1e-12},
+        {"TwoMoments", moments, heard(quiet, wide, 1), 44100, 133, {0, 1, 2}, 1e-10, 88.2},
+        {"TwoMomentsWithLosses", moments, heard(lossy, wide, 1), 44100, 133, {0, 1, 2}, 1e-10, 88.2},
+        {"TwoMomentsOverdamped",
+         moments,
+         heard(with_damping(lossy, PolynomialDamping{1500, 0, 0}), ModeShape{1, 1e-3}, 0.01),
+         44100,
+         1,
+         {0, 1, 2},
+         1e-11},
         {"Newton", newton, heard(quiet, wide, 1), 44100, 133, {0, 1, 2}, 1e-10, 88.2},
         {"NewtonWithLosses", newton, heard(lossy, wide, 1), 44100, 133, {0, 1, 2}, 1e-10, 88.2},
         // 2 - C loses omega dt^2: the plain recursion is detuned by 1e-7 here

@@ -97,6 +97,8 @@ TEST(Impacts, PushAsMuchAsTheRowsOfTheContactForce) {
     };
     for (const auto& [form, name, modes] :
          {Case{"modal_two_point", "tanpura_c3_release", 60},
+          {"modal_two_moment", "tanpura_c3_release", 60},
+          {"modal_two_moment compliance=matched", "two_point_bridge", 60},
           {"exact_contact", "tanpura_c3_release", 60},
           {"modal_two_point compliance=matched", "tanpura_c3_release", 60},
           {"modal_two_point", "sitar_parabola", 60},

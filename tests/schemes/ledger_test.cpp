@@ -26,7 +26,8 @@ Forms and_grids(Forms forms) {
 // at 44.1 kHz modal_spatial_newton is too soft for this
 const Forms matched = with(
                 "compliance=matched",
-                and_grids({"modal_two_point", "modal_two_point_trapezoidal", "modal_quadratised"})),
+                and_grids({"modal_two_moment", "modal_two_point", "modal_two_point_trapezoidal",
+                           "modal_quadratised"})),
             matched_newton{"modal_spatial_newton compliance=matched"},
             matched_profiles =
                 with("compliance=matched points=8", and_grids({"modal_spatial_newton"}));
@@ -169,7 +170,8 @@ Scene gliding(bool fretted, bool plucked) {
 std::vector<LedgerClaim> ledger_claims() {
     using Of = LedgerClaim;
     constexpr double x1 = 44100;
-    const Forms two_point{"modal_two_point"}, newton{"modal_spatial_newton"};
+    const Forms two_point{"modal_two_point"}, two_moment{"modal_two_moment"},
+        newton{"modal_spatial_newton"};
     const Forms both{"modal_quadratised", "modal_quadratised variant=raw"};
     const Forms impact{"modal_moreau_jean", "modal_two_point_moreau_jean",
                        "finite_difference_hamiltonian_moreau_jean"};
@@ -204,6 +206,16 @@ std::vector<LedgerClaim> ledger_claims() {
            {{8 * x1, 32 * x1}, 0, 421}, {1e-13}),
         Of("TwoPointMatchedOnAProfile", with("compliance=matched points=8", two_point),
            {library("sitar_parabola", 0.01)}, {{128e3}, 0, 80}, {1e-12}, {}, true),
+        Of("TwoMomentsOverASecond", two_moment, {c3_release(), c3_pluck()}, {{44100}, 0, 133},
+           {1e-13, 1e-11}),
+        Of("TwoMomentsInAPowerLaw", two_moment, {stiff_power_law()}, {{2 * x1}, x1, 133},
+           {1e-12, 1e-11}, {}, true),
+        Of("TwoMomentsOnSeveralPoints", two_moment, {bridges[1]}, {{128e3}, 0, 80}, {1e-13},
+           {.more_than = 0, .least = -1e-16}, true),
+        Of("TwoMomentsOnSeveralPointsThatLose", two_moment, losing({bridges[1]}, 5),
+           {{128e3}, 0, 80}, {1e-13}, {.more_than = 0, .least = -1e-16}),
+        Of("TwoMomentsThatCreepUnderAStrongLoss", two_moment, creeping(), {{44100}, 0, 10},
+           {1e-13}, {.least = -1e-16}),
         Of("Quadratised", quadratised_and_raw, plucked_and_released(0.04), {{x1, 3 * x1}, x1, 60},
            {1e-13}),
         Of("QuadratisedWithoutLosses", quadratised_and_raw, {lossless(lasting(c3_release(), 0.1))},

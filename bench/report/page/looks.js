@@ -8,7 +8,7 @@
 // name, how its schemes' names begin, colour on a light page and on a dark one; in the order of
 // legends
 const families = [
-  ["two-point", "modal_two_point", "#0d44e1", "#3799e1"],
+  ["two-moment and two-point", "modal_two_", "#0d44e1", "#3799e1"],
   ["quadratised", "modal_quadratised", "#480588", "#9a38f7"],
   ["spatial", "modal_spatial", "#0a722e", "#25ff90"],
   ["grid", "finite_difference", "#c07c00", "#e0a326"],

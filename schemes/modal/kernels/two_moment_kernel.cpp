@@ -18,15 +18,21 @@ namespace {
 using Stream = TwoMomentStream;
 constexpr int any_number = -1;  // of points, at run time
 
-HWY_INLINE double column_dot(const double* HWY_RESTRICT w, const Stream& m, int column) {
+// Sum of on_a a + on_b b.
+HWY_INLINE double sum_of(const double* HWY_RESTRICT on_a, const double* HWY_RESTRICT on_b,
+                         const Stream& m) {
     const D d;
-    const int N = static_cast<int>(hn::Lanes(d));
-    V even = hn::Zero(d), odd = hn::Zero(d);
-    for (int i = 0; i < m.size; i += 2 * N) {
-        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, m.stream + m.at(column, i)), even);
-        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, m.stream + m.at(column, i + N)), odd);
-    }
-    return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
+    const int N = static_cast<int>(hn::Lanes(d)), step = m.columns() * Stream::line;
+    V of_a = hn::Zero(d), of_b = hn::Zero(d);
+    const double* HWY_RESTRICT line = m.stream;
+    for (int i = 0; i < m.modes; i += Stream::line, line += step)
+        for (int k = 0; k < Stream::line; k += N) {
+            of_a = hn::MulAdd(hn::Load(d, on_a + i + k),
+                              hn::Load(d, line + Stream::a * Stream::line + k), of_a);
+            of_b = hn::MulAdd(hn::Load(d, on_b + i + k),
+                              hn::Load(d, line + Stream::b * Stream::line + k), of_b);
+        }
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a, of_b)));
 }
 
 // forced: whether contacts push; a thread always does.
@@ -35,7 +41,7 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     constexpr int columns = Stream::weights + 2 * points, some = points > 0 ? points : 1,
-                  from = forced ? 0 : points - thread;
+                  from = forced ? 0 : points - (thread ? 1 : 0);
     V force_0[some], force_1[some], sum_0[some], sum_1[some];
     for (int p = 0; p < points; ++p) {
         force_0[p] = hn::Set(d, phi[p]), force_1[p] = hn::Set(d, phi[points + p]);
@@ -119,7 +125,7 @@ template <int points, bool thread>
 HWY_INLINE void pass(Stream& m, const double* phi, bool contacts) {
     if constexpr (points == any_number) {
         many_points(m, phi, contacts);
-    } else if constexpr (points > thread) {
+    } else if constexpr (points > (thread ? 1 : 0)) {
         if (contacts) few_points<points, thread, true>(m, phi);
         else few_points<points, thread, false>(m, phi);
     } else {
@@ -142,21 +148,20 @@ HWY_INLINE void write(const Stream& m, MomentObstacle& at, const Block& out, int
     for (int k = 0; k < out.taps; ++k) {
         const TwoMomentTap& t = r.taps[k];
         double x = 0, of_springs = 0;
-        if (t.on_a)
-            x += column_dot(t.on_a, m, Stream::a) + column_dot(t.on_b, m, Stream::b);
+        if (t.on_a) x += sum_of(t.on_a, t.on_b, m);
         for (int p = 0; t.on_mean && p < m.points; ++p) x += t.on_mean[p] * mean[p];
         for (int p = 0; t.on_series && p < m.points; ++p) of_springs += t.on_series[p] * spring[p];
         out.tap[k * out.stride + row] = t.on_series ? x + of_springs : x;
     }
 }
 
-template <int points, bool thread>
+template <int points, bool thread, bool series>
 bool rows_of(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
     for (int row = r.first; row < r.end; ++row) {
         write(m, at, out, row, r);
         for (long i = 0; i < r.steps_per_row; ++i) {
             ++r.steps;
-            const bool converged = at.step<points, thread>(m.free, r.force);
+            const bool converged = at.step<points, thread, series>(m.free, r.force);
             for (int p = 0; p < m.points; ++p) r.sum[p] += r.force[p];
             pass<points, thread>(m, r.force, at.any_force(r.force));
             if (!converged) {
@@ -169,8 +174,17 @@ bool rows_of(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) 
     }
     return true;
 }
+template <int points, bool thread>
+bool rows_without(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
+    return rows_of<points, thread, false>(m, at, out, r);
+}
+template <int points, bool thread>
+bool rows_with(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
+    return rows_of<points, thread, true>(m, at, out, r);
+}
 }  // namespace
 
+// [thread][points]: up to five, then any number
 #define JVARI_BY_POINTS(function)                                                             \
     {                                                                                         \
         {function<0, false>, function<1, false>, function<2, false>, function<3, false>,      \
@@ -182,15 +196,16 @@ TwoMomentPass choose_moment_pass(int points, bool thread) {
     static constexpr TwoMomentPass table[2][7] = JVARI_BY_POINTS(pass_of);
     return table[thread][points <= 5 ? points : 6];
 }
-TwoMomentRowsKernel choose_moment_rows(int points, bool thread) {
-    static constexpr TwoMomentRowsKernel table[2][7] = JVARI_BY_POINTS(rows_of);
-    return table[thread][points <= 5 ? points : 6];
+TwoMomentRowsKernel choose_moment_rows(int points, bool thread, bool series) {
+    static constexpr TwoMomentRowsKernel with[2][7] = JVARI_BY_POINTS(rows_with),
+                                         without[2][7] = JVARI_BY_POINTS(rows_without);
+    return (series ? with : without)[thread][points <= 5 ? points : 6];
 }
 #undef JVARI_BY_POINTS
-double dot_of_moment_column(const double* w, const TwoMomentStream& m, int column) {
-    return column_dot(w, m, column);
+double sum_of_columns(const double* on_a, const double* on_b, const TwoMomentStream& m) {
+    return sum_of(on_a, on_b, m);
 }
-TwoMomentDot choose_moment_dot() { return dot_of_moment_column; }
+TwoMomentSum choose_moment_sum() { return sum_of_columns; }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
@@ -200,14 +215,14 @@ HWY_AFTER_NAMESPACE();
 namespace jvari {
 HWY_EXPORT(choose_moment_pass);
 HWY_EXPORT(choose_moment_rows);
-HWY_EXPORT(choose_moment_dot);
+HWY_EXPORT(choose_moment_sum);
 
 TwoMomentPass two_moment_pass(int points, bool thread) {
     return HWY_DYNAMIC_DISPATCH(choose_moment_pass)(points, thread);
 }
-TwoMomentRowsKernel two_moment_rows(int points, bool thread) {
-    return HWY_DYNAMIC_DISPATCH(choose_moment_rows)(points, thread);
+TwoMomentRowsKernel two_moment_rows(int points, bool thread, bool series) {
+    return HWY_DYNAMIC_DISPATCH(choose_moment_rows)(points, thread, series);
 }
-TwoMomentDot two_moment_dot() { return HWY_DYNAMIC_DISPATCH(choose_moment_dot)(); }
+TwoMomentSum two_moment_sum() { return HWY_DYNAMIC_DISPATCH(choose_moment_sum)(); }
 }  // namespace jvari
 #endif

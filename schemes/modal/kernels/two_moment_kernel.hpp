@@ -51,10 +51,10 @@ struct TwoMomentRows {
 // False: the caller wants no more.
 using TwoMomentRowsKernel = bool (*)(TwoMomentStream&, MomentObstacle&, const Block&,
                                      TwoMomentRows&);
-TwoMomentRowsKernel two_moment_rows(int points, bool thread);
+TwoMomentRowsKernel two_moment_rows(int points, bool thread, bool series);
 
-// Sum of w and a column, over the padded modes.
-using TwoMomentDot = double (*)(const double* w, const TwoMomentStream&, int column);
-TwoMomentDot two_moment_dot();
+// Sum of on_a a + on_b b, over the padded modes.
+using TwoMomentSum = double (*)(const double* on_a, const double* on_b, const TwoMomentStream&);
+TwoMomentSum two_moment_sum();
 
 }  // namespace jvari
