@@ -9,6 +9,12 @@ namespace jvari {
 // rows; 0 outside [start, start + duration]
 double force(const Pluck&, double t);
 
+// The mean of F_e over the step from t to t + dt, and 3 times the integral of F_e (2s - 1) over its
+// share s = 0 .. 1, so that F_e is about mean + moment (2s - 1) [N]. A file's are exact, of (14)
+// they hold to 1e-12 of a_e. A step may hold the whole pluck.
+double mean_force(const Pluck&, double t, double dt);
+double first_moment(const Pluck&, double t, double dt);
+
 // The row of a file's force that the line about the instant t begins at.
 std::size_t line_at(const Pluck&, double t);
 
