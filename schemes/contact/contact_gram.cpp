@@ -30,10 +30,11 @@ MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
 }
 
 ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,
-                         Force force)
+                         Force force, double share)
     : laws_(laws.begin(), laws.end()),
       theta_(theta.begin(), theta.end()),
-      at_the_end_(force == Force::at_the_end) {
+      of_the_ends_(force == Force::of_the_ends),
+      share_(share) {
     const int n = count();
     std::vector<char> seen(n, 0);
     for (int seed = 0; seed < n; ++seed) {
@@ -49,28 +50,99 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
                 }
         groups_.push_back({first, static_cast<int>(order_.size()) - first});
     }
-    for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_, &root_}) w->assign(n, 0.0);
+    for (auto* w : {&depth_, &mean_, &spring_, &slope_, &defect_, &dr_, &df_, &root_})
+        w->assign(n, 0.0);
     active_.assign(n, 0);
     for (const Group& g : groups_) largest_ = std::max(largest_, g.count);
     system_ = ScaledSystem(largest_);
 }
 
-[[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta,
-                                                                 double b) const noexcept {
-    const double theta = theta_[a * count() + a];
-    if (!at_the_end_) return solve_contact(laws_[a], eta, b, theta);
-    const double force = laws_[a].force(depth_in_series(laws_[a], eta + b, theta));
+[[gnu::always_inline]] inline ContactSolution ContactGram::spring_alone(
+    int a, double eta, double b, double theta) const noexcept {
+    if (!of_the_ends_) return solve_contact(laws_[a], eta, b, theta);
+    const double old = share_ * laws_[a].force(eta);
+    const double depth = depth_in_series(laws_[a], eta + b - theta * old, (1 - share_) * theta);
+    const double force = (1 - share_) * laws_[a].force(depth) + old;
     return {theta * force - b, force};
 }
 
-MeanForce ContactGram::force_at(int a, double eta, double depth) const noexcept {
-    return at_the_end_ ? MeanForce{laws_[a].force(depth), -laws_[a].slope(depth)}
-                       : mean_force(laws_[a], eta, depth);
+[[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta,
+                                                                 double b) const noexcept {
+    return loses(a) ? losing_alone(a, eta, b) : spring_alone(a, eta, b, theta_[a * count() + a]);
 }
 
-GramSolution ContactGram::solve(const double* eta, const double* b, double* r,
-                                double* force) noexcept {
+// With w = 1 - kappa r the spring acts through w Theta: R(w) is its r, and w - 1 + kappa R(w) rises
+// with w, from below 0 at 0. Newton's method on w keeps the digits of the spring's closed form.
+ContactSolution ContactGram::losing_alone(int a, double eta, double b) const noexcept {
+    const double kappa = loss_[a].kappa, theta = theta_[a * count() + a];
+    if (-b * kappa >= 1)
+        return loss_[a].clipped ? ContactSolution{-b, 0} : pulling_alone(a, eta, b);
+    double low = 0, high = 1 + kappa * b, w = std::min(1.0, high);
+    ContactSolution s;
+    for (int i = 1;; ++i) {
+        const bool last = s.residual < force_change && i > 1;
+        s = spring_alone(a, eta, b, theta * w);
+        const double miss = w - 1 + kappa * s.r;
+        s.iterations = i;
+        s.residual = std::abs(miss) / (w + 1 + kappa * std::abs(s.r));
+        s.converged = s.converged && i < most_iterations;
+        if (last || !s.converged) break;
+        (miss > 0 ? high : low) = w;
+        const double slope = spring_at(a, eta, eta - s.r).slope,
+                     next = w - miss / (1 + kappa * theta * s.force / (1 - theta * w * slope));
+        w = next >= low && next <= high ? next : 0.5 * (low + high);
+    }
+    s.force *= w;
+    return s;
+}
+
+// 1/kappa <= r <= -b, from a closed contact: F <= 0
+ContactSolution ContactGram::pulling_alone(int a, double eta, double b) const noexcept {
+    const double theta = theta_[a * count() + a];
+    double low = 1 / loss_[a].kappa, high = -b;
+    ContactSolution s{high};
+    for (int i = 1;; ++i) {
+        const bool last = s.residual < force_change && i > 1;
+        const MeanForce G = spring_at(a, eta, eta - s.r);
+        const double w = loss_[a].factor(s.r);  // with the digits of r, not of eta
+        s.force = G.value * w;
+        const double miss = s.r + b - theta * s.force;
+        s.iterations = i;
+        s.residual = std::abs(miss) / (s.r - b);
+        s.converged = i < most_iterations;
+        if (last || !s.converged) return s;
+        (miss > 0 ? high : low) = s.r;
+        const double slope = G.slope * w - loss_[a].kappa * G.value,
+                     next = s.r - miss / (1 - theta * slope);
+        s.r = next >= low && next <= high ? next : 0.5 * (low + high);
+    }
+}
+
+MeanForce ContactGram::spring_at(int a, double eta, double depth) const noexcept {
+    const ContactLaw& law = laws_[a];
+    return of_the_ends_ ? MeanForce{(1 - share_) * law.force(depth) + share_ * law.force(eta),
+                                    -(1 - share_) * law.slope(depth)}
+                        : mean_force(law, eta, depth);
+}
+
+MeanForce ContactGram::force_at(int a, double eta, double depth) const noexcept {
+    const MeanForce G = spring_at(a, eta, depth);
+    if (!loses(a)) return G;
+    const double w = loss_[a].factor(eta - depth);
+    if (loss_[a].clipped && w == 0) return {};
+    return {G.value * w, std::min(0.0, G.slope * w - loss_[a].kappa * G.value)};
+}
+
+// G is read from F where the contact closes, whose depth is below the rounding of r.
+double ContactGram::lost_by(int a, double eta, double r, double force) const noexcept {
+    const double w = loss_[a].factor(r), G = r > 0 ? spring_at(a, eta, eta - r).value : force / w;
+    return (1 - w) * r * G;
+}
+
+GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force,
+                                bool elastic) noexcept {
     GramSolution worst;
+    losing_ = !loss_.empty() && !elastic;
     for (const Group& g : groups_) {
         const int a = order_[g.first];
         GramSolution s;
@@ -91,6 +163,9 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r,
         worst.residual = std::max(worst.residual, s.residual);
         worst.converged = worst.converged && s.converged;
     }
+    lost_ = 0;
+    for (int a = 0; losing_ && a < count(); ++a)
+        if (loses(a)) lost_ += lost_by(a, eta[a], r[a], force[a]);
     return worst;
 }
 
@@ -147,7 +222,9 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
 
     const auto reach = [&](int a) {  // the scale of rounding in r_a's equation
         double sum = std::abs(b[a]) + std::abs(eta[a]);
-        for (int j = 0; j < n; ++j) sum += std::abs(theta_[a * stride + set[j]] * f[set[j]]);
+        for (int j = 0; j < n; ++j)  // G and kappa r G may nearly cancel
+            sum += std::abs(theta_[a * stride + set[j]]) *
+                   std::max(std::abs(f[set[j]]), spring_[set[j]]);
         return sum;
     };
     const auto displaced = [&](int a) {  // r_a = -b_a + (Theta f)_a
@@ -160,6 +237,9 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             const MeanForce F = force_at(set[i], eta[set[i]], depth_[set[i]]);
             mean_[set[i]] = F.value;
             slope_[set[i]] = F.slope;
+            if (loses(set[i]))  // of whose terms r has the digits of eta
+                spring_[set[i]] = spring_at(set[i], eta[set[i]], depth_[set[i]]).value *
+                                  (1 + loss_[set[i]].kappa * std::abs(eta[set[i]]));
         }
         for (int i = 0; i < n; ++i) {
             double sum = eta[set[i]] + b[set[i]] - depth_[set[i]];
@@ -188,7 +268,8 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             df_[a] = mean_[a] + slope_[a] * dr_[a] - f[a];
             const double step = std::abs(dr_[a]);
             const bool stays_out = slope_[a] == 0 && step <= -1e-3 * depth_[a];
-            const bool settled = slope_[a] < 0 && -slope_[a] * step <= force_change * mean_[a];
+            const bool settled =
+                slope_[a] < 0 && -slope_[a] * step <= force_change * std::abs(mean_[a]);
             s.converged = s.converged &&
                           (stays_out || settled || std::abs(defect_[a]) <= rounding * reach(a));
         }
@@ -219,7 +300,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
     --s.iterations;
     for (int i = 0; i < n; ++i) {
         const int a = set[i];
-        if (f[a] < 0) f[a] = mean_[a];
+        if (f[a] < 0 && !loses(a)) f[a] = mean_[a];
     }
     for (int i = 0; i < n; ++i) {
         const int a = set[i];

@@ -10,8 +10,8 @@
 //             2 dt in three-point ones, where the thread so sees the mean
 //             of the two outer levels and stays stable at any stiffness
 //     F       of the threads, which are eliminated (eliminated_thread.hpp)   N     [000] 45-47
-//     D_a     beta_a V_a'(eta_a^n)/span of a contact that loses energy: it   N/m   [004] 24
-//             pulls by D_a r_a more (contact_loss.hpp)
+//     kappa_a beta_a/span of a contact that loses energy: its rule's force   1/m
+//             times 1 - kappa_a r_a (StepLoss, contact.hpp)
 //     D, P    stretch and force of what stands in series with the points     m, N  (4), (5) of
 //             (residual.hpp): they touch at reading + D, and r = free - H +        compliance-
 //     H, K    (Theta + K) F, the same equation                               m, m/N matching.md
@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
-#include "schemes/contact/contact_loss.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/obstacle_rule.hpp"
 #include "schemes/contact/residual.hpp"
@@ -125,8 +124,8 @@ private:
     Contacts contacts_;
     EliminatedThreads threads_;
     std::shared_ptr<ObstacleRule> rule_;
-    ContactLoss loss_;
     std::vector<double> theta_;       // of all points [m/N]
+    std::vector<double> between_;     // the contacts, the threads yielding (48)
     double span_, lost_by_rule_ = 0;  // in the last step [J]
     int levels_;
     bool centred_ = false, fused_ = false;

@@ -27,12 +27,18 @@ QuadratisedContacts::QuadratisedContacts(std::span<const ContactLaw> laws,
     for (const ContactLaw& law : laws) psi_of_.push_back(QuadratisedLaw::make(law, variant, c_));
     for (auto* v : {&psi_, &next_, &eta_, &free_, &f_, &gamma_, &scale_, &df_, &work_})
         v->assign(n, 0.0);
+    for (auto* v : {&kappa_, &shift_}) v->assign(n, 0.0);
     set_.assign(n, 0);
+}
+
+void QuadratisedContacts::lose(std::span<const StepLoss> loss) {
+    for (int a = 0; a < contacts(); ++a) kappa_[a] = loss[a].kappa;
 }
 
 void QuadratisedContacts::begin(const double* eta, const double*) {
     for (int a = 0; a < contacts(); ++a) psi_[a] = psi_of_[a].psi(eta[a]);
     seen_ = {};
+    lost_ = 0;
 }
 
 bool QuadratisedContacts::acts(const BeforeStep& at) const {
@@ -47,16 +53,24 @@ bool QuadratisedContacts::solve_linearly() noexcept {
         next_[a] = psi_[a];
         const double gamma = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
         gamma_[a] = gamma;
-        scale_[a] = std::sqrt(c_) * gamma;
+        // F = G - (c gamma^2 + D) r, the loss with G of r = 0
+        shift_[a] = kappa_[a] * std::max(0.0, 2 * c_ * gamma * psi_[a]);
+        scale_[a] = std::sqrt(c_ * gamma * gamma + shift_[a]);
         if (gamma != 0) set_[many_++] = a;
     }
     if (!factor()) return false;
-    for (int i = 0; i < many_; ++i)
-        work_[i] = std::sqrt(c_) * (2 * psi_[set_[i]] - gamma_[set_[i]] * free_[set_[i]]);
+    for (int i = 0; i < many_; ++i) {
+        const int a = set_[i];
+        work_[i] = 2 * c_ * gamma_[a] * psi_[a] / scale_[a] - scale_[a] * free_[a];
+    }
     system_.solve(work_.data());
     for (int i = 0; i < many_; ++i) {
-        f_[set_[i]] = scale_[set_[i]] * work_[i];
-        next_[set_[i]] = work_[i] / std::sqrt(c_) - psi_[set_[i]];
+        const int a = set_[i];
+        f_[a] = scale_[a] * work_[i];
+        const double square = scale_[a] * scale_[a],
+                     way = (2 * c_ * gamma_[a] * psi_[a] - f_[a]) / square;
+        next_[a] = psi_[a] - gamma_[a] * way;
+        lost_ += shift_[a] * way * way / levels_;
     }
     return true;
 }
@@ -64,15 +78,34 @@ bool QuadratisedContacts::solve_linearly() noexcept {
 double QuadratisedContacts::falls_short(int a) const noexcept {
     double sum = free_[a];
     for (int b = 0; b < contacts(); ++b) sum += theta_[a * contacts() + b] * f_[b];
-    const bool stays = gamma_[a] > 0 && f_[a] >= c_ * gamma_[a] * psi_[a];
-    return sum - (stays ? (2 * psi_[a] - f_[a] / (c_ * gamma_[a])) / gamma_[a]
-                        : c_ * psi_[a] * psi_[a] / f_[a]);
+    return sum - way(a);
+}
+
+// psi+ >= 0
+bool QuadratisedContacts::stays(int a) const noexcept {
+    return gamma_[a] > 0 && f_[a] >= c_ * psi_[a] * (gamma_[a] - kappa_[a] * psi_[a]);
+}
+
+// The r that f belongs to: f = c gamma (2 psi - gamma r)(1 - kappa r), or where psi+ = 0 f = c
+// psi^2 (1/r - kappa)
+double QuadratisedContacts::way(int a) const noexcept {
+    if (!stays(a)) return c_ * psi_[a] * psi_[a] / (f_[a] + shift_[a]);
+    const double left = 2 * psi_[a] - f_[a] / (c_ * gamma_[a]);
+    if (kappa_[a] == 0) return left / gamma_[a];
+    return 2 * left / (gamma_[a] + 2 * kappa_[a] * psi_[a] + slant(a));
+}
+
+// -df/dr/(c gamma) where psi+ >= 0
+double QuadratisedContacts::slant(int a) const noexcept {
+    const double unequal = gamma_[a] - 2 * kappa_[a] * psi_[a];
+    return std::sqrt(unequal * unequal + 4 * kappa_[a] * f_[a] / c_);
 }
 
 bool QuadratisedContacts::release() noexcept {
     const int n = contacts();
     for (int a = 0; a < n; ++a) {  // a first guess: each contact alone
         if (psi_[a] < no_psi) psi_[a] = 0;
+        shift_[a] = c_ * kappa_[a] * psi_[a] * psi_[a];  // f > -shift
         gamma_[a] = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
         next_[a] = 0;
         f_[a] = gamma_[a] > 0 || psi_[a] > 0
@@ -83,7 +116,6 @@ bool QuadratisedContacts::release() noexcept {
                     : 0;
         if (psi_[a] > 0) f_[a] = std::max(f_[a], std::numeric_limits<double>::min());
     }
-    const auto stays = [this](int a) { return gamma_[a] > 0 && f_[a] >= c_ * gamma_[a] * psi_[a]; };
     const auto merit_slope = [this, n](double t) {  // along f + t df
         double sum = 0;
         for (int a = 0; a < n; ++a) f_[a] += t * df_[a];
@@ -105,7 +137,9 @@ bool QuadratisedContacts::release() noexcept {
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
             // (-dr/dF)^-1/2
-            scale_[a] = stays(a) ? std::sqrt(c_) * gamma_[a] : f_[a] / (std::sqrt(c_) * psi_[a]);
+            scale_[a] = !stays(a)        ? (f_[a] + shift_[a]) / (std::sqrt(c_) * psi_[a])
+                        : kappa_[a] == 0 ? std::sqrt(c_) * gamma_[a]
+                                         : std::sqrt(c_ * gamma_[a] * slant(a));
             work_[i] = -scale_[a] * falls_short(a);
         }
         if (!factor()) return false;
@@ -116,10 +150,10 @@ bool QuadratisedContacts::release() noexcept {
             df_[a] = scale_[a] * work_[i];
             double reach = std::abs(free_[a]) + std::abs(eta_[a]);
             for (int b = 0; b < n; ++b) reach += std::abs(theta_[a * n + b] * f_[b]);
-            solved = solved && (std::abs(df_[a]) <= root_change * f_[a] ||
+            solved = solved && (std::abs(df_[a]) <= root_change * (std::abs(f_[a]) + shift_[a]) ||
                                 std::abs(falls_short(a)) <= root_rounding * reach);
-            if (f_[a] + df_[a] <= 0)
-                t = std::min(t, psi_[a] > 0 ? -0.9 * f_[a] / df_[a]
+            if (f_[a] + df_[a] <= -shift_[a])
+                t = std::min(t, psi_[a] > 0 ? -0.9 * (f_[a] + shift_[a]) / df_[a]
                                 : f_[a] > 0 ? -f_[a] / df_[a]
                                             : 1.0);
         }
@@ -139,12 +173,20 @@ bool QuadratisedContacts::release() noexcept {
         }
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
-            f_[a] = std::max(f_[a] + t * df_[a], psi_[a] > 0 ? 0.05 * f_[a] : 0.0);
+            f_[a] = std::max(f_[a] + t * df_[a],
+                             psi_[a] > 0 ? 0.05 * (f_[a] + shift_[a]) - shift_[a] : 0.0);
         }
     }
     iterations_ = step;
-    for (int a = 0; a < n; ++a)
-        if (stays(a)) next_[a] = f_[a] / (c_ * gamma_[a]) - psi_[a];
+    for (int a = 0; a < n; ++a) {
+        if (stays(a))
+            next_[a] = kappa_[a] == 0 ? f_[a] / (c_ * gamma_[a]) - psi_[a]
+                                      : std::max(0.0, psi_[a] - gamma_[a] * way(a));
+        // kappa F r^2/(1 - kappa r), as c (psi^2 - psi+^2) kappa r
+        if (kappa_[a] != 0 && (gamma_[a] > 0 || psi_[a] > 0))
+            lost_ +=
+                c_ * (psi_[a] - next_[a]) * (psi_[a] + next_[a]) * kappa_[a] * way(a) / levels_;
+    }
     return solved;
 }
 
@@ -156,8 +198,9 @@ GramSolution QuadratisedContacts::solve(const BeforeStep& at, double* r, double*
         next_[a] = psi_[a];
     }
     iterations_ = 0;
+    lost_ = 0;
     bool solved = true;
-    if (contacts() == 1) {  // in closed form
+    if (contacts() == 1 && kappa_[0] == 0) {  // in closed form
         const QuadratisedStep s =
             solve_quadratised(psi_of_[0], eta_[0], psi_[0], free_[0], theta_[0]);
         f_[0] = s.force;
@@ -171,6 +214,7 @@ GramSolution QuadratisedContacts::solve(const BeforeStep& at, double* r, double*
 
 GramSolution QuadratisedContacts::start(const BeforeStep& at, double* r, double* force) noexcept {
     many_ = 0;
+    lost_ = 0;
     for (int a = 0; a < contacts(); ++a) {
         eta_[a] = at.now[a];
         f_[a] = 0;
