@@ -42,7 +42,7 @@ Obstacle::Obstacle(const Contacts& contacts, std::vector<Thread> threads,
         one_.theta = between[0];
     }
     one_.of_thread = threads_.one();
-    for (auto* v : {&eta_, &now_, &b_, &r_}) v->assign(contacts.count(), 0.0);
+    for (auto* v : {&eta_, &now_, &b_, &r_, &gained_}) v->assign(contacts.count(), 0.0);
     for (auto* v : {&pull_, &from_}) v->assign(threads_.count(), 0.0);
     for (auto* v : {&older_points_, &now_points_, &free_points_}) v->assign(points(), 0.0);
 }
@@ -89,7 +89,8 @@ double Obstacle::centre(int a, const ReadingsBeforeStep& at, double b, double th
     return now - (K + 0.5 * (threads_.coupling(a, 0) - K)) * thread;
 }
 
-bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at_start) noexcept {
+bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at_start,
+                            bool in_full) noexcept {
     const int n = contacts(), m = threads_.count();
     lost_by_rule_ = 0;
     threads_.alone(at.older, at.free, pull_.data());
@@ -101,6 +102,7 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     }
     const BeforeStep before{eta_.data(), now_.data(), b_.data()};
     bool converged = true;
+    for (int a = 0; in_full && a < n; ++a) gained_[a] = -held_by(a, eta_[a]);
     if (rule_->acts(before)) {
         const GramSolution s = at_start ? rule_->start(before, r_.data(), force)
                                         : rule_->solve(before, r_.data(), force);
@@ -114,6 +116,7 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     } else {
         for (int a = 0; a < n; ++a) force[a] = 0, r_[a] = -b_[a];
     }
+    for (int a = 0; in_full && a < n; ++a) gained_[a] += held_by(a, eta_[a] - r_[a]);
     for (int t = 0; t < m; ++t) force[n + t] = pull_[t], from_[t] = at.older[n + t];
     return converged;
 }
@@ -128,7 +131,7 @@ bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force, bool
     }
     const ReadingsBeforeStep there{older_points_.data(), now_points_.data(), free_points_.data()};
     const bool converged =
-        fused_ && !in_full ? solve_one(there, force) : solve_points(there, force, false);
+        fused_ && !in_full ? solve_one(there, force) : solve_points(there, force, false, in_full);
     series_->step(force);
     return converged;
 }

@@ -195,7 +195,10 @@ private:
         for (int a = 0; a < obstacle_.contacts(); ++a) {
             const BarrierOf& of = points().contacts.of[a];
             impacts_[of.string].told = true;
-            impacts_[of.string].step(of, a, to, dt_, levels * dt_, force_[a], obstacle_.moved()[a]);
+            const double moved = obstacle_.moved()[a];
+            impacts_[of.string].step(of, a,
+                                     {to, dt_, levels * dt_, force_[a], moved,
+                                      -force_[a] * moved / levels - obstacle_.gained()[a]});
         }
     }
 
