@@ -97,11 +97,13 @@ using MakeRule = std::function<std::shared_ptr<ObstacleRule>(
 struct RuleChoice {  // by which the contacts of a string act
     MakeRule make;
     MakeRule rigid = {};  // where the barriers do not give way
+    // whether an equilibrium on contacts of an exponent other than 1 is one of the steps, and stable
+    bool rests_in_powers = true;
 };
 
 // What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not
-// give way; `own_only`, where nothing can stand in series with its contacts; options, which it
-// reads by choose(settings); features that it approximates, or leaves out.
+// give way; `own_only`, where nothing can stand in series with its contacts; `rests_in_powers`, as
+// above; options, which it reads by choose(settings); features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;
@@ -121,9 +123,11 @@ MakeRule rule_with(const Settings& settings) {
 }
 template <class Rule>
 RuleChoice rule_of(const Settings& settings) {
-    if constexpr (TakesRigid<Rule>)
-        return {rule_with<Rule>(settings), rule_with<typename Rule::Rigid>(settings)};
-    else return {rule_with<Rule>(settings)};
+    RuleChoice choice{rule_with<Rule>(settings)};
+    if constexpr (TakesRigid<Rule>) choice.rigid = rule_with<typename Rule::Rigid>(settings);
+    if constexpr (requires { Rule::rests_in_powers; })
+        choice.rests_in_powers = Rule::rests_in_powers;
+    return choice;
 }
 
 template <class Rule>

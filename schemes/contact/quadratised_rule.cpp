@@ -10,7 +10,7 @@
 namespace jvari {
 
 namespace {
-constexpr int most_steps = 60;
+constexpr int most_steps = 200;
 constexpr double root_rounding = 2e-15, root_change = 1e-9;  // as in contact_gram.cpp
 constexpr double no_psi = 1e-150;                            // [sqrt(J)] its square is no number
 }  // namespace
@@ -101,39 +101,32 @@ double QuadratisedContacts::slant(int a) const noexcept {
     return std::sqrt(unequal * unequal + 4 * kappa_[a] * f_[a] / c_);
 }
 
-bool QuadratisedContacts::release() noexcept {
+// A first guess: each contact with the others' forces held. Newton's steps only double a force that
+// is far too small.
+void QuadratisedContacts::guess() noexcept {
     const int n = contacts();
-    for (int a = 0; a < n; ++a) {  // a first guess: each contact alone
+    for (int a = 0; a < n; ++a) {
         if (psi_[a] < no_psi) psi_[a] = 0;
         shift_[a] = c_ * kappa_[a] * psi_[a] * psi_[a];  // f > -shift
         gamma_[a] = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
-        next_[a] = 0;
-        f_[a] = gamma_[a] > 0 || psi_[a] > 0
-                    ? std::max(solve_quadratised(psi_of_[a], eta_[a], psi_[a], free_[a],
-                                                 theta_[a * n + a])
-                                   .force,
-                               0.0)
-                    : 0;
-        if (psi_[a] > 0) f_[a] = std::max(f_[a], std::numeric_limits<double>::min());
+        next_[a] = f_[a] = 0;
     }
-    const auto merit_slope = [this, n](double t) {  // along f + t df
-        double sum = 0;
-        for (int a = 0; a < n; ++a) f_[a] += t * df_[a];
-        for (int i = 0; i < many_; ++i) sum += df_[set_[i]] * falls_short(set_[i]);
-        for (int a = 0; a < n; ++a) f_[a] -= t * df_[a];
-        return sum;
-    };
-    bool solved = false;
-    int step = 0;
-    for (; step < most_steps && !solved; ++step) {
-        many_ = 0;
+    for (int sweep = 0; sweep < 3; ++sweep)
         for (int a = 0; a < n; ++a) {
-            df_[a] = 0;
-            if (psi_[a] > 0 || (gamma_[a] > 0 && (f_[a] > 0 || falls_short(a) < 0)))
-                set_[many_++] = a;
+            if (!(gamma_[a] > 0 || psi_[a] > 0)) continue;
+            double rest = free_[a];
+            for (int b = 0; b < n; ++b)
+                if (b != a) rest += theta_[a * n + b] * f_[b];
+            const double theta = theta_[a * n + a];
+            f_[a] = std::max(solve_quadratised(psi_of_[a], eta_[a], psi_[a], rest, theta).force,
+                             psi_[a] > 0 ? std::numeric_limits<double>::min() : 0);
         }
-        if (many_ == 0) return true;
-        solved = true;
+}
+
+// Newton's df of the contacts in set_. One at f = 0 that would go below leaves the set, whose other
+// members aim again: without it they would swap from step to step.
+bool QuadratisedContacts::aim(bool& all) noexcept {
+    for (all = true; many_ > 0;) {
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
             // (-dr/dF)^-1/2
@@ -144,10 +137,58 @@ bool QuadratisedContacts::release() noexcept {
         }
         if (!factor()) return false;
         system_.solve(work_.data());
-        double t = 1;
+        int left = 0;
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
             df_[a] = scale_[a] * work_[i];
+            if (psi_[a] == 0 && f_[a] == 0 && df_[a] < 0) df_[a] = 0;
+            else set_[left++] = a;
+        }
+        if (left == many_) return true;
+        many_ = left;
+        all = false;
+    }
+    return true;
+}
+
+// The part of df up to `most` where the merit's slope has fallen by half, past its minimum
+double QuadratisedContacts::search(double most) noexcept {
+    const auto slope = [this](double t) {
+        double sum = 0;
+        for (int a = 0; a < contacts(); ++a) f_[a] += t * df_[a];
+        for (int i = 0; i < many_; ++i) sum += df_[set_[i]] * falls_short(set_[i]);
+        for (int a = 0; a < contacts(); ++a) f_[a] -= t * df_[a];
+        return sum;
+    };
+    const double start = slope(0);
+    if (!(slope(most) > 0.25 * std::abs(start))) return most;
+    double low = 0, high = most, t = most;
+    for (int i = 0; i < 60; ++i) {
+        t = 0.5 * (low + high);
+        const double at = slope(t);
+        (at > 0 ? high : low) = t;
+        if (at <= 0 && at >= 0.5 * start) break;
+    }
+    return low > 0 ? low : t;
+}
+
+bool QuadratisedContacts::release() noexcept {
+    const int n = contacts();
+    guess();
+    bool solved = false;
+    int step = 0;
+    for (; step < most_steps && !solved; ++step) {
+        many_ = 0;
+        for (int a = 0; a < n; ++a) {
+            df_[a] = 0;
+            if (psi_[a] > 0 || (gamma_[a] > 0 && (f_[a] > 0 || falls_short(a) < 0)))
+                set_[many_++] = a;
+        }
+        if (many_ == 0) return true;
+        if (!aim(solved)) return false;
+        double t = 1;
+        for (int i = 0; i < many_; ++i) {
+            const int a = set_[i];
             double reach = std::abs(free_[a]) + std::abs(eta_[a]);
             for (int b = 0; b < n; ++b) reach += std::abs(theta_[a * n + b] * f_[b]);
             solved = solved && (std::abs(df_[a]) <= root_change * (std::abs(f_[a]) + shift_[a]) ||
@@ -157,24 +198,13 @@ bool QuadratisedContacts::release() noexcept {
                                 : f_[a] > 0 ? -f_[a] / df_[a]
                                             : 1.0);
         }
-        if (!solved) {
-            const double start = merit_slope(0);
-            // past the minimum: bisect for a point where the slope has fallen by half
-            if (merit_slope(t) > 0.25 * std::abs(start)) {
-                double low = 0, high = t;
-                for (int i = 0; i < 60; ++i) {
-                    t = 0.5 * (low + high);
-                    const double slope = merit_slope(t);
-                    (slope > 0 ? high : low) = t;
-                    if (slope <= 0 && slope >= 0.5 * start) break;
-                }
-                if (low > 0) t = low;
-            }
-        }
+        if (!solved) t = search(t);
         for (int i = 0; i < many_; ++i) {
             const int a = set_[i];
-            f_[a] = std::max(f_[a] + t * df_[a],
-                             psi_[a] > 0 ? 0.05 * (f_[a] + shift_[a]) - shift_[a] : 0.0);
+            const double most = -0.95 * (f_[a] + shift_[a]), change = std::max(t * df_[a], most);
+            // all but the rounding of t
+            const bool gone = psi_[a] == 0 && f_[a] + t * df_[a] <= 1e-12 * f_[a];
+            f_[a] = gone ? 0 : f_[a] + (psi_[a] > 0 ? change : t * df_[a]);
         }
     }
     iterations_ = step;

@@ -43,6 +43,9 @@ public:
 
 private:
     bool solve_linearly() noexcept;
+    void guess() noexcept;
+    bool aim(bool& all) noexcept;
+    double search(double most) noexcept;
     bool release() noexcept;
     bool factor() noexcept {
         return system_.factor(theta_.data(), contacts(), set_.data(), many_, scale_.data());
@@ -74,6 +77,8 @@ private:
 template <Quadratisation variant, bool in_the_middle = false>
 struct QuadratisedRule : QuadratisedContacts {
     static constexpr bool conserves = true;
+    // gamma follows eta late, or as it is without the contacts' forces
+    static constexpr bool rests_in_powers = false;
     QuadratisedRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)
         : QuadratisedContacts(laws, theta, levels, variant) {}
     bool centred() const override { return in_the_middle; }
