@@ -57,65 +57,9 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
     system_ = ScaledSystem(largest_);
 }
 
-[[gnu::always_inline]] inline ContactSolution ContactGram::spring_alone(
-    int a, double eta, double b, double theta) const noexcept {
-    if (!of_the_ends_) return solve_contact(laws_[a], eta, b, theta);
-    const double old = share_ * laws_[a].force(eta);
-    const double depth = depth_in_series(laws_[a], eta + b - theta * old, (1 - share_) * theta);
-    const double force = (1 - share_) * laws_[a].force(depth) + old;
-    return {theta * force - b, force};
-}
-
 [[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta,
                                                                  double b) const noexcept {
     return loses(a) ? losing_alone(a, eta, b) : spring_alone(a, eta, b, theta_[a * count() + a]);
-}
-
-// With w = 1 - kappa r the spring acts through w Theta: R(w) is its r, and w - 1 + kappa R(w) rises
-// with w, from below 0 at 0. Newton's method on w keeps the digits of the spring's closed form.
-ContactSolution ContactGram::losing_alone(int a, double eta, double b) const noexcept {
-    const double kappa = loss_[a].kappa, theta = theta_[a * count() + a];
-    if (-b * kappa >= 1)
-        return loss_[a].clipped ? ContactSolution{-b, 0} : pulling_alone(a, eta, b);
-    double low = 0, high = 1 + kappa * b, w = std::min(1.0, high);
-    ContactSolution s;
-    for (int i = 1;; ++i) {
-        const bool last = s.residual < force_change && i > 1;
-        s = spring_alone(a, eta, b, theta * w);
-        const double miss = w - 1 + kappa * s.r;
-        s.iterations = i;
-        s.residual = std::abs(miss) / (w + 1 + kappa * std::abs(s.r));
-        s.converged = s.converged && i < most_iterations;
-        if (last || !s.converged) break;
-        (miss > 0 ? high : low) = w;
-        const double slope = spring_at(a, eta, eta - s.r).slope,
-                     next = w - miss / (1 + kappa * theta * s.force / (1 - theta * w * slope));
-        w = next >= low && next <= high ? next : 0.5 * (low + high);
-    }
-    s.force *= w;
-    return s;
-}
-
-// 1/kappa <= r <= -b, from a closed contact: F <= 0
-ContactSolution ContactGram::pulling_alone(int a, double eta, double b) const noexcept {
-    const double theta = theta_[a * count() + a];
-    double low = 1 / loss_[a].kappa, high = -b;
-    ContactSolution s{high};
-    for (int i = 1;; ++i) {
-        const bool last = s.residual < force_change && i > 1;
-        const MeanForce G = spring_at(a, eta, eta - s.r);
-        const double w = loss_[a].factor(s.r);  // with the digits of r, not of eta
-        s.force = G.value * w;
-        const double miss = s.r + b - theta * s.force;
-        s.iterations = i;
-        s.residual = std::abs(miss) / (s.r - b);
-        s.converged = i < most_iterations;
-        if (last || !s.converged) return s;
-        (miss > 0 ? high : low) = s.r;
-        const double slope = G.slope * w - loss_[a].kappa * G.value,
-                     next = s.r - miss / (1 - theta * slope);
-        s.r = next >= low && next <= high ? next : 0.5 * (low + high);
-    }
 }
 
 MeanForce ContactGram::spring_at(int a, double eta, double depth) const noexcept {
@@ -131,12 +75,6 @@ MeanForce ContactGram::force_at(int a, double eta, double depth) const noexcept 
     const double w = loss_[a].factor(eta - depth);
     if (loss_[a].clipped && w == 0) return {};
     return {G.value * w, std::min(0.0, G.slope * w - loss_[a].kappa * G.value)};
-}
-
-// G is read from F where the contact closes, whose depth is below the rounding of r.
-double ContactGram::lost_by(int a, double eta, double r, double force) const noexcept {
-    const double w = loss_[a].factor(r), G = r > 0 ? spring_at(a, eta, eta - r).value : force / w;
-    return (1 - w) * r * G;
 }
 
 GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force,

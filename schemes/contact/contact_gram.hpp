@@ -96,4 +96,13 @@ private:
     std::vector<int> active_;
 };
 
+[[gnu::always_inline]] inline ContactSolution ContactGram::spring_alone(
+    int a, double eta, double b, double theta) const noexcept {
+    if (!of_the_ends_) return solve_contact(laws_[a], eta, b, theta);
+    const double old = share_ * laws_[a].force(eta);
+    const double depth = depth_in_series(laws_[a], eta + b - theta * old, (1 - share_) * theta);
+    const double force = (1 - share_) * laws_[a].force(depth) + old;
+    return {theta * force - b, force};
+}
+
 }  // namespace jvari

@@ -290,11 +290,7 @@ std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor&
         string->reading(0, start.data());
         refuse_rigid(scheme, string->points(), start.data());
     }
-    for (const ContactLaw& law : string->points().contacts.laws)
-        if (!string->points().start_force.empty() && law.alpha != 1 && !rule.rests_in_powers)
-            throw Refusal(std::string(scheme.name) +
-                          ": does not stay at rest on a contact with an exponent other than 1, "
-                          "where rounding grows from step to step; take modal_two_point");
+    if (!rule.rests_in_powers) refuse_rest_in_powers(scheme, string->points());
     return std::make_unique<Driver<String>>(std::move(string), steps_per_row(settings),
                                             stiff ? rule.rigid : rule.make);
 }
