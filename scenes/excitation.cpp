@@ -108,6 +108,13 @@ double force(const Pluck& e, double t) {
 double mean_force(const Pluck& e, double t, double dt) { return moments(e, t, dt).mean; }
 double first_moment(const Pluck& e, double t, double dt) { return 3 * moments(e, t, dt).first; }
 
+double mean_about(const Pluck& e, double t, double dt) {
+    const Moments after = moments(e, t, dt);
+    if (t <= 0) return after.mean - after.first;
+    const Moments before = moments(e, t - dt, dt);
+    return 0.5 * (before.mean + before.first + after.mean - after.first);
+}
+
 double free_from(const Scene& scene) {
     double end = 0;
     for (const String& s : scene.strings)

@@ -14,6 +14,10 @@ double force(const Pluck&, double t);
 // they hold to 1e-12 of a_e. A step may hold the whole pluck.
 double mean_force(const Pluck&, double t, double dt);
 double first_moment(const Pluck&, double t, double dt);
+// The mean over the two steps that meet at t, weighted by 1 - |t' - t|/dt: the force by which a
+// mass moves as by F_e when stepped by its central difference. At t = 0 of the first step alone.
+// Times dt, the means of all levels add up to the impulse, half of the first one and all others.
+double mean_about(const Pluck&, double t, double dt);
 
 // The row of a file's force that the line about the instant t begins at.
 std::size_t line_at(const Pluck&, double t);

@@ -41,20 +41,20 @@ void Impacts::add(const Impact& part) {
     row.end = std::max(row.end, part.end);
 }
 
-void Impacts::step(const BarrierOf& of, int a, double to, double lasts, double span, double force,
-                   double moved) {
+void Impacts::step(const BarrierOf& of, int a, const Step& s) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (points_.size() <= static_cast<std::size_t>(a)) points_.resize(a + 1);
     Point& point = points_[a];
-    const double speed = moved / span;
+    const double speed = s.moved / s.span;
     const int barrier = barrier_of(of);
     Last& last = last_[barrier];
-    if (force != 0) {
-        last = {last.row, force + (to == last.until ? last.force : 0), to};
-        add({barrier, to - lasts, to, last.force, force * lasts,
-             point.known ? -point.speed : unknown, unknown, -force * speed * lasts});
-    } else if (point.force != 0) all_[last.row].speed_out = speed;
-    point = {speed, force, true};
+    const bool touches = s.force != 0 || s.lost != 0;  // without a force by a clipped loss
+    if (touches) {
+        last = {last.row, s.force + (s.to == last.until ? last.force : 0), s.to};
+        add({barrier, s.to - s.lasts, s.to, last.force, s.force * s.lasts,
+             point.known && point.speed < 0 ? -point.speed : unknown, unknown, s.lost});
+    } else if (point.touches) all_[last.row].speed_out = speed > 0 ? speed : unknown;
+    point = {speed, true, touches};
 }
 
 }  // namespace jvari

@@ -20,9 +20,10 @@ struct Impact {
     double start = 0, end = 0;  // [s]
     double largest_force = 0;   // of all points of the barrier together [N]
     double impulse = 0;         // [N s]
-    double speed_in = 0;        // towards the barrier, before; NaN: it began in contact
-    double speed_out = 0;       // away from it, after; NaN: not seen [m/s]
-    double energy_lost = 0;     // work of the string on the barrier, both ways [J]
+    // Towards the barrier before the contact, and away from it after [m/s]. NaN: not seen, where it
+    // is on at t = 0 or at the end, or the string moves the other way in the step beside it
+    double speed_in = 0, speed_out = 0;
+    double energy_lost = 0;  // by contact loss; what a spring holds is not lost [J]
 };
 
 class Impacts {
@@ -32,18 +33,19 @@ public:
     // a part of a contact in which the barrier touched all the time
     void add(const Impact& part);
 
-    // A step of a scheme, which ends at `to` and stands for `lasts` [s]: the force on contact a,
-    // and the way that it moved in `span` [s].
-    void step(const BarrierOf& of, int a, double to, double lasts, double span, double force,
-              double moved);
+    struct Step {                   // of a scheme, on one contact
+        double to, lasts, span;     // its end, what it stands for, in what it moved [s]
+        double force, moved, lost;  // [N], [m], [J]
+    };
+    void step(const BarrierOf& of, int a, const Step&);
 
     const std::vector<Impact>& all() const { return all_; }
     bool told = false;  // by a scheme that tells of its contacts
 
 private:
     struct Point {
-        double speed = 0, force = 0;  // in the last step
-        bool known = false;
+        double speed = 0;  // in the last step
+        bool known = false, touches = false;
     };
     struct Last {  // of a barrier: its row, and the force of all points in the step to `until`
         int row = -1;

@@ -225,6 +225,7 @@ int run_command(RunRequest r) {
     compare::note_scene(scene, console);
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
+    compare::note_force_files(scene, settings.sample_rate, console);
     const std::optional<report::Vega> vega = vega_for(r);
     check_state(r, d, scene, settings);
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);

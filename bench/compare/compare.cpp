@@ -145,6 +145,11 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
     like.repeats = request.repeats;
     add_jobs(c.plan, request, catalogue, common, like);
     for (const std::string& note : c.plan.notes) listener.note(note);
+    double lowest = 0;
+    for (const study::Job& job : c.plan.jobs)
+        if (const double rate = job.cell.settings.sample_rate; rate > 0)
+            lowest = lowest > 0 ? std::min(lowest, rate) : rate;
+    note_force_files(common.scene, lowest, listener);
     std::vector<std::string> plugins;
     for (const Guest* g : guests()) plugins.push_back(g->path);
     study::address(c.plan, store::program_identity(plugins));

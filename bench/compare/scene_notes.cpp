@@ -109,6 +109,22 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
     }
 }
 
+void note_force_files(const Scene& scene, double sample_rate, const store::Listener& listener) {
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const String& s = scene.strings[i];
+        if (!s.pluck || s.pluck->time.empty() || !(sample_rate > 0)) continue;
+        const std::vector<double>& t = s.pluck->time;
+        double closest = HUGE_VAL;
+        for (std::size_t k = 1; k < t.size(); ++k) closest = std::min(closest, t[k] - t[k - 1]);
+        constexpr double rounding = 1e-6;  // of instants, in steps
+        if (closest * sample_rate < 1 - rounding)
+            listener.note(fmt::format(
+                "string {}: rows of {} are {:.3g} s apart, less than a step of {:g} Hz: each step "
+                "pushes with the mean of the force over it",
+                i, s.pluck->file, closest, sample_rate));
+    }
+}
+
 namespace {
 constexpr double least_order = 0.5;  // below it a rate that would do is out of reach
 constexpr double hardly = 0.1;       // an order below it is none

@@ -22,6 +22,10 @@ std::string untouched_text(const Scene&, const Figures& run);
 // other string through a moving body.
 void note_scene(const Scene&, const store::Listener&);
 
+// Says of a force file whose rows are closer than a step of the lowest sample rate [Hz] that each
+// step pushes by the mean. 0: no rate.
+void note_force_files(const Scene&, double sample_rate, const store::Listener&);
+
 // ---- Why no cell is as accurate as asked, and what to do: a few sentences where a table would say
 // "none".
 //

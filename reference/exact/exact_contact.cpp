@@ -521,6 +521,7 @@ private:
                 part.impulse += at(moment_, behind)[0] * second;
                 if (collocated_) part.energy_lost += collocation_.dissipated(behind);
             }
+            if (part.start == 0) part.speed_in = std::nan("");  // it was on
             const auto force = [&](double at) {
                 double sum = 0;
                 for (int i = first; i < behind; ++i)

@@ -6,7 +6,7 @@
 //
 // Two-point schemes: a = y^n, r = y^{n+1} - y^n (van Walstijn et al. 2016, eq 48). Three-point: a =
 // u^{n-1}, r = u^{n+1} - u^{n-1} (Issanchou et al. 2016, eq 16). Monotone in r, so the root is
-// unique. A Hunt-Crossley term (1 + c) r divides b and theta by 1 + c.
+// unique. A loss makes the bracket (1 - kappa r) times as large (contact_gram.hpp).
 #pragma once
 
 #include <algorithm>
@@ -34,6 +34,16 @@ struct ContactLaw {
         if (eta <= 0) return 0;
         return alpha == 1 ? k : alpha * k * std::pow(eta, alpha - 1);
     }
+};
+
+// Hunt & Crossley 1975 over a step: F = G (1 - kappa r), G the force of the spring alone. F' = G' -
+// kappa (r G)' <= 0, since G falls and r G, the energy given, rises: one solution. It loses kappa G
+// r^2 >= 0 and pulls only where the contact opens faster than 1/beta, as the law does. Clipped, F
+// = 0 there.
+struct StepLoss {
+    double kappa = 0;  // beta/span [1/m]
+    bool clipped = false;
+    double factor(double r) const { return clipped ? std::max(0.0, 1 - kappa * r) : 1 - kappa * r; }
 };
 
 struct Contacts {  // of a string
@@ -72,7 +82,7 @@ struct ForceRange {  // of the forces of contacts on the string, over a run [N]
 
 struct ContactSolution {
     double r = 0;        // increment of the contact point [m]
-    double force = 0;    // mean force on the string over the step, >= 0 [N]
+    double force = 0;    // mean force on the string over the step, >= 0 without loss [N]
     int iterations = 0;  // 0: closed form
     bool converged = true;
     // of the equation at the last iterate, before its final correction, relative to its largest

@@ -30,10 +30,11 @@ MeanForce mean_force(const ContactLaw& law, double eta, double depth) {
 }
 
 ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,
-                         Force force)
+                         Force force, double share)
     : laws_(laws.begin(), laws.end()),
       theta_(theta.begin(), theta.end()),
-      at_the_end_(force == Force::at_the_end) {
+      of_the_ends_(force == Force::of_the_ends),
+      share_(share) {
     const int n = count();
     std::vector<char> seen(n, 0);
     for (int seed = 0; seed < n; ++seed) {
@@ -49,7 +50,8 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
                 }
         groups_.push_back({first, static_cast<int>(order_.size()) - first});
     }
-    for (auto* w : {&depth_, &mean_, &slope_, &defect_, &dr_, &df_, &root_}) w->assign(n, 0.0);
+    for (auto* w : {&depth_, &mean_, &spring_, &slope_, &defect_, &dr_, &df_, &root_})
+        w->assign(n, 0.0);
     active_.assign(n, 0);
     for (const Group& g : groups_) largest_ = std::max(largest_, g.count);
     system_ = ScaledSystem(largest_);
@@ -57,20 +59,28 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
 
 [[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta,
                                                                  double b) const noexcept {
-    const double theta = theta_[a * count() + a];
-    if (!at_the_end_) return solve_contact(laws_[a], eta, b, theta);
-    const double force = laws_[a].force(depth_in_series(laws_[a], eta + b, theta));
-    return {theta * force - b, force};
+    return loses(a) ? losing_alone(a, eta, b) : spring_alone(a, eta, b, theta_[a * count() + a]);
+}
+
+MeanForce ContactGram::spring_at(int a, double eta, double depth) const noexcept {
+    const ContactLaw& law = laws_[a];
+    return of_the_ends_ ? MeanForce{(1 - share_) * law.force(depth) + share_ * law.force(eta),
+                                    -(1 - share_) * law.slope(depth)}
+                        : mean_force(law, eta, depth);
 }
 
 MeanForce ContactGram::force_at(int a, double eta, double depth) const noexcept {
-    return at_the_end_ ? MeanForce{laws_[a].force(depth), -laws_[a].slope(depth)}
-                       : mean_force(laws_[a], eta, depth);
+    const MeanForce G = spring_at(a, eta, depth);
+    if (!loses(a)) return G;
+    const double w = loss_[a].factor(eta - depth);
+    if (loss_[a].clipped && w == 0) return {};
+    return {G.value * w, std::min(0.0, G.slope * w - loss_[a].kappa * G.value)};
 }
 
-GramSolution ContactGram::solve(const double* eta, const double* b, double* r,
-                                double* force) noexcept {
+GramSolution ContactGram::solve(const double* eta, const double* b, double* r, double* force,
+                                bool elastic) noexcept {
     GramSolution worst;
+    losing_ = !loss_.empty() && !elastic;
     for (const Group& g : groups_) {
         const int a = order_[g.first];
         GramSolution s;
@@ -91,6 +101,9 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r,
         worst.residual = std::max(worst.residual, s.residual);
         worst.converged = worst.converged && s.converged;
     }
+    lost_ = 0;
+    for (int a = 0; losing_ && a < count(); ++a)
+        if (loses(a)) lost_ += lost_by(a, eta[a], r[a], force[a]);
     return worst;
 }
 
@@ -147,7 +160,9 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
 
     const auto reach = [&](int a) {  // the scale of rounding in r_a's equation
         double sum = std::abs(b[a]) + std::abs(eta[a]);
-        for (int j = 0; j < n; ++j) sum += std::abs(theta_[a * stride + set[j]] * f[set[j]]);
+        for (int j = 0; j < n; ++j)  // G and kappa r G may nearly cancel
+            sum += std::abs(theta_[a * stride + set[j]]) *
+                   std::max(std::abs(f[set[j]]), spring_[set[j]]);
         return sum;
     };
     const auto displaced = [&](int a) {  // r_a = -b_a + (Theta f)_a
@@ -160,6 +175,9 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             const MeanForce F = force_at(set[i], eta[set[i]], depth_[set[i]]);
             mean_[set[i]] = F.value;
             slope_[set[i]] = F.slope;
+            if (loses(set[i]))  // of whose terms r has the digits of eta
+                spring_[set[i]] = spring_at(set[i], eta[set[i]], depth_[set[i]]).value *
+                                  (1 + loss_[set[i]].kappa * std::abs(eta[set[i]]));
         }
         for (int i = 0; i < n; ++i) {
             double sum = eta[set[i]] + b[set[i]] - depth_[set[i]];
@@ -188,7 +206,8 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             df_[a] = mean_[a] + slope_[a] * dr_[a] - f[a];
             const double step = std::abs(dr_[a]);
             const bool stays_out = slope_[a] == 0 && step <= -1e-3 * depth_[a];
-            const bool settled = slope_[a] < 0 && -slope_[a] * step <= force_change * mean_[a];
+            const bool settled =
+                slope_[a] < 0 && -slope_[a] * step <= force_change * std::abs(mean_[a]);
             s.converged = s.converged &&
                           (stays_out || settled || std::abs(defect_[a]) <= rounding * reach(a));
         }
@@ -219,7 +238,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
     --s.iterations;
     for (int i = 0; i < n; ++i) {
         const int a = set[i];
-        if (f[a] < 0) f[a] = mean_[a];
+        if (f[a] < 0 && !loses(a)) f[a] = mean_[a];
     }
     for (int i = 0; i < n; ++i) {
         const int a = set[i];

@@ -4,11 +4,12 @@
 //
 // with Theta the compliances between the contacts (a Gram matrix: symmetric, positive
 // semi-definite, perhaps singular). Each F_a falls with r_a, so with r = -b + Theta f the solution
-// is the one minimum of the convex merit f' Theta f/2 - sum_a int F_a dr_a. With Force::at_the_end
+// is the one minimum of the convex merit f' Theta f/2 - sum_a int F_a dr_a. With Force::of_the_ends
 // F_a is V_a'(eta_a - r_a) instead, of the new depths alone: what a contact with Theta in series
 // gives. Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta
 // is diagonal); the coupled ones take Newton steps on the active set, each with a line search on
-// the merit's slope. Hunt-Crossley losses are left out. It ends where a Newton step leads through
+// the merit's slope. With losses F_a is that of StepLoss (contact.hpp), which falls with r_a as
+// well. It ends where a Newton step leads through
 // forces k Theta times as large as the solution's, whose difference has no digits left: with
 // strings from k Theta of 1e18 on, with random singular Theta of both signs,
 // which strings have not, from 1e11 on in a few draws of a hundred.
@@ -41,11 +42,13 @@ MeanForce mean_force(const ContactLaw&, double eta, double depth);
 
 class ContactGram {
 public:
-    enum class Force { mean_of_the_step, at_the_end };
+    enum class Force { mean_of_the_step, of_the_ends };
     ContactGram() = default;
-    // theta: n x n, row-major [m/N]
+    // theta: n x n, row-major [m/N]; share: of the older end
     ContactGram(std::span<const ContactLaw> laws, std::span<const double> theta,
-                Force = Force::mean_of_the_step);
+                Force = Force::mean_of_the_step, double share = 0);
+    // From now on, one of each contact; none: nothing is lost
+    void lose(std::span<const StepLoss> loss) { loss_.assign(loss.begin(), loss.end()); }
 
     int count() const { return static_cast<int>(laws_.size()); }
     std::span<const double> theta() const { return theta_; }
@@ -58,7 +61,11 @@ public:
     }
 
     // eta [m] and b [m] in, r [m] and the mean forces [N] out; n of each. Allocates nothing.
-    GramSolution solve(const double* eta, const double* b, double* r, double* force) noexcept;
+    // elastic: without the losses.
+    GramSolution solve(const double* eta, const double* b, double* r, double* force,
+                       bool elastic = false) noexcept;
+    // sum of kappa G r^2, or of all that a clipped contact's spring gives, in the last solve [J]
+    double lost() const { return lost_; }
 
 private:
     struct Group {  // contacts coupled to each other: order_[first ... first + count)
@@ -68,17 +75,34 @@ private:
                              double* force) noexcept;
     bool newton_step(const int* set, int n) noexcept;
     ContactSolution alone(int a, double eta, double b) const noexcept;
+    ContactSolution spring_alone(int a, double eta, double b, double theta) const noexcept;
+    ContactSolution losing_alone(int a, double eta, double b) const noexcept;
+    ContactSolution pulling_alone(int a, double eta, double b) const noexcept;
+    bool loses(int a) const noexcept { return losing_ && loss_[a].kappa != 0; }
     MeanForce force_at(int a, double eta, double depth) const noexcept;
+    MeanForce spring_at(int a, double eta, double depth) const noexcept;
+    double lost_by(int a, double eta, double r, double force) const noexcept;
 
     std::vector<ContactLaw> laws_;
     std::vector<double> theta_;
-    bool at_the_end_ = false;
+    bool of_the_ends_ = false, losing_ = false;
+    double share_ = 0, lost_ = 0;
+    std::vector<StepLoss> loss_;
     std::vector<int> order_;
     std::vector<Group> groups_;
-    int largest_ = 0;                                                     // of them
-    std::vector<double> depth_, mean_, slope_, defect_, dr_, df_, root_;  // workspaces
+    int largest_ = 0;                                                              // of them
+    std::vector<double> depth_, mean_, spring_, slope_, defect_, dr_, df_, root_;  // workspaces
     ScaledSystem system_;
     std::vector<int> active_;
 };
+
+[[gnu::always_inline]] inline ContactSolution ContactGram::spring_alone(
+    int a, double eta, double b, double theta) const noexcept {
+    if (!of_the_ends_) return solve_contact(laws_[a], eta, b, theta);
+    const double old = share_ * laws_[a].force(eta);
+    const double depth = depth_in_series(laws_[a], eta + b - theta * old, (1 - share_) * theta);
+    const double force = (1 - share_) * laws_[a].force(depth) + old;
+    return {theta * force - b, force};
+}
 
 }  // namespace jvari

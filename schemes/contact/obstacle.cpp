@@ -24,7 +24,12 @@ Obstacle::Obstacle(const Contacts& contacts, std::vector<Thread> threads,
     threads_ = EliminatedThreads(std::move(threads), contacts.count(), theta_, span);
     const std::vector<double> between = threads_.between_contacts(theta_);
     rule_ = make(contacts.laws, between, levels);
-    loss_ = ContactLoss(contacts, between, span);
+    between_ = between;
+    std::vector<StepLoss> losses;
+    for (int a = 0; a < contacts.count(); ++a)
+        losses.push_back({contacts.loss[a] / span, contacts.loss_law[a] == LossLaw::clipped});
+    if (std::any_of(losses.begin(), losses.end(), [](const StepLoss& l) { return l.kappa != 0; }))
+        rule_->lose(losses);
     centred_ = rule_->centred();
     one_.contact = contacts.count() == 1;
     one_.thread = threads_.count() == 1;
@@ -37,7 +42,7 @@ Obstacle::Obstacle(const Contacts& contacts, std::vector<Thread> threads,
         one_.theta = between[0];
     }
     one_.of_thread = threads_.one();
-    for (auto* v : {&eta_, &now_, &b_, &r_}) v->assign(contacts.count(), 0.0);
+    for (auto* v : {&eta_, &now_, &b_, &r_, &gained_}) v->assign(contacts.count(), 0.0);
     for (auto* v : {&pull_, &from_}) v->assign(threads_.count(), 0.0);
     for (auto* v : {&older_points_, &now_points_, &free_points_}) v->assign(points(), 0.0);
 }
@@ -58,7 +63,7 @@ void Obstacle::begin(const double* reading, const double* moving, const double* 
     if (series_) series_->rest(force);
     for (int a = 0; a < contacts(); ++a)
         eta_[a] = contacts_.heights[a] - (reading[a] + (series_ ? series_->yields(0)[a] : 0));
-    rule_->set(loss_.undamped());
+    rule_->set(between_);
     rule_->begin(eta_.data(), moving);
 }
 
@@ -68,7 +73,7 @@ void Obstacle::set(std::span<const double> theta) noexcept {
 }
 
 void Obstacle::follow(const Obstacle& first) {
-    rule_->set(loss_.undamped());
+    rule_->set(between_);
     one_.tally = first.one_.tally;
     if (series_) series_->follow(*first.series_);
 }
@@ -84,7 +89,8 @@ double Obstacle::centre(int a, const ReadingsBeforeStep& at, double b, double th
     return now - (K + 0.5 * (threads_.coupling(a, 0) - K)) * thread;
 }
 
-bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at_start) noexcept {
+bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at_start,
+                            bool in_full) noexcept {
     const int n = contacts(), m = threads_.count();
     lost_by_rule_ = 0;
     threads_.alone(at.older, at.free, pull_.data());
@@ -96,20 +102,11 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     }
     const BeforeStep before{eta_.data(), now_.data(), b_.data()};
     bool converged = true;
-    const bool damped = loss_.damp(before, b_.data());
-    if (damped || rule_->acts(before)) {
-        GramSolution s;
-        for (int tries = 4 * n;; --tries) {
-            if (damped) rule_->set(loss_.damped());
-            const BeforeStep seen{damped ? loss_.older() : eta_.data(), now_.data(), b_.data()};
-            s = at_start ? rule_->start(seen, r_.data(), force)
-                         : rule_->solve(seen, r_.data(), force);
-            converged = s.converged && tries >= 0;
-            if (!damped) break;
-            loss_.settle(before, r_.data(), force);
-            rule_->set(loss_.undamped());
-            if (!converged || !loss_.clip(before, r_.data(), force, b_.data())) break;
-        }
+    for (int a = 0; in_full && a < n; ++a) gained_[a] = -held_by(a, eta_[a]);
+    if (rule_->acts(before)) {
+        const GramSolution s = at_start ? rule_->start(before, r_.data(), force)
+                                        : rule_->solve(before, r_.data(), force);
+        converged = s.converged;
         for (int a = 0; a < n; ++a) {
             for (int t = 0; t < m; ++t) pull_[t] -= threads_.answer(t, a) * force[a];
             one_.tally.note(force[a], std::max(contacts_.heights[a] - at.now[a], eta_[a] - r_[a]));
@@ -119,6 +116,7 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     } else {
         for (int a = 0; a < n; ++a) force[a] = 0, r_[a] = -b_[a];
     }
+    for (int a = 0; in_full && a < n; ++a) gained_[a] += held_by(a, eta_[a] - r_[a]);
     for (int t = 0; t < m; ++t) force[n + t] = pull_[t], from_[t] = at.older[n + t];
     return converged;
 }
@@ -133,7 +131,7 @@ bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force, bool
     }
     const ReadingsBeforeStep there{older_points_.data(), now_points_.data(), free_points_.data()};
     const bool converged =
-        fused_ && !in_full ? solve_one(there, force) : solve_points(there, force, false);
+        fused_ && !in_full ? solve_one(there, force) : solve_points(there, force, false, in_full);
     series_->step(force);
     return converged;
 }
@@ -147,8 +145,7 @@ double Obstacle::potential(const double* reading, int level) const {
 }
 
 double Obstacle::loss() const {
-    double power = ((series_ ? series_->lost() : 0) + loss_.lost()) / span_;
-    power += levels_ * lost_by_rule_ / span_;
+    double power = ((series_ ? series_->lost() : 0) + levels_ * lost_by_rule_) / span_;
     for (int t = 0; t < threads_.count(); ++t)
         power += threads_.lost(t, threads_.moved(t, from_[t], pull_[t]));
     return power;

@@ -10,8 +10,8 @@
 //             2 dt in three-point ones, where the thread so sees the mean
 //             of the two outer levels and stays stable at any stiffness
 //     F       of the threads, which are eliminated (eliminated_thread.hpp)   N     [000] 45-47
-//     D_a     beta_a V_a'(eta_a^n)/span of a contact that loses energy: it   N/m   [004] 24
-//             pulls by D_a r_a more (contact_loss.hpp)
+//     kappa_a beta_a/span of a contact that loses energy: its rule's force   1/m
+//             times 1 - kappa_a r_a (StepLoss, contact.hpp)
 //     D, P    stretch and force of what stands in series with the points     m, N  (4), (5) of
 //             (residual.hpp): they touch at reading + D, and r = free - H +        compliance-
 //     H, K    (Theta + K) F, the same equation                               m, m/N matching.md
@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
-#include "schemes/contact/contact_loss.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/obstacle_rule.hpp"
 #include "schemes/contact/residual.hpp"
@@ -73,15 +72,17 @@ public:
     }
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge.
-    // Allocates nothing. in_full: moved() is asked for.
+    // Allocates nothing. in_full: moved() and gained() are asked for.
     bool solve(const ReadingsBeforeStep& at, double* force, bool in_full = false) noexcept {
         if (series_) return solve_in_series(at, force, in_full);
-        return fused_ && !in_full ? solve_one(at, force) : solve_points(at, force, false);
+        return fused_ && !in_full ? solve_one(at, force) : solve_points(at, force, false, in_full);
     }
-    // of each contact in the last step, with what is in series [m]
+    // Of each contact in the last step, solved for in full: its way with what is in series [m], and
+    // by how much more its potential holds [J]
     const double* moved() const { return r_.data(); }
+    const double* gained() const { return gained_.data(); }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept {
-        return series_ ? solve(at, force) : solve_points(at, force, true);
+        return series_ ? solve(at, force) : solve_points(at, force, true, false);
     }
 
     // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one
@@ -119,20 +120,25 @@ private:
         if (c > 0) force[0] = F_b;
         return converged;
     }
-    bool solve_points(const ReadingsBeforeStep&, double* force, bool at_start) noexcept;
+    bool solve_points(const ReadingsBeforeStep&, double* force, bool at_start,
+                      bool in_full) noexcept;
+    // of a rule with a state that of its instant, whatever eta
+    double held_by(int a, double eta) const {
+        return rule_->potential(a, eta) / (rule_->dofs() > 0 ? 1 : levels_);
+    }
     bool solve_in_series(const ReadingsBeforeStep&, double* force, bool in_full) noexcept;
 
     Contacts contacts_;
     EliminatedThreads threads_;
     std::shared_ptr<ObstacleRule> rule_;
-    ContactLoss loss_;
     std::vector<double> theta_;       // of all points [m/N]
+    std::vector<double> between_;     // the contacts, the threads yielding (48)
     double span_, lost_by_rule_ = 0;  // in the last step [J]
     int levels_;
     bool centred_ = false, fused_ = false;
     ContactAndThread one_;  // its tally is that of all contacts
     std::optional<Residual> series_;
-    std::vector<double> eta_, now_, b_, r_;
+    std::vector<double> eta_, now_, b_, r_, gained_;
     std::vector<double> older_points_, now_points_, free_points_;  // with what is in series [m]
     // of each thread in the last step: its force [N], the reading it started from [m]
     std::vector<double> pull_, from_;

@@ -4,8 +4,8 @@
 // Over a step the readings of the contacts move by r = -b + Theta F: without forces by -b, and by
 // the compliances Theta between them (van Walstijn et al. 2016, eq 48; Issanchou et al. 2016, eq
 // 16). A rule says what F is, of the penetrations eta = h - y before the step and of r. What
-// surrounds the contacts is not its affair: thread,
-// contact loss and what stands in series are in Theta and b when it is asked (obstacle.hpp).
+// surrounds the contacts is not its affair: thread
+// and what stands in series are in Theta and b when it is asked (obstacle.hpp).
 //
 // The invariant: where `conserves`, the work that the contacts do on the string is what their
 // potential loses,
@@ -13,7 +13,7 @@
 //     sum_a F_a r_a/levels = P(older) - P(newer),
 //     P = sum_a potential(a, eta_a), levels = 1 in two-point steps, 2 in three-point ones
 //
-// less `lost()` [J] of the step, of a rule that has it. Of this the energy balance of every scheme
+// less `lost()` [J] of the step, of a rule that has it or of contacts that do (StepLoss). Of this the energy balance of every scheme
 // is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al. 2016, eqs 20-21).
 #pragma once
 
@@ -57,6 +57,8 @@ public:
     virtual void set(std::span<const double> theta) noexcept {
         std::copy(theta.begin(), theta.end(), theta_.begin());
     }
+    // losses from now on, one of each contact, but of start()
+    virtual void lose(std::span<const StepLoss>) {}
     // at t = 0: eta of each contact, and how far it would move in dt by its speed [m]
     virtual void begin(const double*, const double*) {}
     // false: no force, and nothing to be solved
@@ -95,11 +97,13 @@ using MakeRule = std::function<std::shared_ptr<ObstacleRule>(
 struct RuleChoice {  // by which the contacts of a string act
     MakeRule make;
     MakeRule rigid = {};  // where the barriers do not give way
+    // whether an equilibrium on contacts of an exponent other than 1 is one of the steps, and stable
+    bool rests_in_powers = true;
 };
 
 // What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not
-// give way; `own_only`, where nothing can stand in series with its contacts; options, which it
-// reads by choose(settings); features that it approximates, or leaves out.
+// give way; `own_only`, where nothing can stand in series with its contacts; `rests_in_powers`, as
+// above; options, which it reads by choose(settings); features that it approximates, or leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;
@@ -119,9 +123,11 @@ MakeRule rule_with(const Settings& settings) {
 }
 template <class Rule>
 RuleChoice rule_of(const Settings& settings) {
-    if constexpr (TakesRigid<Rule>)
-        return {rule_with<Rule>(settings), rule_with<typename Rule::Rigid>(settings)};
-    else return {rule_with<Rule>(settings)};
+    RuleChoice choice{rule_with<Rule>(settings)};
+    if constexpr (TakesRigid<Rule>) choice.rigid = rule_with<typename Rule::Rigid>(settings);
+    if constexpr (requires { Rule::rests_in_powers; })
+        choice.rests_in_powers = Rule::rests_in_powers;
+    return choice;
 }
 
 template <class Rule>

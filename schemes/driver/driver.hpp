@@ -207,7 +207,10 @@ private:
         for (int a = 0; a < obstacle_.contacts(); ++a) {
             const BarrierOf& of = points().contacts.of[a];
             impacts_[of.string].told = true;
-            impacts_[of.string].step(of, a, to, dt_, levels * dt_, force_[a], obstacle_.moved()[a]);
+            const double moved = obstacle_.moved()[a];
+            impacts_[of.string].step(of, a,
+                                     {to, dt_, levels * dt_, force_[a], moved,
+                                      -force_[a] * moved / levels - obstacle_.gained()[a]});
         }
     }
 
@@ -321,6 +324,7 @@ std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor&
         string->reading(0, start.data());
         refuse_rigid(scheme, string->points(), start.data());
     }
+    if (!rule.rests_in_powers) refuse_rest_in_powers(scheme, string->points());
     return std::make_unique<Driver<String>>(std::move(string), steps_per_row(settings),
                                             stiff ? rule.rigid : rule.make);
 }

@@ -72,4 +72,12 @@ void refuse_rigid(const Descriptor& scheme, const StringPoints& p, const double*
     }
 }
 
+void refuse_rest_in_powers(const Descriptor& scheme, const StringPoints& p) {
+    for (const ContactLaw& law : p.contacts.laws)
+        if (!p.start_force.empty() && law.alpha != 1)
+            throw Refusal(std::string(scheme.name) +
+                          ": does not stay at rest on a contact with an exponent other than 1, "
+                          "where rounding grows from step to step; take modal_two_point");
+}
+
 }  // namespace jvari

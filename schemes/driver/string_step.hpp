@@ -82,6 +82,9 @@ inline double heard_force(Quantity quantity, const StringPoints& p, const double
 // inside it.
 void refuse_rigid(const Descriptor&, const StringPoints&, const double* reading_at_start);
 
+// An equilibrium on contacts of an exponent other than 1.
+void refuse_rest_in_powers(const Descriptor&, const StringPoints&);
+
 struct Spent {                            // of one step
     double supplied = 0, dissipated = 0;  // by the pluck, and by the string's own losses [J]
 };

@@ -323,8 +323,6 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     return g;
 }
 
-double GridString::pluck_at(double t) const { return points.pluck ? force(*points.pluck, t) : 0; }
-
 // ---- Von Neumann relations.
 
 namespace {

@@ -61,7 +61,7 @@ public:
         y[-1] = -y[1];
         y[N + 1] = -y[N - 1];
         pass_(pull_, N, solve_.input(), y, q_, nullptr);
-        F_e_ = g_.pluck_at((step_ + 0.5) * dt_);
+        F_e_ = g_.points.pluck ? mean_force(*g_.points.pluck, step_ * dt_, dt_) : 0;
         if (F_e_ != 0) g_.pluck_stencil.add(xi_ * F_e_, solve_.input());
         solve_(s);
         for (std::size_t p = 0; p < g_.stencils.size(); ++p) {

@@ -102,8 +102,7 @@ public:
             const double by_speed = drift_.empty() ? 0 : drift_[l] - 0.25 * next[l];
             next[l] = now[l] + 0.5 * (next[l] - now[l]) + by_speed;
         }
-        pluck(0, 0.5, next);
-        F_e_ = g_.pluck_at(0);
+        F_e_ = pluck(0, 0.5, next);
         for (std::size_t p = 0; p < now_.size(); ++p) {
             now_[p] = older_[p] = g_.stencils[p].read(now);
             free_[p] = g_.stencils[p].read(next) - older_[p];
@@ -231,7 +230,7 @@ private:
         u[N + 1] = -u[N - 1];
     }
     double pluck(double t, double share, double* next) const noexcept {  // returns the force [N]
-        const double F = g_.pluck_at(t);
+        const double F = g_.points.pluck ? mean_about(*g_.points.pluck, t, dt_) : 0;
         if (F != 0) pluck_response_.add(share * gain_ * F, next);
         return F;
     }

@@ -168,7 +168,7 @@ private:
         return dt_ * v_[i] + dt_ * dt_ * ((0.5 - w_.beta()) * a_[i] + w_.beta() * a);
     }
     double pluck_at(long n) const {
-        return p_.pluck ? jvari::force(*p_.pluck, static_cast<double>(n) * dt_) : 0;
+        return p_.pluck ? mean_about(*p_.pluck, static_cast<double>(n) * dt_, dt_) : 0;
     }
 
     Weights w_;

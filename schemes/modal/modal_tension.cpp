@@ -144,8 +144,9 @@ private:
     // The direction at y, and what it and the points do without their forces. share: of its force
     // that the step applies.
     void prepare(double share) noexcept {
-        F_e_ = p_.points.pluck ? jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt)
-                               : 0;
+        F_e_ = p_.points.pluck
+                   ? mean_about(*p_.points.pluck, static_cast<double>(step_) * p_.dt, p_.dt)
+                   : 0;
         for (std::size_t i = 0; F_e_ != 0 && i < y_.size(); ++i)
             coming_[i] += share * gain(i) * F_e_ * port(p_.update.ports.size() - 1)[i];
         for (std::size_t i = 0; i < y_.size(); ++i) {

@@ -202,7 +202,7 @@ private:
         for (double& f : earlier_force_) f *= applied();
     }
     void push_by_pluck() noexcept {
-        const double F_e = jvari::force(*p_.points.pluck, static_cast<double>(step_) * p_.dt);
+        const double F_e = mean_about(*p_.points.pluck, static_cast<double>(step_) * p_.dt, p_.dt);
         force_[pluck_port_] = F_e;
         for (std::size_t z = 0; F_e != 0 && z < read_.size(); ++z)
             read_[z] += applied() * p_.theta[pluck_port_][z] * F_e;

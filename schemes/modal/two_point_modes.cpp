@@ -99,8 +99,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         pluck_.first = steps.first;
         pluck_.steps = steps.count;
         for (long n = steps.first; n < steps.first + steps.count; ++n)
-            pluck_.mean.push_back(0.5 *
-                                  (force(*s.pluck, n * dt_) + force(*s.pluck, (n + 1) * dt_)));
+            pluck_.mean.push_back(mean_force(*s.pluck, n * dt_, dt_));
     }
     std::vector<const AlignedVector*> all;
     for (const AlignedVector& g : g_) all.push_back(&g);

@@ -57,7 +57,10 @@ struct jvari_problem {
 
     double pluck_position, pluck_width; /* [m] */
     const double* pluck_weights;        /* plucks x M */
-    /* pluck_samples: the force at t = n/sample_rate [N]; 0 beyond */
+    /* pluck_samples: the force about t = n/sample_rate [N], its mean over the step before and the
+       step after with the weight 1 there and 0 at their far ends, at n = 0 over the step after; 0
+       beyond. So (F[n] + F[n+1])/2 in a two-point step, F[n] in a three-point one, half of F[0] in
+       its first half step, bring the whole impulse */
     const double* pluck_force;
     int64_t pluck_samples;
 

@@ -21,7 +21,8 @@ std::vector<double> pluck_samples(const Pluck& pluck, const jvari_problem& p) {
     const double last =
         std::min(std::ceil((pluck.start + pluck.duration) * p.sample_rate) + 1, steps);
     std::vector<double> samples;
-    for (double n = 0; n < last; ++n) samples.push_back(force(pluck, n / p.sample_rate));
+    for (double n = 0; n < last; ++n)
+        samples.push_back(mean_about(pluck, n / p.sample_rate, 1 / p.sample_rate));
     return samples;
 }
 

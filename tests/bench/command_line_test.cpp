@@ -812,6 +812,19 @@ TEST(Units, ValuesThatLookLikeAnotherUnitAreNamed) {
     EXPECT_FALSE(says(said(""), "warning"));
 }
 
+TEST(ForceFile, WhoseRowsAreCloserThanAStepIsSaid) {
+    const Scratch scratch;
+    const std::string run =
+        "run tanpura_c3 --scheme modal_two_point --duration 0.005 --set string.0.pluck.file=" +
+        (scratch / "f.csv") + " --rate ";
+    std::ofstream(scratch / "f.csv") << "time_s,force_N\n0.001,0\n0.00101,100\n0.00102,0\n";
+    EXPECT_TRUE(
+        says(jvari(scratch, run + "44100").err, "f.csv are 1e-05 s apart, less than a step"));
+    EXPECT_FALSE(says(jvari(scratch, run + "176400").err, "apart"));
+    std::ofstream(scratch / "f.csv") << "time_s,force_N\n0.001,0\n0.002,1\n0.003,0\n";
+    EXPECT_FALSE(says(jvari(scratch, run + "44100").err, "apart"));
+}
+
 TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
     const Scratch scratch;
     std::ofstream(scratch / "silent.toml")

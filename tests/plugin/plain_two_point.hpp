@@ -110,9 +110,7 @@ private:
     }
     void step() {
         u = twice_over_J * (q - A * y);  // (42)
-        if (string_.pluck)
-            u += ee * static_cast<Real>(0.5 * (force(*string_.pluck, n_ * dt_) +
-                                               force(*string_.pluck, (n_ + 1) * dt_)));
+        if (string_.pluck) u += ee * static_cast<Real>(mean_force(*string_.pluck, n_ * dt_, dt_));
         ++n_;
         const Real yb = (gb * y).sum(), yc = (gc * y).sum(), ub = (gb * u).sum(),
                    uc = (gc * u).sum();

@@ -89,6 +89,56 @@ TEST(Impacts, LoseWhatTheEnergyColumnsSay) {
     }
 }
 
+const char* const with_a_state[] = {"exact_contact",     "modal_two_point",
+                                    "modal_three_point", "modal_two_point compliance=matched",
+                                    "modal_quadratised", "modal_quadratised levels=3"};
+
+// 0.02 m inside the spring, which throws it out; and within the contact at 0.157 .. 0.188 s
+TEST(Impacts, ThatAreOnAtTheStartOrAtTheEndLoseWhatTheirLossTakesAndNoMore) {
+    Settings one = audio;
+    one.modes = 1;
+    Scene inside = lasting(oscillator(), 0.1), open = lasting(oscillator(), 0.17);
+    inside.strings[0].start = ModeShape{1, -0.02};
+    for (const char* form : with_a_state) {
+        const Told first = told(form, inside, one), last = told(form, open, one);
+        ASSERT_EQ(first.impacts[0].all().size(), 1u) << form;
+        ASSERT_EQ(last.impacts[0].all().size(), 1u) << form;
+        const Impact &from = first.impacts[0].all()[0], &to = last.impacts[0].all()[0];
+        EXPECT_NEAR(from.energy_lost, 0, 1e-9 * 200) << form;
+        EXPECT_NEAR(to.energy_lost, 0, 1e-9 * 50) << form;
+        EXPECT_TRUE(std::isnan(from.speed_in)) << form << from.speed_in;
+        if (form != std::string("modal_two_point compliance=matched")) {  // of more modes
+            EXPECT_NEAR(from.speed_out, 2, 0.02) << form;
+        }
+    }
+    inside.strings[0].barriers = {LumpedBarrier{0.5, 0, 0, {1e6}, 1, 0.1}};
+    double by_exact = 0;
+    for (const char* form :
+         {"exact_contact", "modal_two_point", "modal_three_point", "modal_quadratised levels=3"}) {
+        const Told t = told(form, inside, one);
+        const double lost = t.impacts[0].all().at(0).energy_lost;
+        if (by_exact == 0) by_exact = lost;
+        EXPECT_GT(lost, 1) << form;
+        EXPECT_NEAR(lost, by_exact, 1e-3 * by_exact) << form;
+    }
+}
+
+TEST(Impacts, ComeInTowardsTheBarrierAndGoOutAwayFromItOrAreNotSeen) {
+    const Scene scene = lasting(read_scene("tanpura_c3_release"), 0.05);
+    for (const char* form :
+         {"exact_contact", "modal_two_point", "modal_two_point compliance=matched",
+          "modal_three_point", "finite_difference_theta"}) {
+        int seen = 0;
+        const Told t = told(form, scene, audio, false);
+        for (const Impact& i : t.impacts[0].all()) {
+            EXPECT_FALSE(i.speed_in < 0) << form << ' ' << i.start;
+            EXPECT_FALSE(i.speed_out < 0) << form << ' ' << i.end;
+            seen += i.speed_in > 0 && i.speed_out > 0;
+        }
+        EXPECT_GT(seen, 5) << form;
+    }
+}
+
 // With a thread, several points, what is in series, several strings, and a body that moves.
 TEST(Impacts, PushAsMuchAsTheRowsOfTheContactForce) {
     struct Case {

@@ -250,6 +250,12 @@ std::vector<LedgerClaim> ledger_claims() {
            {{64 * x1}, x1, 0}, {1e-10, 1e-10}, {.at_most = 0}),
         Of("GridsOnABridgeThatTakesNothing", grids, {lossy_bridge(0)}, {{4 * x1}, 0, 0},
            {1e-12, 1e-9}, {.at_most = 0}),
+        // slower than 1/beta = 10 m/s, where the law does not pull
+        Of("ContactsThatLoseAndPush",
+           and_grids({"modal_two_point", "modal_three_point", "modal_quadratised",
+                      "modal_quadratised levels=3", "modal_two_point_trapezoidal"}),
+           {lossy_bridge(0.1)}, {{x1, 4 * x1}, x1, 60}, {1e-11},
+           {.more_than = 1e-5, .least = -1e-16}, true),
         Of("GridsOnABridgeThatTakesEnergy", grids, {lossy_bridge(0.5)}, {{4 * x1}, 0, 0}, {1e-12},
            {.more_than = 1e-4}),
         Of("MatchedWithoutLossesButWhatTheCutModesRadiate", matched, {lossless(c3_release())},

@@ -96,5 +96,24 @@ TEST(Quadratised, BothLevelsAreThePublishedFormulae) {
                 }
 }
 
+// Many points, of which some are at F = 0 and open or close with others
+TEST(Quadratised, IsSolvedInEveryStepOverProfiles) {
+    struct Case {
+        const char *form, *scene;
+        double times, seconds;
+        int modes;
+    };
+    for (const auto& [form, name, times, seconds, modes] :
+         {Case{"modal_quadratised levels=3", "sitar_parabola", 1, 0.01, 0},
+          Case{"modal_quadratised", "sitar_parabola", 1, 0.06, 0},
+          Case{"modal_quadratised levels=3", "sitar_c5", 1, 0.03, 0},
+          Case{"modal_quadratised", "sitar_c5_raised", 1, 0.03, 0},
+          Case{"modal_quadratised compliance=matched", "sitar_c5_raised", 2, 0.07, 80}}) {
+        const auto r =
+            play(form, lasting(read_scene(name), seconds), {times * 44100, 44100, modes, {}});
+        EXPECT_EQ(r.status.outcome, Outcome::ok) << form << ' ' << name << ' ' << r.status.step;
+    }
+}
+
 }  // namespace
 }  // namespace jvari

@@ -16,24 +16,29 @@
 namespace jvari {
 namespace {
 
-Points points_of(std::mt19937& random, bool thread, double beta) {
+Points points_of(std::mt19937& random, bool thread, double beta,
+                 LossLaw by = LossLaw::hunt_crossley) {
     std::uniform_real_distribution<double> unit(-1, 1);
     Points p;
     for (int a = 0; a < many; ++a)
         p.contacts.add({std::pow(10, 7 + unit(random)), 1 + 0.5 * (a % 2)}, 1e-4 * unit(random),
-                       beta);
+                       beta, by);
     if (thread) p.thread = Thread{0, 0, 1e5, 1.2, 1e-5};
     couple(p, random, 1e-4);
     return p;
 }
 
+// psi, left behind
 template <class Rule>
-void balances(int levels, bool threaded, double beta) {
+constexpr bool obstacle_may_pull = std::is_same_v<Rule, QuadratisedRule<Quadratisation::raw>>;
+
+template <class Rule>
+void balances(int levels, bool threaded, double beta, LossLaw by = LossLaw::hunt_crossley) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
     int touched = 0;
     for (int draw = 0; draw < 200; ++draw) {
-        const Points p = points_of(random, threaded, beta);
+        const Points p = points_of(random, threaded, beta, by);
         const int n = p.count();
         Obstacle obstacle(p.contacts, p.threads(), p.theta, span, levels, rule_with<Rule>({}));
         const std::vector<double> nothing(n, 0.0);
@@ -63,7 +68,13 @@ void balances(int levels, bool threaded, double beta) {
         const double after = obstacle.potential(newer.data());
         EXPECT_NEAR(work, before - after - lost, 1e-12 * (before + after + std::abs(work) + lost))
             << draw;
-        for (int a = 0; a < many; ++a) touched += force[a] != 0;
+        EXPECT_GE(obstacle.loss(), 0);
+        for (int a = 0; a < many; ++a) {
+            touched += force[a] != 0;
+            const bool by_law =
+                by == LossLaw::hunt_crossley && beta * (newer[a] - older[a]) >= span * (1 - 1e-9);
+            if (!by_law && !obstacle_may_pull<Rule>) { EXPECT_GE(force[a], 0); }
+        }
     }
     EXPECT_GT(touched, 100) << "nothing was tested";
 }
@@ -77,7 +88,13 @@ TYPED_TEST_SUITE(Conserving, Rules, );
 TYPED_TEST(Conserving, TheWorkOnTheStringIsWhatThePotentialsLoseLessTheLosses) {
     for (const int levels : {1, 2})
         for (const bool threaded : {false, true})
-            for (const double beta : {0.0, 0.5}) balances<TypeParam>(levels, threaded, beta);
+            for (const double beta : {0.0, 0.1, 0.5, 20.0})
+                balances<TypeParam>(levels, threaded, beta);
+}
+TEST(Clipped, LossesBalanceWithoutPull) {
+    for (const int levels : {1, 2})
+        for (const double beta : {0.1, 0.5, 20.0})
+            balances<GradientRule>(levels, true, beta, LossLaw::clipped);
 }
 
 TEST(Obstacle, ATautThreadStartsByItsForceAtTheNewerLevel) {  // u- = u+: k (h - (u+ + u-)/2)

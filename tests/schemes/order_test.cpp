@@ -121,6 +121,14 @@ Scene on_a_broad_loss() {
     return scene;
 }
 
+Scene struck_with_loss() {
+    Scene scene = lasting(lossless(c3_free()), 0.01);
+    scene.strings[0].start.reset();
+    scene.strings[0].masses = {{5e-3, 0.3, 0.02, 1, 0, 1e5, 1.5, 0.5}};
+    scene.taps = {{"nut", Quantity::nut_force, 0, 0}};
+    return scene;
+}
+
 Scene glide(double seconds) { return lasting(read_scene("steel_string_glide"), seconds); }
 Scene on_a_fret() {
     Scene scene = glide(0.01);
@@ -201,7 +209,10 @@ std::vector<ConvergenceClaim> convergence_claims() {
            {"exact_contact", 0, 300}, {.first = 0.85, .fall = 0.85, .last = 6e-2}),
         Of("ThetaOnC3", {grids[1]}, lasting(c3_release(), 0.02), {0, 0, 44100}, {16},
            {"exact_contact", 0, 300}, {.last = 1.2e-2}),
-        // three-point steps take the loss at the level that they are centred on
+        Of("LossesUnderAHammerAreOfTheSecondOrder",
+           {"modal_two_point", "modal_two_point_trapezoidal", "modal_three_point"},
+           struck_with_loss(), {40, 0, 44100}, {4, 16, 64}, {"exact_contact", 0},
+           {.order = 2, .within = 0.25}),
         Of("ThreePointGridsOnABroadLoss", {grids[0], grids[1]}, on_a_broad_loss(), {0, 0, 44100},
            {4, 16}, {"exact_contact", 0, 300}, {.order = 1.9, .within = 0.3, .left = 0.02}),
         Of("TensionFallsAsTheSquareOfTheStep", tension, glide(0.02), {20, 0, 44100}, {4, 16},

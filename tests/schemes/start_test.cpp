@@ -129,8 +129,13 @@ TEST(Equilibrium, StaysUnderAllThatPresses) {
     }
     s.barriers.push_back(LumpedBarrier{0.1, 0, 5e-3, {1e5}, 1.5, 0});
     s.barriers.push_back(LumpedBarrier{0.5, 0, 0, {1e5}, 1, 0});
-    for (const std::string form : {"modal_two_point", "modal_three_point", "modal_quadratised",
-                                   "exact_contact", "sundials"}) {
+    // whose equilibrium in a power law is unstable: 2 to 40 % after 20 ms on a stiff bridge
+    for (const char* form : {"modal_quadratised", "modal_quadratised levels=3",
+                             "modal_quadratised compliance=matched"})
+        EXPECT_TRUE(says(refusal(form, scene, usual), "does not stay at rest on a contact"))
+            << form;
+    for (const std::string form :
+         {"modal_two_point", "modal_three_point", "exact_contact", "sundials"}) {
         SCOPED_TRACE(form);
         const jvari::Run r = play(form, scene, usual);
         const auto y = r.trace.column(1), F = r.trace.column(2);
