@@ -45,8 +45,8 @@ void address(Plan& plan, const std::string& of_program) {
         if (!p.truth_modes) continue;
         Json modeless = references;
         for (Json& r : modeless) r["settings"].erase("modes");
-        p.truth_key =
-            std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) + limit;
+        p.truth_key = std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) +
+                      limit + (p.begin > 0 ? " " + std::to_string(p.begin) : "");
     }
     std::set<std::string> seen;
     std::vector<Job> once;
@@ -61,6 +61,7 @@ void address(Plan& plan, const std::string& of_program) {
                       {"measured", job.measured}};
         if (job.judged) identity["references"] = references_json(p);
         if (job.judged && p.truth_modes) identity["reference_modes"] = *p.truth_modes;
+        if (job.judged && p.begin > 0) identity["reference_begins"] = p.begin;
         if (!job.errors.empty()) identity["errors"] = job.errors;
         if (p.whole) identity["part_of"] = p.true_hash;
         if (!p.in_model) identity["in_model"] = false;
@@ -155,13 +156,15 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     if (p.in_model || !p.truth_modes)
         model.make(from, [&] {
             Truth t;
-            t.reference = run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone);
+            t.reference =
+                run_reference(p.references, scene, jobs, listener, {p.time_limit}, p.alone);
             return t;
         });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
     if (p.truth_modes)
         truth.make(from, [&] {
-            return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit);
+            return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit,
+                             p.begin);
         });
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(),
             truth.refused()};

@@ -411,7 +411,7 @@ void check_matching(const RandomCase& c, Matching kind, Tally& tally, const Find
     const Trace& truth = known.truth->reference.run.trace;
     const study::Errors off =
         study::errors_of(study::run_reference(reference(modes * multiple / 2), c.scene, 1, {},
-                                              matching_seconds, true)
+                                              {matching_seconds}, true)
                              .run.trace,
                          truth, {}, free_from(c.scene));
     for (std::size_t pair = 0; pair < cells.size(); pair += 2) {
