@@ -11,6 +11,7 @@
 #include "bench/store/encoding.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/study/first_run.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -153,18 +154,19 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     const Scene& scene = p.true_scene();
     const double from = free_from(scene);
     Shared& model = of(p.reference_key);
-    if (p.in_model || !p.truth_modes)
-        model.make(from, [&] {
-            Truth t;
-            t.reference =
-                run_reference(p.references, scene, jobs, listener, {p.time_limit}, p.alone);
-            return t;
-        });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
     if (p.truth_modes)
         truth.make(from, [&] {
             return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit,
                              p.begin);
+        });
+    // what is asked for takes as long as it takes
+    const TimeLimit limit = p.truth_modes ? first_run(p.time_limit) : TimeLimit{p.time_limit};
+    if (!p.truth_modes || (p.in_model && truth.truth()))
+        model.make(from, [&] {
+            Truth t;
+            t.reference = run_reference(p.references, scene, jobs, listener, limit, p.alone);
+            return t;
         });
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(),
             truth.refused()};

@@ -8,6 +8,7 @@
 #include "bench/store/records.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/study/errors.hpp"
+#include "bench/study/first_run.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "reference/profile_points.hpp"
@@ -18,9 +19,8 @@
 namespace jvari::bench::study {
 
 namespace {
-// [s] that the doublings take together, and at most as long again for own modes beside them. By
-// then the first size has to be on its way to its end within `longest`.
-constexpr double patience = 60, longest = 600;
+// [s] that the doublings take together, and at most as long again for own modes beside them
+constexpr double patience = 60;
 
 // What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where
 // the whole would take it too long.
@@ -107,14 +107,13 @@ Truth Search::first(const std::vector<ReferenceChoice>& choices, int modes, int 
         }
         first.push_back(sized(c, size));
     }
-    const bool ours = find_ && time_limit_ > longest;
+    const TimeLimit limit = find_ ? first_run(time_limit_) : TimeLimit{time_limit_};
     try {
         Truth t;
-        t.reference = run_reference(first, scene_, jobs_, listener_,
-                                    ours ? TimeLimit{longest, patience} : TimeLimit{time_limit_});
+        t.reference = run_reference(first, scene_, jobs_, listener_, limit);
         return t;
     } catch (const store::PastItsLimit& e) {
-        if (!ours) throw;
+        if (limit.seconds == time_limit_) throw;
         throw store::PastItsLimit(
             fmt::format("{}. Its contacts open and close too often, or it has too many modes. A "
                         "shorter --duration may help; --reference-modes N, below {}, takes as long "
