@@ -208,17 +208,20 @@ void Search::describe() {
     if (std::isnan(unsettled_))
         t_.description +=
             ". The last doubling changes it most, so what they leave out is unknown. A start with "
-            "a sharp corner can do that to forces: try a `smoothing`";
+            "a sharp corner can do that to forces, and few points of a profile: try a `smoothing`, "
+            "or more points";
 }
 
 void Search::say_what_would_help() {
     if (sizes_.doubled) t_.description += "; twice as many would take too long";
     if (unknown()) t_.description += ", so what they leave out is unknown";
-    else if (size_.points > 0 && 2 * size_.points <= most_points && std::isfinite(unsettled_))
-        t_.description += fmt::format(
-            ". With {} points of the profile it is known to {:.2g} %: --option {}:nodes={} takes "
-            "more, for as long as they take",
-            size_.points, 100 * unsettled_, choice_.scheme->name, 2 * size_.points);
+    if (size_.points > 0 && 2 * size_.points <= most_points) {
+        if (std::isfinite(unsettled_))
+            t_.description += fmt::format(". With {} points of the profile it is known to {:.2g} %",
+                                          size_.points, 100 * unsettled_);
+        t_.description += fmt::format(": --option {}:nodes={} takes more, for as long as they take",
+                                      choice_.scheme->name, 2 * size_.points);
+    }
     if (size_.points > 0) t_.description += "; a shorter --duration lets more points be tried";
 }
 
