@@ -104,7 +104,7 @@ struct On {
             throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss),
                            "none, as the barrier is rigid");
     }
-    // The part of the string under a width moves as a mass, 8 mu w/pi^2. Against a rigid barrier a law
+    // The part of the string under a width moves as a mass, 8 mu w/pi^2. Over a rigid barrier a law
     // of impact would have to say how it rebounds (docs/compliance-matching.md, "Rigid barriers").
     // 1e4 to 1e5 times as stiff as the string over that width stands for rigid.
     void rigid_point(const std::string& part, const LumpedBarrier& b) const {
