@@ -1,6 +1,7 @@
 // What a scene may not say: the range of every number (a pass over the schema), then what no number
 // tells alone.
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -103,6 +104,23 @@ struct On {
             throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss),
                            "none, as the barrier is rigid");
     }
+    // The part of the string under a width moves as a mass, 8 mu w/pi^2. Over a rigid barrier a law
+    // of impact would have to say how it rebounds (docs/compliance-matching.md, "Rigid barriers").
+    // 1e4 to 1e5 times as stiff as the string over that width stands for rigid.
+    void rigid_point(const std::string& part, const LumpedBarrier& b) const {
+        constexpr double pi = std::numbers::pi, stiffer = 1e5, stiffest = 1e13;  // [1], [N/m]
+        if (b.width == 0) return;
+        const double of_string = string.tension / b.width +
+                                 string.bending_stiffness * pi * pi / std::pow(b.width, 3),
+                     instead = std::pow(10, std::floor(std::log10(stiffer * of_string)));
+        throw BadScene(
+            path + part + ".width", number_text(b.width),
+            "0, as the barrier is rigid: over a width the string has a mass, and nothing "
+            "says how a mass rebounds from what does not give way. To keep the width take "
+            "stiffness = " +
+                number_text(std::min(instead, stiffest)) + " [N/m]");
+    }
+    void rigid_point(const std::string&, const ProfileBarrier&) const {}
     void barrier(const std::string& part, const ProfileBarrier& b) const {
         if (b.from < 0 || b.from >= string.length)
             throw BadScene(path + part + ".from", number_text(b.from), between("<="));
@@ -118,7 +136,12 @@ struct On {
             const std::string part = "barrier." + std::to_string(i);
             std::visit([&](const auto& b) { barrier(part, b); }, string.barriers[i]);
             if (is_rigid(string.barriers[i]))
-                std::visit([&](const auto& b) { without_law(part, b); }, string.barriers[i]);
+                std::visit(
+                    [&](const auto& b) {
+                        without_law(part, b);
+                        rigid_point(part, b);
+                    },
+                    string.barriers[i]);
         }
         for (std::size_t k = 0; k < string.masses.size(); ++k)
             footprint("mass." + std::to_string(k), string.masses[k].position,

@@ -146,7 +146,10 @@ std::string text_of(const Certificate& c) {
                entries_text(c), figures_text(c)) +
            "relative L2 difference over the first 10 ms and so on, and how long a pair stays "
            "closer than 1e-3, 1e-6, 1e-9" +
-           (estimated ? "; \"itself\": its own estimate by Richardson's rule" : "") +
+           (estimated
+                ? "; \"itself\": its own estimate by Richardson's rule, of a string of as many "
+                  "modes: what those leave out is unknown"
+                : "") +
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
@@ -256,7 +259,8 @@ Act certify_verb(CLI::App& program) {
                   "at 16, 32 and 64 tap rates, with its own estimate. The table says, pair by "
                   "pair, how far they are apart and for how long they\n"
                   "agree. compare and suite print these figures with their errors: an error below "
-                  "them is shown as \"\u2264\" the figure.");
+                  "them is shown as \"\u2264\" the figure, but for a scheme in place of a "
+                  "reference.");
 }
 
 }  // namespace jvari::bench::command

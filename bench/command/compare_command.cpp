@@ -102,6 +102,11 @@ std::string certificate_text(const compare::Comparison& c) {
     const study::Trust& t = c.against.trust;
     const std::string note = c.reference.note.empty() ? "" : "\n" + c.reference.note;
     if (!t.any()) return "its uncertainty is unknown, so no error is certain" + note;
+    if (c.reference.oversampled)
+        return fmt::format(
+            "errors are against a string of as many modes, and no bounds: what those leave out is "
+            "unknown. The step alone errs by about {:.1e}, by {}{}",
+            t.in_model(c.headline.nut, 2), t.against, note);
     std::string by = t.against;
     if (!t.doubled.empty())
         by += (by.empty() ? "doubling its " : " and by doubling its ") + t.doubled;

@@ -1,8 +1,8 @@
 // Modes: unasked, every cell carries the modes below 20 kHz and below half the lowest rate, and the
-// reference starts from as many. What more is tried is in variants.cpp. Two kinds of schemes take
-// others: a grid takes its nodes from the rate, and one whose points of contact are nodes of its
-// modes may need more of them, which a note says. Several strings have each as many as lie below 20
-// kHz.
+// reference starts from as many. Where no mode lies below 20 kHz, those that the lowest rate holds.
+// What more is tried is in variants.cpp. Two kinds of schemes take others: a grid takes its nodes
+// from the rate, and one whose points of contact are nodes of its modes may need more of them,
+// which a note says. Several strings have each as many as lie below 20 kHz.
 #include "bench/compare/compare_plan.hpp"
 
 #include <fmt/core.h>
@@ -44,8 +44,11 @@ std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
 
 int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
     if (!r.modes.empty()) return r.modes.front();
-    if (lowest_rate >= 40e3)
-        return scene.strings.size() == 1 ? modes_below(scene.strings.front(), 20e3) : 0;
+    if (lowest_rate >= 40e3) {
+        if (scene.strings.size() != 1) return 0;
+        const int heard = modes_below(scene.strings.front(), 20e3);
+        return heard > 0 ? heard : study::modes_held(scene.strings.front(), lowest_rate);
+    }
     int fewest = 0;
     for (const String& s : scene.strings) {
         const int n = modes_below(s, 0.5 * lowest_rate);

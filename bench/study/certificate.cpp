@@ -129,7 +129,8 @@ Certificate certificate_plan(const Scene& scene, const CertifySettings& settings
     c.duration = scene.duration;
     if (const double from = free_from(scene); from < c.duration) c.from = from;
     for (const Tap& tap : scene.taps) c.taps.push_back(tap.name);
-    c.modes = modes_for(scene, {0, settings.tap_rate, settings.modes, {}});
+    c.modes =
+        settings.modes > 0 ? settings.modes : modes_to_begin_with(scene, settings.tap_rate, 0);
     c.entries = entries_for(scene, settings);
     return c;
 }

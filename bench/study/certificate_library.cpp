@@ -211,6 +211,8 @@ Trust trust_of(const Oversampled& o, double until) {
         auto& figure = t.figure.emplace_back();
         for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(tap, ends[w], until);
     }
+    // its step alone is estimated, and not what its modes leave out
+    t.left_out.assign(o.estimates.size(), {nan, nan, nan});
     t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4,
                             o.rate / 2, o.rate);
     return t;

@@ -11,6 +11,7 @@
 #include "bench/store/encoding.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/study/first_run.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 
@@ -45,8 +46,8 @@ void address(Plan& plan, const std::string& of_program) {
         if (!p.truth_modes) continue;
         Json modeless = references;
         for (Json& r : modeless) r["settings"].erase("modes");
-        p.truth_key =
-            std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) + limit;
+        p.truth_key = std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) +
+                      limit + (p.begin > 0 ? " " + std::to_string(p.begin) : "");
     }
     std::set<std::string> seen;
     std::vector<Job> once;
@@ -61,6 +62,7 @@ void address(Plan& plan, const std::string& of_program) {
                       {"measured", job.measured}};
         if (job.judged) identity["references"] = references_json(p);
         if (job.judged && p.truth_modes) identity["reference_modes"] = *p.truth_modes;
+        if (job.judged && p.begin > 0) identity["reference_begins"] = p.begin;
         if (!job.errors.empty()) identity["errors"] = job.errors;
         if (p.whole) identity["part_of"] = p.true_hash;
         if (!p.in_model) identity["in_model"] = false;
@@ -152,16 +154,19 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     const Scene& scene = p.true_scene();
     const double from = free_from(scene);
     Shared& model = of(p.reference_key);
-    if (p.in_model || !p.truth_modes)
-        model.make(from, [&] {
-            Truth t;
-            t.reference = run_reference(p.references, scene, jobs, listener, p.time_limit, p.alone);
-            return t;
-        });
     Shared& truth = p.truth_key.empty() ? model : of(p.truth_key);
     if (p.truth_modes)
         truth.make(from, [&] {
-            return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit);
+            return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit,
+                             p.begin);
+        });
+    // what is asked for takes as long as it takes
+    const TimeLimit limit = p.truth_modes ? first_run(p.time_limit) : TimeLimit{p.time_limit};
+    if (!p.truth_modes || (p.in_model && truth.truth()))
+        model.make(from, [&] {
+            Truth t;
+            t.reference = run_reference(p.references, scene, jobs, listener, limit, p.alone);
+            return t;
         });
     return {truth.truth(), model.truth() ? &model.truth()->reference : nullptr, &truth.floor(),
             truth.refused()};

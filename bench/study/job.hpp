@@ -27,6 +27,7 @@ struct Point {
     std::vector<ReferenceChoice> references;
     // 0: found by doubling; none: the reference with the cells' modes is all there is
     std::optional<int> truth_modes = 0;
+    int begin = 0;       // modes that the doubling begins with; 0: those of modes_to_begin_with
     bool alone = false;  // nothing is asked of what the reference is uncertain by
     // errors from a string with as many modes are asked for too, where the truth has others
     bool in_model = true;

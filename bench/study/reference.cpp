@@ -18,7 +18,9 @@
 #include "bench/study/cell.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::study {
 
@@ -76,6 +78,18 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene,
 }
 }  // namespace
 
+int modes_held(const String& s, double rate) {
+    constexpr double share = 20 / 44.1;
+    return std::min(modes_below(s, share * rate), modes_measured(s).value_or(most_modes));
+}
+
+int modes_to_begin_with(const Scene& scene, double tap_rate, int cells) {
+    int held = 0;
+    for (const String& s : scene.strings) held = std::max(held, modes_held(s, tap_rate));
+    const int carried = cells > 0 ? cells : modes_for(scene, {});
+    return held > 0 && carried > 0 ? std::min(held, carried) : std::max(held, carried);
+}
+
 std::vector<ReferenceChoice> references_of(const Scene& scene, const Settings& at,
                                            const Descriptor* named, const Descriptor* stand_in) {
     std::vector<ReferenceChoice> all;
@@ -98,16 +112,17 @@ std::vector<ReferenceChoice> references_of(const Scene& scene, const Settings& a
                                         : "no reference gets scene " + scene.name + " going";
     for (const Descriptor* scheme : able)
         add(*scheme,
-            fmt::format("{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its "
-                        "error is estimated from three rates, "
-                        "not bounded{}",
-                        why, scheme->name, oversampling * at.sample_rate, oversampling,
-                        able.size() > 1 ? ", and was the least of those that could" : ""));
+            fmt::format(
+                "{}: {} oversampled to {} Hz, {} times the highest rate, stands in; its "
+                "error is estimated from three rates, not bounded, and errors are against a "
+                "string of as many modes{}",
+                why, scheme->name, oversampling * at.sample_rate, oversampling,
+                able.size() > 1 ? ", and was the least of those that could" : ""));
     return all;
 }
 
 Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene& scene, int jobs,
-                        const store::Listener& listener, double time_limit, bool alone) {
+                        const store::Listener& listener, TimeLimit limit, bool alone) {
     if (const double from = free_from(scene); from >= scene.duration && !alone)
         throw Refusal(fmt::format(
             "a pluck of {} ends at {:.6g} s, and the run at {:.6g} s: errors are measured once "
@@ -123,7 +138,7 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
                                                       in_turn.end());
                 store::side_by_side(
                     {1}, 1, listener, "stand-in", [&](std::size_t, store::Done& done) {
-                        least_error_first(rest, scene, store::within(time_limit, told_to(done)));
+                        least_error_first(rest, scene, store::within(limit.seconds, told_to(done)));
                     });
                 ordered = true;
             }
@@ -131,8 +146,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             Reference r{choice, {}, {}, {}};
             store::side_by_side(std::vector<double>(alone ? 1 : 2, 1), jobs, listener, "reference",
                                 [&](std::size_t i, store::Done& done) {
-                                    const ProgressOf progress =
-                                        store::within(time_limit, told_to(done));
+                                    const ProgressOf progress = store::within(
+                                        limit.seconds, told_to(done), limit.judged_after);
                                     if (i == 1)
                                         r.moved = reference_run(
                                             choice, moved(scene, 1 + floor_displacement), progress);

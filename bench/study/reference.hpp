@@ -40,6 +40,17 @@ constexpr int oversampling = 4;  // of a scheme that stands in: the coarsest of 
 std::vector<ReferenceChoice> references_of(const Scene&, const Settings& at,
                                            const Descriptor* named, const Descriptor* stand_in);
 
+// Modes from which a reference is doubled: as many as the cells carry (0: those below 20 kHz), but
+// none that the rows cannot hold. Rows of 44.1 kHz hold those below 20 kHz, others the same share
+// of their rate, whatever the unit of time. Where no mode lies below 20 kHz, all that rows hold.
+int modes_to_begin_with(const Scene&, double tap_rate, int cells);
+int modes_held(const String&, double rate);  // by rows of this rate
+
+struct TimeLimit {  // of processor [s]
+    double seconds = HUGE_VAL;
+    double judged_after = HUGE_VAL;  // from then on a run ends that at its pace would take longer
+};
+
 struct Reference {
     ReferenceChoice choice;
     Run run, moved;  // moved: started 1e-12 apart
@@ -48,12 +59,12 @@ struct Reference {
 // The first of the choices that represents the scene and gets going, its two runs side by side
 // where `jobs` are not 1; of the schemes that may stand in the one that estimates its own error
 // least goes first. Throws Refusal where none does, and PastItsLimit where one of the two runs
-// computes for longer than `time_limit` [s]: another in its place would make the errors a matter of
+// computes for longer than its limit: another in its place would make the errors a matter of
 // the machine.
 //
 // `alone`: the first that reaches its end, by one run; `moved` and `trust` are empty.
 Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs,
-                        const store::Listener&, double time_limit = HUGE_VAL, bool alone = false);
+                        const store::Listener&, TimeLimit = {}, bool alone = false);
 
 // ---- Runs of references, kept from one program to the next: a reference may take minutes where a
 // scheme takes milliseconds.

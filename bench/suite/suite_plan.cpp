@@ -67,6 +67,8 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
         study::Point common;
         common.scene = compare::load_scene(r);
         common.time_limit = set.time_limit.value_or(HUGE_VAL);
+        // of a sweep over modes one reference for all
+        common.begin = set.modes.empty() ? 0 : *std::ranges::max_element(set.modes);
         for (const std::string& assignment : r.set) {
             const auto equals = assignment.find('=');
             common.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));

@@ -38,15 +38,15 @@ std::vector<Target> targets();  // of every measure that less is better of, with
 // another unit than the measure's, and for one above 0.5 that says no unit.
 Target target_of(const std::string& measure, const std::string& within);
 
-// ---- The scene's start and others of another family: higher modes, a sharp triangle near an end
-// (rounded as by a plectrum), a pluck elsewhere. A model that is trimmed by one start is verified
-// by the others, so that it is not tuned to one.
+// ---- The scene's start and others of another family: higher modes, a sharp triangle near an end,
+// a pluck or a hammer elsewhere. A model that is trimmed by one start is verified by the others, so
+// that it is not tuned to one.
 
 constexpr int starts = 5;
-// 0: the scene's own. 1: sharp and near an end. 2: a higher mode. Further ones are elsewhere.
-// Between six and nine tenths of its size.
+// 0: the scene's own. 1: a sharp corner near an end. 2: a higher mode. Further ones are elsewhere.
+// Displacements and forces between six and nine tenths of its own, speeds between half and twice.
 Scene started(Scene, int start);
-std::string name_of_start(const Scene& started);  // of its first string that is set in motion
+std::string name_of_start(const Scene& own, int start);  // of the first string that it moves
 
 // ---- Models and their judge.
 

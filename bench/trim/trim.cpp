@@ -63,7 +63,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
 Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
     const Judged j = judge.judged(m, start);
     return {start,
-            name_of_start(started(judge.scene(), start)),
+            name_of_start(judge.scene(), start),
             j.trusted() ? j.error : nan,
             judge.certificate(start),
             judge.within(j, start),
@@ -131,7 +131,9 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
         t.verified.clear();
         if (!t.path.within_tolerance) break;
         for (int s = 0; s < starts; ++s)
-            t.verified.push_back(verified(judge, t.last().model, s, std::ranges::count(by, s) > 0));
+            if (s == 0 || started(judge.scene(), s).strings != judge.scene().strings)
+                t.verified.push_back(
+                    verified(judge, t.last().model, s, std::ranges::count(by, s) > 0));
         const auto worst = std::ranges::max_element(t.verified, {}, [&](const Verified& v) {
             return !fails(v, target) ? -1 : std::isnan(v.error) ? HUGE_VAL : v.error;
         });

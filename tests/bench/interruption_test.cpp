@@ -21,6 +21,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(WithinATimeLimit, ARunThatWouldNotReachItsEndIsEndedAtOnce) {
+    using namespace bench::store;
+    const auto look = within(
+        1000, [](long, long) {}, 0.02);
+    look(1, 1000000);  // too early to tell
+    for (const double from = processor_seconds(); processor_seconds() - from < 0.03;) {}
+    EXPECT_NO_THROW(look(999999, 1000000));
+    EXPECT_NO_THROW(within(1000, [](long, long) {})(0, 1000000));
+    EXPECT_THROW(look(0, 1000000), PastItsLimit);
+    try {
+        look(1, 1000000);
+        FAIL();
+    } catch (const PastItsLimit& e) {
+        EXPECT_TRUE(says(e.what(), "it has 1 of 1000000 rows, and would take more than 1000 s"));
+    }
+}
+
 // after its start a program has begun what lasts
 constexpr auto under_way = std::chrono::milliseconds(sanitized ? 4000 : 1000);
 

@@ -389,14 +389,16 @@ void check_matching(const RandomCase& c, Matching kind, Tally& tally, const Find
     point.truth_modes = std::nullopt;
     point.alone = true;
     point.time_limit = matching_seconds;
-    for (const int rate : {1, 4})
+    constexpr int rates[] = {1, 4, 16};  // times the tap rate
+    for (const int rate : rates)
         for (const char* compliance : {"own", "matched"})
-            plan.jobs.push_back({&point,
-                                 {&scheme,
-                                  {rate * c.settings.sample_rate,
-                                   c.settings.tap_rate,
-                                   modes,
-                                   {{"compliance", compliance}}}}});
+            if (rate <= 4 || kind == Matching::bar)
+                plan.jobs.push_back({&point,
+                                     {&scheme,
+                                      {rate * c.settings.sample_rate,
+                                       c.settings.tap_rate,
+                                       modes,
+                                       {{"compliance", compliance}}}}});
     study::address(plan, "{}");
     study::References references(plan.jobs);
     references.hold(point);
@@ -411,7 +413,7 @@ void check_matching(const RandomCase& c, Matching kind, Tally& tally, const Find
     const Trace& truth = known.truth->reference.run.trace;
     const study::Errors off =
         study::errors_of(study::run_reference(reference(modes * multiple / 2), c.scene, 1, {},
-                                              matching_seconds, true)
+                                              {matching_seconds}, true)
                              .run.trace,
                          truth, {}, free_from(c.scene));
     for (std::size_t pair = 0; pair < cells.size(); pair += 2) {
@@ -432,7 +434,7 @@ void check_matching(const RandomCase& c, Matching kind, Tally& tally, const Find
         }
         tally.harmed += worst > harm;
         if (worst > harm)
-            finding(scheme.name, "matched at " + std::to_string(pair == 0 ? 1 : 4) +
+            finding(scheme.name, "matched at " + std::to_string(rates[pair / 2]) +
                                      " times the rate: " + tap + ", " + text(worst) +
                                      " times as much as own");
     }

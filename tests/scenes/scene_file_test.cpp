@@ -404,6 +404,30 @@ TEST(Barriers, ThatAreRigidAreReadWrittenAndNeededByName) {
     EXPECT_NE(write_scene(wall).find("stiffness_density = \"rigid\""), std::string::npos);
 }
 
+TEST(Barriers, AreNotRigidOverAWidthOnAnyScene) {
+    int wide = 0;
+    for (const std::string& name : library_scenes()) {
+        Scene scene = read_scene(name);
+        for (String& s : scene.strings)
+            for (Barrier& b : s.barriers) {
+                auto* lumped = std::get_if<LumpedBarrier>(&b);
+                if (!lumped) continue;
+                lumped->stiffness.k = rigid, lumped->exponent = 1, lumped->contact_loss = 0;
+                if (const double width = lumped->width; width > 0) {
+                    ++wide;
+                    EXPECT_THROW(validate(scene), BadScene) << name;
+                    lumped->width = 0;
+                }
+                EXPECT_NO_THROW(validate(scene)) << name;
+            }
+    }
+    EXPECT_GE(wide, 8);
+    EXPECT_NE(message(lumped, {"string.0.barrier.0.stiffness=rigid",
+                               "string.0.barrier.0.width=1e-3", "string.0.bending_stiffness=1e-3"})
+                  .find("To keep the width take stiffness = 1e+11 [N/m]"),
+              std::string::npos);
+}
+
 // ---- A material and a diameter in place of two numbers
 
 double first_mode(const Scene& scene) {  // [Hz]

@@ -101,12 +101,19 @@ double processor_seconds() {
            (waits ? waits->seconds() : 0);
 }
 
-std::function<void(long, long)> within(double seconds, std::function<void(long, long)> progress) {
-    return [seconds, start = processor_seconds(), progress = std::move(progress)](long done,
-                                                                                  long rows) {
+std::function<void(long, long)> within(double seconds, std::function<void(long, long)> progress,
+                                       double judged_after) {
+    return [=, start = processor_seconds(), progress = std::move(progress)](long done, long rows) {
         progress(done, rows);
-        if (processor_seconds() - start > seconds)
+        const double spent = processor_seconds() - start;
+        if (spent > seconds)
             throw PastItsLimit(fmt::format("past its time limit of {} s", seconds));
+        if (spent > judged_after &&
+            spent * static_cast<double>(rows) > seconds * static_cast<double>(done))
+            throw PastItsLimit(
+                fmt::format("after {:.0f} s of computing it has {} of {} rows, and "
+                            "would take more than {:.0f} s",
+                            spent, done, rows, seconds));
     };
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <list>
 #include <stdexcept>
@@ -59,9 +60,11 @@ private:
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// `progress`, which throws PastItsLimit once this thread has computed `seconds` more. To be called
-// on the thread that it was made on.
-std::function<void(long done, long rows)> within(
-    double seconds, std::function<void(long done, long rows)> progress);
+// `progress`, which throws PastItsLimit once this thread has computed `seconds` more; or, once it
+// has computed `judged_after` more, where at this pace its end would take longer than `seconds`. To
+// be called on the thread that it was made on.
+std::function<void(long done, long rows)> within(double seconds,
+                                                 std::function<void(long done, long rows)> progress,
+                                                 double judged_after = HUGE_VAL);
 
 }  // namespace jvari::bench::store

@@ -1,0 +1,113 @@
+#include "bench/study/reference_size.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "reference/profile_points.hpp"
+#include "reference/references.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/making.hpp"
+
+namespace jvari::bench::study {
+
+namespace {
+constexpr int most_modes_found = 4096;
+constexpr double rows_of_audio = 44100;  // [Hz] that the numbers below are of
+// [s], of motion times modes^2 times 1 + 2.5 points (or barriers beyond the second) times how dear
+// the reference is: ten to twenty seconds; of a short or stiff string more than modes^2
+constexpr double budget = 1.5e6;
+// Windows of the exact solution are as short as the fastest mode asks. On a string whose modes lie
+// this far apart [Hz], or less, the work of `modes^2` takes the time that `budget` says; on a
+// shorter or stiffer one, that of modes times the highest frequency over this.
+constexpr double mode_spacing = 500;
+
+// How many times longer than the closed forms of a lumped linear contact a reference takes for the
+// same work, as measured on two_point_bridge and tanpura_c3_release: a contact that is integrated
+// in steps, and a stiff integrator. Points as on sitar_parabola.
+double dearness(const Descriptor& reference, const Scene& scene) {
+    const Features needed = needed_by(scene);
+    if (reference.name == std::string_view(sundials.name)) return 1000;
+    return needed.has(Feature::power_law_contact) || needed.has(Feature::contact_loss) ? 10 : 1;
+}
+
+// Of a scene whose strings are tables of measured modes: those tables are the strings, and no
+// further mode is left out of them.
+int measured_modes(const Scene& scene) {
+    int all = 0;
+    for (const String& s : scene.strings) {
+        const auto modes = modes_measured(s);
+        if (!modes) return 0;
+        all = all == 0 ? *modes : std::min(all, *modes);
+    }
+    return all;
+}
+
+bool is_nodes(const std::pair<std::string, std::string>& o) { return o.first == nodes_option.name; }
+}  // namespace
+
+std::string Size::text() const {
+    return fmt::format("{} modes", modes) +
+           (points > 0 ? fmt::format(" and {} points", points) : "");
+}
+
+int Sizes::most_modes() const { return measured > 0 ? measured : 2 * most_modes_found; }
+
+Sizes sizes_of(const ReferenceChoice& c, const Scene& scene, int modes, int begin) {
+    Sizes s;
+    s.measured = modes == 0 ? measured_modes(scene) : 0;
+    const int first =
+        s.measured > 0 ? s.measured : modes_to_begin_with(scene, c.settings.tap_rate, begin);
+    const auto asked = std::ranges::find_if(c.settings.options, is_nodes);
+    const bool points_asked = asked != c.settings.options.end();
+    int points = 0;
+    if (needed_by(scene).any(any_profile))
+        points = points_asked ? profile_points(c.settings).count : std::stoi(nodes_option.fallback);
+    s.doubled = modes == 0 && !(points_asked && points > 0);
+    if (s.doubled) {
+        s.each = {{first, points}};
+        return s;
+    }
+    Size last{modes > 0 ? modes : first, points};
+    for (int k = 0; modes == 0 && s.measured == 0 && k < 2; ++k)
+        if (const Size more{2 * last.modes, points};
+            within_budget(*c.scheme, scene, c.settings.tap_rate, more))
+            last = more;
+    for (const int part : {4, 2, 1}) {
+        const Size one{s.measured > 0 ? last.modes : std::max(1, last.modes / part), points / part};
+        if ((points == 0 || one.points > 0) && (s.each.empty() || one != s.each.back()))
+            s.each.push_back(one);
+    }
+    return s;
+}
+
+bool within_budget(const Descriptor& reference, const Scene& scene, double tap_rate,
+                   const Size& s) {
+    std::size_t contacts = 2;  // the closed forms take two alike
+    for (const String& string : scene.strings)
+        contacts = std::max(contacts, string.barriers.size() + string.masses.size());
+    const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
+    const int size = std::max(s.modes, s.points);  // few measured modes may lie under many points
+    const double unit = tap_rate / rows_of_audio;
+    double work = 0;
+    for (const String& string : scene.strings) {
+        const int modes = std::min(s.modes, modes_measured(string).value_or(s.modes));
+        const double highest = modes_of(string, modes).omega0.back() / (2 * std::numbers::pi);
+        work += scene.duration * unit * size *
+                std::max<double>(size, highest / (unit * mode_spacing)) * (1 + 2.5 * coupled);
+    }
+    return s.points <= most_points && s.modes <= most_modes_found &&
+           work * dearness(reference, scene) <= budget;
+}
+
+ReferenceChoice sized(ReferenceChoice choice, const Size& s) {
+    choice.settings.modes = s.modes;
+    if (s.points == 0) return choice;
+    std::erase_if(choice.settings.options, is_nodes);
+    if (s.points != std::stoi(nodes_option.fallback))
+        choice.settings.options.emplace_back(nodes_option.name, std::to_string(s.points));
+    return choice;
+}
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,268 @@
+// Search for the truth of a scene: a first size, doublings, own modes beside a matched one, and a
+// description of how far it went.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "analysis/error.hpp"
+#include "bench/store/records.hpp"
+#include "bench/store/system/interruption.hpp"
+#include "bench/study/errors.hpp"
+#include "bench/study/first_run.hpp"
+#include "bench/study/truth.hpp"
+#include "reference/agreement.hpp"
+#include "reference/profile_points.hpp"
+#include "reference/references.hpp"
+#include "scenes/excitation.hpp"
+#include "schemes/making.hpp"
+
+namespace jvari::bench::study {
+
+namespace {
+// [s] that the doublings take together, and at most as long again for own modes beside them
+constexpr double patience = 60;
+
+// What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where
+// the whole would take it too long.
+void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store::Listener& listener,
+             double time_limit) {
+    if (r.trust.any() || r.choice.scheme->name == std::string_view(sundials.name) ||
+        !represents(sundials, scene))
+        return;
+    const double from = free_from(scene);
+    if (!within_budget(sundials, scene, r.choice.settings.tap_rate, size))
+        scene.duration = std::min(scene.duration, from + 50e-3);
+    if (!within_budget(sundials, scene, r.choice.settings.tap_rate, size)) return;
+    ReferenceChoice other = sized(r.choice, size);
+    other.scheme = &sundials;
+    std::erase_if(other.settings.options,
+                  [](const auto& o) { return o.first != std::string(nodes_option.name); });
+    const Run run = run_reference({other}, scene, jobs, listener, {time_limit}, true).run;
+    const double until = static_cast<double>(run.trace.rows - 1) / run.trace.tap_rate - from;
+    const bool whole = run.trace.rows == r.run.trace.rows;
+    for (int k = 0; k < run.trace.taps(); ++k) {
+        auto& figure = r.trust.figure.emplace_back();
+        for (std::size_t w = 0; w < figure.size(); ++w) {
+            const double end = trust_windows[w];
+            const bool covered = w == 2 ? whole : end <= until + 1e-6;
+            figure[w] = covered ? change(r.run.trace, run.trace, k, from, end) : nan;
+        }
+    }
+    r.trust.against = sundials.name;
+    r.trust.missing.clear();
+}
+
+class Search {
+public:
+    Search(const Scene& s, int jobs, const store::Listener& listener, double time_limit, bool find)
+        : scene_(s), jobs_(jobs), listener_(listener), time_limit_(time_limit), find_(find) {}
+    Truth of(const std::vector<ReferenceChoice>&, int modes, int begin);
+
+private:
+    Truth first(const std::vector<ReferenceChoice>&, int modes, int begin);
+    std::optional<Size> next() const;
+    bool more();  // false: this is the last size
+    void judge();
+    void half();
+    void own();
+    void describe();
+    void say_what_would_help();
+    bool unknown() const {
+        return t_.coarser.empty() && std::isnan(t_.reference.trust.of_scene(tap(), window_));
+    }
+    std::size_t tap() const { return static_cast<std::size_t>(headline_of(scene_).nut); }
+    Reference run(const ReferenceChoice& c, TimeLimit limit) const {
+        return run_reference({c}, scene_, jobs_, listener_, limit);
+    }
+
+    const Scene& scene_;
+    const int jobs_;
+    const store::Listener& listener_;
+    const double time_limit_;
+    const bool find_;  // and not asked for
+    const double from_ = free_from(scene_), end_ = headline_window(scene_);
+    const std::size_t window_ = std::isinf(end_) ? 2 : end_ >= 50e-3 ? 1 : 0;
+    Truth t_;
+    ReferenceChoice choice_{};
+    Trust solved_;
+    Sizes sizes_;
+    Size size_{};
+    double spent_ = 0;             // [s]
+    double unsettled_ = HUGE_VAL;  // by what is left out of the headline figure
+};
+
+// At its coarsest size, matched where it can be.
+Truth Search::first(const std::vector<ReferenceChoice>& choices, int modes, int begin) {
+    std::vector<ReferenceChoice> first;
+    for (const ReferenceChoice& c : choices) {
+        if (c.oversampled) {
+            first.push_back(c);
+            continue;
+        }
+        const Size size = sizes_of(c, scene_, modes, begin).each.front();
+        if (const auto nearer = matched(*c.scheme, scene_, c.settings.options)) {
+            first.push_back(c);
+            first.back().settings.options = *nearer;
+            first.back() = sized(first.back(), size);
+        }
+        first.push_back(sized(c, size));
+    }
+    const TimeLimit limit = find_ ? first_run(time_limit_) : TimeLimit{time_limit_};
+    try {
+        Truth t;
+        t.reference = run_reference(first, scene_, jobs_, listener_, limit);
+        return t;
+    } catch (const store::PastItsLimit& e) {
+        if (limit.seconds == time_limit_) throw;
+        throw store::PastItsLimit(
+            fmt::format("{}. Its contacts open and close too often, or it has too many modes. A "
+                        "shorter --duration may help; --reference-modes N, below {}, takes as long "
+                        "as it takes",
+                        e.what(), first.front().settings.modes));
+    }
+}
+
+std::optional<Size> Search::next() const {
+    const auto at = std::ranges::find(sizes_.each, size_);
+    if (at != sizes_.each.end() && at + 1 != sizes_.each.end()) return *(at + 1);
+    const Size twice = size_.twice(sizes_.most_modes());
+    if (!sizes_.doubled || unsettled_ < settled || twice == size_ ||
+        !within_budget(*choice_.scheme, scene_, choice_.settings.tap_rate, twice))
+        return {};
+    return twice;
+}
+
+bool Search::more() {
+    const std::optional<Size> size = next();
+    const double left = sizes_.doubled ? patience - spent_ : HUGE_VAL;
+    if (!size || left <= 0) return false;
+    Reference finer;
+    try {
+        finer = run(sized(choice_, *size), TimeLimit{std::min(time_limit_, left)});
+    } catch (const store::PastItsLimit&) {
+        // the best so far is the answer, with the bound that it has
+        if (time_limit_ <= left) throw;
+        return false;
+    } catch (const BadScene&) {
+        return false;  // no string has as many, or there are no more that were measured
+    } catch (const Refusal&) {
+        return false;  // all that were measured: nothing is left out that could be matched
+    }
+    spent_ += finer.run.wall_seconds;
+    size_ = *size;
+    t_.coarser.push_back(std::move(t_.reference));
+    t_.reference = std::move(finer);
+    judge();
+    return true;
+}
+
+void Search::judge() {
+    t_.reference.trust = trust_of(solved_, t_, size_, from_);
+    unsettled_ = t_.reference.trust.left_out[tap()][window_];
+    const Trace &finer = t_.reference.run.trace, &fewer = t_.coarser.back().run.trace;
+    const auto free = [&](const Trace& t) {
+        return rows_from(t.column(static_cast<int>(tap())), from_, t.tap_rate);
+    };
+    t_.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
+}
+
+// Where even one doubling takes too long, half as many tell something, too.
+void Search::half() {
+    const Size half{sizes_.measured > 0 ? size_.modes : size_.modes / 2, size_.points / 2};
+    if (!find_ || !unknown() || half.modes == 0 || half == size_) return;
+    try {
+        t_.coarser.push_back(run(sized(choice_, half), TimeLimit{time_limit_}));
+        judge();
+    } catch (const Refusal&) {}
+}
+
+void Search::own() {
+    if (t_.coarser.empty() || !is_matched(choice_.settings.options)) return;
+    try {
+        t_.own = own_motion(choice_, scene_, size_, jobs_, listener_,
+                            find_ ? std::min(time_limit_, patience) : time_limit_);
+    } catch (const store::PastItsLimit&) {  // without it the doublings alone tell
+    } catch (const Refusal&) {}
+    if (!t_.own.empty()) t_.reference.trust = trust_of(solved_, t_, size_, from_);
+    unsettled_ = t_.reference.trust.left_out[tap()][window_];
+}
+
+void Search::describe() {
+    t_.description =
+        size_.text() + (is_matched(choice_.settings.options) ? ", compliance matched" : "");
+    if (sizes_.measured > 0) {
+        double highest = HUGE_VAL;
+        for (const String& s : scene_.strings)
+            highest = std::min(highest,
+                               std::get<TableDamping>(s.damping).frequency_hz[sizes_.measured - 1]);
+        t_.description +=
+            fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table",
+                        highest / 1000);
+    }
+    if (t_.coarser.empty()) return;
+    t_.description +=
+        fmt::format("; half of them change {} over {} by {:.1e}", scene_.taps.at(tap()).name,
+                    std::isinf(end_) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end_),
+                    change(t_.reference.run.trace, t_.coarser.back().run.trace,
+                           static_cast<int>(tap()), from_, end_));
+    if (std::isnan(unsettled_))
+        t_.description +=
+            ". The last doubling changes it most, so what they leave out is unknown. A start with "
+            "a sharp corner can do that to forces, and few points of a profile: try a `smoothing`, "
+            "or more points";
+}
+
+void Search::say_what_would_help() {
+    if (sizes_.doubled) t_.description += "; twice as many would take too long";
+    if (unknown()) t_.description += ", so what they leave out is unknown";
+    if (size_.points > 0 && 2 * size_.points <= most_points) {
+        if (std::isfinite(unsettled_))
+            t_.description += fmt::format(". With {} points of the profile it is known to {:.2g} %",
+                                          size_.points, 100 * unsettled_);
+        t_.description += fmt::format(": --option {}:nodes={} takes more, for as long as they take",
+                                      choice_.scheme->name, 2 * size_.points);
+    }
+    if (size_.points > 0) t_.description += "; a shorter --duration lets more points be tried";
+}
+
+Truth Search::of(const std::vector<ReferenceChoice>& choices, int modes, int begin) {
+    t_ = first(choices, modes, begin);
+    if (t_.reference.choice.oversampled) {
+        t_.description =
+            "a stand-in with as many modes as the schemes, if it has modes: what those "
+            "leave out is unknown";
+        return std::move(t_);
+    }
+    choice_ = t_.reference.choice;
+    const auto asked = std::ranges::find_if(choices, [&](const ReferenceChoice& c) {
+        return c.scheme == choice_.scheme && !c.oversampled;
+    });
+    sizes_ = sizes_of(*asked, scene_, modes, begin);
+    size_ = sizes_.each.front();
+    spent_ = t_.reference.run.wall_seconds;
+    Settings certified = asked->settings;
+    certified.options = choice_.settings.options;  // of as many points as it takes unasked
+    std::erase_if(certified.options,
+                  [](const auto& o) { return o.first == std::string(nodes_option.name); });
+    certified.modes =
+        sizes_.measured > 0 ? sizes_.measured : modes_to_begin_with(scene_, certified.tap_rate, 0);
+    solved_ = trust_of(scene_, choice_.scheme->name, certified, scene_.duration);
+    t_.matched =
+        is_matched(choice_.settings.options) || needed_by(scene_).has(Feature::rigid_barrier);
+    while (more()) {}
+    half();
+    own();
+    describe();
+    if (sizes_.measured > 0 && !needed_by(scene_).any(any_profile))
+        confirm(t_.reference, scene_, size_, jobs_, listener_, time_limit_);
+    else if (find_ && !(unsettled_ < settled)) say_what_would_help();
+    return std::move(t_);
+}
+}  // namespace
+
+Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes,
+                int jobs, const store::Listener& listener, double time_limit, int begin) {
+    return Search(scene, jobs, listener, time_limit, modes == 0).of(choices, modes, begin);
+}
+
+}  // namespace jvari::bench::study

@@ -1,0 +1,151 @@
+// How far a reference is doubled, whatever the unit, and what it is known to where a number of
+// points is asked for.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <regex>
+
+#include "bench/compare/bound.hpp"
+#include "bench/compare/compare.hpp"
+#include "bench/compare/compare_plan.hpp"
+#include "bench/study/truth.hpp"
+#include "reference/agreement.hpp"
+#include "reference/references.hpp"
+#include "scenes/modes.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/says.hpp"
+
+namespace jvari {
+namespace {
+
+using bench::study::ReferenceChoice, bench::study::Truth;
+
+Truth truth_of(const Scene& scene, double tap_rate, int modes, int begin, OptionValues options) {
+    const ReferenceChoice c{&exact_contact, {0, tap_rate, 0, std::move(options)}, ""};
+    return bench::study::run_truth({c}, scene, modes, 1, bench::store::Listener(), HUGE_VAL, begin);
+}
+
+// ---- Units
+
+// Bar of 70 mm over a stop, or the same with lengths and times `unit` times as large.
+Scene bar(double unit) {
+    Scene scene;
+    scene.name = "bar";
+    scene.duration = 9e-3 * unit;
+    String& s = scene.strings.emplace_back();
+    s.length = 0.07 * unit;
+    s.linear_density = 0.1;
+    s.tension = 1e-3;
+    s.bending_stiffness = unit * unit;
+    s.damping = PolynomialDamping{2 / unit, 0, 1e-5 * unit * unit};
+    s.barriers = {LumpedBarrier{0.023 * unit, 0, -1e-6 * unit, {1e6 / unit}, 1, 0}};
+    s.start = TriangleShape{0.042 * unit, 3e-5 * unit, 7e-3 * unit};
+    scene.taps = {{"y", Quantity::displacement, 0, 0.019 * unit},
+                  {"stop", Quantity::bridge_force, 0, 0}};
+    return scene;
+}
+
+TEST(Truth, IsTheSameWhateverTheUnitOfLengthAndTime) {
+    for (const int begin : {0, 12}) {
+        const Truth large = truth_of(bar(1), 32e3, 0, begin, {}),
+                    small = truth_of(bar(1e-3), 32e6, 0, begin, {});
+        ASSERT_EQ(small.reference.choice.settings.modes, large.reference.choice.settings.modes);
+        EXPECT_EQ(modes_below(bar(1e-3).strings[0], 20e3), 0)
+            << "the other one has no unit of 20 kHz";
+        ASSERT_EQ(small.coarser.size(), large.coarser.size());
+        ASSERT_GE(large.coarser.size(), 1u);
+        for (std::size_t tap = 0; tap < 2; ++tap) {
+            const double known = large.reference.trust.of_scene(tap, 2);
+            EXPECT_GT(known, 0);
+            EXPECT_NEAR(small.reference.trust.of_scene(tap, 2), known, 1e-3 * known) << tap;
+        }
+    }
+}
+
+TEST(Truth, BeginsWithTheModesOfTheCellsAndNoneThatTheRowsDoNotHold) {
+    const String c3 = read_scene("tanpura_c3_release").strings[0];
+    Scene scene;
+    scene.strings = {c3};
+    using bench::study::modes_to_begin_with;
+    EXPECT_EQ(modes_to_begin_with(scene, 44100, 0), modes_below(c3, 20e3));
+    EXPECT_EQ(modes_to_begin_with(scene, 705600, 0), modes_below(c3, 20e3));
+    EXPECT_EQ(modes_to_begin_with(scene, 705600, 300), 300);
+    EXPECT_EQ(modes_to_begin_with(scene, 44100, 40), 40);
+    EXPECT_EQ(modes_to_begin_with(scene, 44100, 300), modes_below(c3, 20e3));
+    EXPECT_EQ(modes_to_begin_with(scene, 4410, 0), modes_below(c3, 2e3));
+    EXPECT_EQ(modes_to_begin_with(scene, 44.1, 0), modes_below(c3, 20e3));
+    EXPECT_EQ(modes_to_begin_with(bar(1e-3), 64e6, 0),
+              modes_below(bar(1).strings[0], 64e3 * 20 / 44.1));
+}
+
+TEST(Plan, WhereNoModeLiesBelow20KHzTheLowestRateSaysHowManyAllCarry) {
+    bench::compare::CompareRequest r;
+    r.schemes = {"modal_two_point"};
+    r.rates = {64e6, 256e6};
+    r.tap_rate = 64e6;
+    r.search = false;
+    bench::study::Plan plan;
+    bench::study::Point common;
+    common.scene = bar(1e-3);
+    bench::compare::add_jobs(plan, r, bench::compare::Catalogue(), common, {});
+    ASSERT_FALSE(plan.jobs.empty());
+    for (const bench::study::Job& job : plan.jobs) EXPECT_EQ(job.cell.settings.modes, 5);
+    EXPECT_EQ(plan.points.front().references.front().scheme, &exact_contact);
+}
+
+// ---- Remedies
+
+// A table of the parabola's lowest modes.
+Scene measured(Scene scene) {
+    String& s = scene.strings.front();
+    const Modes modes = modes_of(s, 30);
+    TableDamping table;
+    for (int i = 0; i < modes.count(); ++i) {
+        table.frequency_hz.push_back(modes.omega0[i] / (2 * std::numbers::pi));
+        table.decay_rate.push_back(modes.sigma[i]);
+    }
+    s.damping = table;
+    return scene;
+}
+
+int points_in(const std::string& hint) {
+    std::smatch found;
+    return std::regex_search(hint, found, std::regex("nodes=([0-9]+) takes more"))
+               ? std::stoi(found[1])
+               : 0;
+}
+
+// Points that are asked for leave something out as points do that are not.
+TEST(Truth, IsKnownToNoLessThanTheRemedyThatItPrintsChanges) {
+    const Scene parabola = bench::compare::load_scene("sitar_parabola", {}, 4e-3);
+    for (const Scene& scene : {parabola, measured(parabola)}) {
+        std::vector<Truth> followed;
+        for (int points = 8; points > 0 && points <= 32;
+             points = points_in(followed.back().description))
+            followed.push_back(truth_of(scene, 44100, 0, 20, {{"nodes", std::to_string(points)}}));
+        ASSERT_EQ(followed.size(), 3u) << followed.back().description;
+        const Trace& last = followed.back().reference.run.trace;
+        for (const Truth& t : followed) {
+            EXPECT_TRUE(says(t.reference.trust.doubled, "points"));
+            for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
+                const double known = t.reference.trust.of_scene(tap, 2),
+                             changed = bench::study::change(last, t.reference.run.trace,
+                                                            static_cast<int>(tap), 0, HUGE_VAL);
+                EXPECT_FALSE(known < changed) << scene.taps[tap].name << ", " << t.description;
+            }
+        }
+    }
+}
+
+TEST(Truth, OfAGivenNumberOfModesLeavesOutWhatThePointsDoToo) {
+    const Truth t =
+        truth_of(bench::compare::load_scene("sitar_parabola", {}, 2e-3), 44100, 40, 0, {});
+    ASSERT_EQ(t.coarser.size(), 2u);
+    EXPECT_EQ(t.reference.trust.doubled, "modes and points");
+    EXPECT_EQ(t.coarser[0].choice.settings.modes, 10);
+    EXPECT_EQ(t.coarser[0].choice.settings.options, (OptionValues{{"nodes", "8"}}));
+    EXPECT_EQ(t.reference.choice.settings.options, OptionValues());
+}
+
+}  // namespace
+}  // namespace jvari
