@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace jvari {
 
@@ -11,7 +12,8 @@ namespace {
 using Signal = std::span<const double>;
 constexpr long reach = 16;        // rows on either side of a value between rows
 constexpr long seek_rows = 8192;  // that a whole delay is sought on
-constexpr double as_well = 0.99;  // a larger delay leaves less than this
+constexpr std::size_t most_delays = 8;
+constexpr double much_better = 0.25;  // than a smaller delay: of the square that is left
 constexpr double furthest_stretch = 0.125;
 
 // Weights of rows -15 ... 16 for the value at `part` of a row, 0 <= part < 1.
@@ -105,26 +107,47 @@ double decay_at(Signal x, Signal r, Judged rows, double stretch, double decay) {
 }
 }  // namespace
 
+namespace {
+// Whole delays about which a signal fits better than about their neighbours and than where it
+// stands: the smallest ones, and the best.
+std::vector<long> fitting_delays(Signal run, Signal reference, long far, long from, long to) {
+    std::vector<double> miss;
+    for (long k = -far; k <= far; ++k) {
+        double sum = 0;
+        for (long n = from; n < to; ++n)
+            sum += squared(run[static_cast<std::size_t>(n + k)] -
+                           reference[static_cast<std::size_t>(n)]);
+        miss.push_back(sum);
+    }
+    const auto at = [&](long k) { return miss[static_cast<std::size_t>(k + far)]; };
+    std::vector<long> all;
+    for (long k = 0; k <= far && all.size() < most_delays; ++k)
+        for (const long one : {k, -k}) {
+            const bool least =
+                (one == far || at(one) <= at(one + 1)) && (one == -far || at(one) <= at(one - 1));
+            if (least && at(one) <= at(0)) all.push_back(one);
+            if (k == 0) break;
+        }
+    all.push_back(std::ranges::min_element(miss) - miss.begin() - far);
+    return all;
+}
+}  // namespace
+
 Alignment delayed(Signal run, Signal reference, long furthest) {
     const long rows = static_cast<long>(std::min(run.size(), reference.size())),
                far = std::min(furthest, rows / 8), margin = far + reach + 2;
     Alignment found;
     if (rows < 2 * margin + 16) return found;
-    double least = HUGE_VAL;
-    long late = 0;
     const long end = std::min(rows - margin, margin + seek_rows);
-    for (long k = 0; k <= far; ++k)
-        for (const long at : {k, -k}) {
-            double sum = 0;
-            for (long n = margin; n < end; ++n)
-                sum += squared(run[static_cast<std::size_t>(n + at)] -
-                               reference[static_cast<std::size_t>(n)]);
-            if (sum < as_well * as_well * least) least = sum, late = at;
-        }
     const auto miss = [&](double by) { return moved_miss(run, reference, by, margin, end); };
-    found.late = static_cast<double>(late);
-    for (const double h : {0.5, 0.1, 0.02}) found.late = vertex(found.late, h, miss);
-    const long own = std::abs(late) + reach + 2;
+    double least = HUGE_VAL;
+    for (const long whole : fitting_delays(run, reference, far, margin, end)) {
+        double late = static_cast<double>(whole);
+        for (const double h : {0.5, 0.2, 0.05, 0.01}) late = vertex(late, h, miss);
+        if (const double now = miss(late); now < much_better * least)
+            least = now, found.late = late;
+    }
+    const long own = static_cast<long>(std::abs(found.late)) + reach + 2;
     const double whole = moved_miss(run, reference, 0, own, rows - own);
     if (whole > 0)
         found.left = std::sqrt(moved_miss(run, reference, found.late, own, rows - own) / whole);

@@ -7,9 +7,9 @@
 // it is zero (van Walstijn et al. 2016, eqs 16-21). Every 32nd row after the last forced one comes
 // straight from the state there, with the phase reduced in long double; a row between them from the
 // row before it, by the flight of one row: no error accumulates beyond 32 roundings. The loss of a
-// string on which nothing acts is the difference of its energies. Under a force, loss and supply are
-// integrated, as Duhamel's integral is: Gauss-Legendre on panels that are short against the fastest
-// mode and the pluck's own time scale.
+// string on which nothing acts is the difference of its energies. Under a force, loss and supply
+// are integrated, as Duhamel's integral is: Gauss-Legendre on panels that are short against the
+// fastest mode and the pluck's own time scale.
 #include <algorithm>
 #include <array>
 #include <cmath>

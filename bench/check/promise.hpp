@@ -150,8 +150,8 @@ const std::vector<Scene>& scenes_of_numbers();
 // As far as a scheme represents it without an approximation.
 Scene as_far_as(const Descriptor&, Scene);
 
-// With its tables as files of that folder, the last ones written over: a plugin reads the scene again
-// from its text.
+// With its tables as files of that folder, the last ones written over: a plugin reads the scene
+// again from its text.
 Scene in_files(Scene, const std::filesystem::path& folder);
 
 // The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds

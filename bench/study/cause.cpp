@@ -216,27 +216,20 @@ std::string tuning(const Compared& c, double error) {
 
 // Power within a quarter of their distance of the odd partials and of the even ones, and between.
 struct Shares {
-    double odd = 0, even = 0, between = 0;
-    double all() const { return odd + even + between; }
+    double odd = 0, even = 0, all = 0;
+    double between() const { return all - odd - even; }
 };
 Shares shares_of(Signal x, const Compared& c) {
     const String& s = c.scene.strings.front();
-    const Modes modes = modes_of(s, std::max(1, modes_below(s, 0.5 * c.rate)));
+    const int count = modes_below(s, 0.5 * c.rate);
+    if (count < 2) return {};
+    const Modes modes = modes_of(s, count);
+    const auto hertz = [&](int i) { return i == 0 ? 0 : modes.omega0[i - 1] / (2 * pi); };
     const PowerSpectrum p = power_spectrum(x, c.rate);
-    Shares shares;
-    int i = 0;  // the next partial above
-    for (std::size_t k = 1; k < p.power.size() && i < modes.count(); ++k) {
-        const double hertz = p.bin_hz * static_cast<double>(k);
-        while (i < modes.count() && modes.omega0[i] < 2 * pi * hertz) ++i;
-        if (i == modes.count()) break;
-        const double above = modes.omega0[i] / (2 * pi),
-                     below = i == 0 ? 0 : modes.omega0[i - 1] / (2 * pi),
-                     at = (hertz - below) / (above - below);
-        const int nearest = at < 0.5 ? i : i + 1;  // the number of a partial; 0: none
-        (nearest == 0 || std::abs(at - 0.5) < 0.25 ? shares.between
-         : nearest % 2 == 1                        ? shares.odd
-                                                   : shares.even) += p.power[k];
-    }
+    Shares shares{0, 0, power_between(p, 0.25 * hertz(1), hertz(count))};
+    for (int i = 1; i < count; ++i)
+        (i % 2 == 1 ? shares.odd : shares.even) += power_between(
+            p, 0.75 * hertz(i) + 0.25 * hertz(i - 1), 0.75 * hertz(i) + 0.25 * hertz(i + 1));
     return shares;
 }
 
@@ -244,14 +237,12 @@ Shares shares_of(Signal x, const Compared& c) {
 // at one end. A run without the odd ones sounds an octave high.
 std::string octave(const Compared& c) {
     const Shares x = shares_of(c.run, c), r = shares_of(c.reference, c);
-    if (x.between > most_of_it * x.all() && r.between < nearly_all * r.all())
-        return fmt::format(
-            "sounds an octave low: its strongest partials lie halfway between those of the "
-            "string{}",
-            x.odd + x.even < nearly_all * x.between
-                ? ", at odd multiples of half the first alone, as of a string with a free end"
-                : "");
-    return x.odd < negligible * x.even && r.odd > nearly_all * r.all()
+    if (x.between() > most_of_it * x.all && r.between() < nearly_all * r.all)
+        return std::string("sounds an octave low: its partials lie halfway between the string's") +
+               (x.odd + x.even < nearly_all * x.between()
+                    ? ", at odd multiples of half the first alone, as of a string with a free end"
+                    : "");
+    return x.odd < negligible * x.even && r.odd > nearly_all * r.all
                ? "sounds an octave high: it has every second partial alone"
                : "";
 }
@@ -263,27 +254,20 @@ std::string few_partials(const Compared& c) {
     for (std::size_t n = 0; n < c.run.size(); ++n) apart.push_back(c.run[n] - c.reference[n]);
     const PowerSpectrum off = power_spectrum(apart, c.rate), x = power_spectrum(c.run, c.rate),
                         r = power_spectrum(c.reference, c.rate);
-    const auto power = [&](const PowerSpectrum& p, double from, double to) {
-        double sum = 0;
-        for (std::size_t k = 0; k < p.power.size(); ++k) {
-            const double hertz = p.bin_hz * static_cast<double>(k);
-            if (hertz >= from && hertz < to) sum += p.power[k];
-        }
-        return sum;
-    };
     const int count = modes_below(s, 0.5 * c.rate);
     if (count < 2) return "";
     const Modes modes = modes_of(s, count);
-    const double all = power(off, 0, HUGE_VAL), few = nearly_all * nearly_all;
+    const double all = power_between(off, 0, HUGE_VAL), few = nearly_all * nearly_all;
     double below = 0, from = 0, edge = 0;
     int has = 0;
     for (int i = 0; i + 1 < count; ++i) {
         const double to = 0.25 / pi * (modes.omega0[i] + modes.omega0[i + 1]);
-        below += power(off, from, to);
+        below += power_between(off, from, to);
         if (below > few * all) break;
         has = i + 1, edge = from = to;
     }
-    if (has == 0 || !(power(x, edge, HUGE_VAL) < few * power(r, edge, HUGE_VAL))) return "";
+    if (has == 0 || !(power_between(x, edge, HUGE_VAL) < few * power_between(r, edge, HUGE_VAL)))
+        return "";
     return fmt::format("has {} partials: it lacks those above {:.3g} kHz, which the reference has",
                        has, edge / 1000);
 }
