@@ -55,9 +55,8 @@ double verdict(std::span<const double>& candidate, std::span<const double> refer
     candidate = candidate.first(reference.size());
     return std::all_of(candidate.begin(), candidate.end(), finite) ? 0 : inf;
 }
+}  // namespace
 
-// The share of `power` between two frequencies: each bin spreads its power evenly over its own
-// width.
 double power_between(const PowerSpectrum& spectrum, double from, double to) {
     const int bins = static_cast<int>(spectrum.power.size());
     double sum = 0;
@@ -70,7 +69,6 @@ double power_between(const PowerSpectrum& spectrum, double from, double to) {
     }
     return sum;
 }
-}  // namespace
 
 PowerSpectrum power_spectrum(std::span<const double> signal, double rate, Taper taper) {
     if (signal.empty()) return {};

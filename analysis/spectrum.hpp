@@ -22,6 +22,9 @@ struct PowerSpectrum {
 // any length; empty without rows
 PowerSpectrum power_spectrum(std::span<const double> signal, double rate, Taper = Taper::hann);
 
+// Between two frequencies [Hz]: each bin spreads its power evenly over its own width.
+double power_between(const PowerSpectrum&, double from, double to);
+
 struct Spectrogram {
     int frames = 0, bins = 0;
     double bin_hz = 0;          // [Hz]

@@ -63,6 +63,25 @@ TEST(Scenes, TouchTheBarriersThatTheyHave) {
     }
 }
 
+// A number of a kind that no scene has is felt by nobody. A rigid point has no stiffness to change.
+TEST(Scenes, OfNumbersNeedEveryFeatureButARigidPointAndHaveEveryFile) {
+    Features needed;
+    bool of_modes = false, of_points = false, of_force = false, two_masses = false;
+    for (const Scene& scene : scenes_of_numbers()) {
+        needed = needed | needed_by(scene);
+        for (const String& s : scene.strings) {
+            const auto* table = s.start ? std::get_if<TableStart>(&*s.start) : nullptr;
+            of_modes |= table && table->of_modes;
+            of_points |= table && !table->of_modes;
+            of_force |= s.pluck && !s.pluck->file.empty();
+            two_masses |= s.masses.size() > 1;
+        }
+    }
+    const Features every((1u << feature_count) - 1);
+    EXPECT_EQ(names_of(every - needed), name_of(Feature::rigid_barrier));
+    EXPECT_TRUE(of_modes && of_points && of_force && two_masses);
+}
+
 TEST(Excuses, AreOfControlsThatNeedThem) {
     for (const Excuse& e : excuses()) {
         const auto d = std::ranges::find_if(

@@ -227,6 +227,43 @@ Verdict partials_are_its_own_relations(const Case& c) {
                : not_asked("it has no relation in closed form, or no free string to hear it on");
 }
 
+// One damped mode, whose energy at any instant is known: that of the start, and what is left of it.
+Verdict stores_the_energy_of_the_scene(const Case& c) {
+    constexpr double allowed = 0.02;  // of the energy at the start
+    const Descriptor& d = c.scheme;
+    if (d.balance == Balance::none) return not_asked("it promises no balance");
+    const Features f = d.represents - approximated(d);
+    Scene scene = string_at_rest();
+    scene.duration = contract_rows / contract_tap_rate;
+    String& s = scene.strings.front();
+    if (!f.has(Feature::bending_stiffness)) s.bending_stiffness = 0;
+    s.damping = NoDamping{};
+    if (f.has(Feature::damping)) s.damping = PolynomialDamping{200, 0, 0};
+    const double a = 1e-3, v = 0.5;
+    if (f.has(Feature::initial_shape)) s.start = ModeShape{1, a};
+    else s.velocity = ModeShape{1, v};
+    const Settings settings = settings_for(d, scene);
+    if (!takes(d, scene, settings)) return not_asked("it refuses a string in its first mode");
+    const Modes one = modes_of(s, 1);
+    const double omega0 = one.omega0[0], sigma = one.sigma[0],
+                 omega = std::sqrt(omega_squared_damped(omega0, sigma));
+    const Trace t = run(d, scene, settings, {.energy = true}).trace;
+    const auto stored = t.energy_column(0);
+    double start = 0;
+    for (long n = 0; n < t.rows; ++n) {
+        const double time = static_cast<double>(n) / contract_tap_rate, p = std::exp(-sigma * time),
+                     cosine = p * std::cos(omega * time), sine = p * std::sin(omega * time) / omega;
+        const double y = s.start ? a * (cosine + sigma * sine) : v * sine,
+                     moves = s.start ? -a * omega0 * omega0 * sine : v * (cosine - sigma * sine);
+        const double energy = 0.5 * one.mass * (moves * moves + omega0 * omega0 * y * y);
+        if (n == 0) start = energy;
+        if (!(std::abs(stored[static_cast<std::size_t>(n)] - energy) <= allowed * start))
+            return broken(fmt::format("stores {:.4g} J in row {}, where the string has {:.4g} J",
+                                      stored[static_cast<std::size_t>(n)], n, energy));
+    }
+    return kept(fmt::format("{:.3g} J", start));
+}
+
 Verdict stays_sound_over_a_map(const Case& c) {
     const Descriptor& d = c.scheme;
     if (d.balance == Balance::none) return not_asked("it promises no balance");

@@ -35,6 +35,18 @@ struct Change : Pass<Change> {
     void count(const char* name, int& n) {
         if (is_it(name)) n += 1;
     }
+    void start_table(TableStart& t) {
+        for (const auto& [name, values] : {std::pair{"x_m", &t.at},
+                                           {"displacement_m", &t.displacement},
+                                           {"velocity_m_per_s", &t.velocity}})
+            if (!(t.of_modes && values == &t.at) && is_it(name))
+                for (double& x : *values) x = other(x, "m");
+    }
+    void force(const char*, Pluck& p) {
+        if (p.file.empty() || !is_it("time_s")) return;
+        for (double& t : p.time) t = other(t, "s");
+        p.start = p.time.front(), p.duration = p.time.back() - p.start;
+    }
     void columns(const char* name, const std::string&, const Column& first, std::vector<double>& a,
                  const Column& second, std::vector<double>& b) {
         for (const auto& [column, values] : {std::pair{first, &a}, {second, &b}})
@@ -98,9 +110,32 @@ std::vector<Scene> make_scenes_of_numbers() {
         s.start.reset();
         s.velocity = TriangleShape{0.12, 2, 0.15};
     });
-    add("hammered", [](String& s) { s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 0.3}}; });
-    all.back().taps.push_back({"z", Quantity::displacement, 0, 0, 0});
-    all.back().taps.push_back({"mass", Quantity::bridge_force, 0, 0, 0});
+    add("hammered", [](String& s) {
+        s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 0.3},
+                    {3e-3, 0.2, 0.06, 0.8, 1e-4, 2e4, 1, 0}};
+    });
+    for (const int mass : {0, 1}) {
+        const std::string number = std::to_string(mass);
+        all.back().taps.push_back({"z" + number, Quantity::displacement, 0, 0, mass});
+        all.back().taps.push_back({"mass" + number, Quantity::bridge_force, 0, 0, mass});
+    }
+    add("from_modes", [](String& s) {
+        s.start =
+            TableStart{"modes", true, {1, 2, 3, 5}, {1e-3, 4e-4, -2e-4, 1e-4}, {1, -0.8, 0.5, 0.2}};
+    });
+    add("from_points", [](String& s) {
+        s.start = TableStart{"points",
+                             false,
+                             {0.05, 0.12, 0.2, 0.26},
+                             {6e-4, 1e-3, 7e-4, 2e-4},
+                             {0.4, 0.6, 0.8, 0.2}};
+    });
+    add("measured_force", [](String& s) {
+        s.start.reset();
+        s.pluck = Pluck{
+            0.5, 1.9e-3, 0, 3e-4, 0.13, 0.1, "force", {3e-4, 8e-4, 1.5e-3, 2.2e-3}, {0, 1, -0.4, 0},
+            0.5};
+    });
     add("plucked", [](String& s) {
         s.thread = Thread{0.2, 0.08, 900, 0.2, 2e-4};
         s.pluck = Pluck{0.5, 2e-3, 3, 5e-4, 0.13, 0.1};
@@ -115,6 +150,13 @@ std::vector<Scene> make_scenes_of_numbers() {
     add("power_law", over({LumpedBarrier{0.08, 0.08, -3e-4, {3e4}, 1.5, 0.6},
                            LumpedBarrier{0.2, 0.1, -4e-4, {8e4}, 1.6, 0.9}}));
     add("contact_loss", over({LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 0.6}}));
+    add("clipped_loss", over({LumpedBarrier{0.08, 0.08, -3e-4, {900}, 1, 10, LossLaw::clipped}}));
+    add("at_rest", [&over](String& s) {
+        over({LumpedBarrier{0.2, 0.1, 3e-4, {900}, 1, 0}})(s);
+        s.start = RestStart{};
+        s.thread = Thread{0.08, 0.06, 900, 0.2, 2e-4};
+        s.pluck = Pluck{0.3, 2e-3, 3, 5e-4, 0.13, 0.1};
+    });
     add("line", over({ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}}));
     add("parabola", over({ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}}));
     const TableCurve table{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}};

@@ -26,6 +26,7 @@
 #include <set>
 
 #include "bench/check/promise.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "reference/references.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
@@ -59,46 +60,6 @@ std::optional<jvari::Run> run_where_taken(const Descriptor& d, const Scene& scen
     } catch (const BadScene&) {  // one made here that cannot be
         return std::nullopt;
     }
-}
-
-// What of a scene a scheme represents as it is.
-Scene as_far_as(const Descriptor& d, Scene scene) {
-    const Features f = d.represents - approximated(d);
-    for (String& s : scene.strings) {
-        if (!f.has(Feature::bending_stiffness)) s.bending_stiffness = 0;
-        if (!f.has(Feature::tension_modulation)) s.axial_stiffness = 0;
-        if (!f.has(Feature::damping)) s.damping = NoDamping{};
-        if (auto* p = std::get_if<PolynomialDamping>(&s.damping);
-            p && !f.has(Feature::frequency_dependent_damping))
-            p->sigma1 = p->sigma3 = 0;
-        if (!f.has(Feature::thread)) s.thread.reset();
-        if (!f.has(Feature::initial_shape)) s.start.reset();
-        if (!f.has(Feature::initial_velocity)) s.velocity.reset();
-        if (!f.has(Feature::pluck)) s.pluck.reset();
-        if (!f.has(Feature::free_mass)) s.masses.clear();
-        if (!f.has(Feature::polarisation)) s.polarisation.reset();
-        std::erase_if(s.barriers, [f](const Barrier& b) {
-            return !f.has(std::holds_alternative<LumpedBarrier>(b) ? Feature::lumped_barrier
-                          : is_rigid(b)                            ? Feature::rigid_profile
-                                                                   : Feature::profile_barrier) ||
-                   (is_rigid(b) && std::holds_alternative<LumpedBarrier>(b) &&
-                    !f.has(Feature::rigid_barrier));
-        });
-        if (!f.has(Feature::several_barriers) && s.barriers.size() > 1) s.barriers.resize(1);
-        for (Barrier& b : s.barriers)
-            std::visit(
-                [f](auto& one) {
-                    if (!f.has(Feature::power_law_contact)) one.exponent = 1;
-                    if (!f.has(Feature::contact_loss)) one.contact_loss = 0;
-                    if (!f.has(Feature::clipped_loss)) one.loss_law = LossLaw::hunt_crossley;
-                },
-                b);
-    }
-    if (!f.has(Feature::moving_body)) scene.body.reset();
-    std::erase_if(scene.taps, [&scene](const Tap& t) {
-        return lacks(scene.strings[*t.string], t.quantity, t.mass) != nullptr;
-    });
-    return scene;
 }
 
 // A limp string without losses whose two planes its end at x = 0 turns at each reflection: both
@@ -179,7 +140,8 @@ double own_error(At at) {
 
 class Felt {  // of one scene by one scheme
 public:
-    Felt(const Descriptor& d, Scene scene) : d_(d), scene_(std::move(scene)) {
+    Felt(const Descriptor& d, Scene scene, const std::filesystem::path& folder)
+        : d_(d), scene_(std::move(scene)), folder_(folder) {
         before_ = levels(scene_);
         if (before_.empty() || !truth_for(d_, scene_)) before_.clear();
         else truth_ = levels_of_truth(scene_);
@@ -221,7 +183,7 @@ private:
                 all.emplace_back();
                 continue;
             }
-            auto r = run_where_taken(d_, s, times);
+            auto r = run_where_taken(d_, in_files(s, folder_), times);
             if (!r) return {};
             all.push_back(std::move(*r));
         }
@@ -278,6 +240,7 @@ private:
 
     const Descriptor& d_;
     Scene scene_;
+    const std::filesystem::path& folder_;  // for its tables
     std::vector<const Trace*> truth_;
     Levels before_;
     int examined_ = 0;
@@ -285,6 +248,7 @@ private:
 }  // namespace
 
 Verdict feels_every_number(const Case& c) {
+    const store::Scratch folder;
     int examined = 0;
     std::set<std::string> seen;
     for (const Scene& whole : scenes_of_numbers()) {
@@ -293,7 +257,7 @@ Verdict feels_every_number(const Case& c) {
         // what made it another is not represented
         if (!seen.insert(scene_hash(scene)).second) continue;
         scene.name = whole.name;
-        Felt felt(c.scheme, scene);
+        Felt felt(c.scheme, scene, folder.path);
         if (const std::string fault = felt.wrong(); !fault.empty()) return broken(fault);
         examined += felt.examined();
     }

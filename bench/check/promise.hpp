@@ -8,6 +8,7 @@
 // tests/contract_plugins has a scheme for each that breaks it and keeps all others.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -93,7 +94,12 @@ Verdict carries_no_more_state(const Case&);
 Verdict never_pulls(const Case&);
 Verdict facts_agree_with_its_rows(const Case&);
 
+// Changes of a scene that leave its motion as it is: symmetries.cpp.
+Verdict is_one_motion_in_all_units(const Case&);
+Verdict plays_later_as_at_once(const Case&);
+
 // Numerical claims of a scheme as a whole: claims.cpp, against_references.cpp.
+Verdict stores_the_energy_of_the_scene(const Case&);
 Verdict partials_are_its_own_relations(const Case&);
 Verdict writes_rows_at_their_instants(const Case&);
 Verdict converges_to_the_reference(const Case&);
@@ -140,6 +146,13 @@ std::vector<Scene> scenes_with(Feature);
 // Short and smooth scenes that together have every number of a scene, each large enough to change
 // the taps.
 const std::vector<Scene>& scenes_of_numbers();
+
+// As far as a scheme represents it without an approximation.
+Scene as_far_as(const Descriptor&, Scene);
+
+// With its tables as files of that folder, the last ones written over: a plugin reads the scene
+// again from its text.
+Scene in_files(Scene, const std::filesystem::path& folder);
 
 // The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds
 // the feature tells the two apart.

@@ -134,7 +134,8 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
 }
 
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
-                   const store::Listener& listener, study::Kept& keep) {
+                   const store::Listener& listener, study::Kept& keep,
+                   const std::function<void(const study::Ran&, study::Record&)>& measure) {
     Comparison c;
     study::Point common;
     common.scene = load_scene(request);
@@ -144,6 +145,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
     study::Job like{};
     like.sounds = true;
     like.repeats = request.repeats;
+    like.measure = measure;
     add_jobs(c.plan, request, catalogue, common, like);
     for (const std::string& note : c.plan.notes) listener.note(note);
     double lowest = 0;

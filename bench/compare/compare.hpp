@@ -5,6 +5,7 @@
 // those alone are run whole that the first 50 ms call for (mark_needed).
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -30,7 +31,9 @@ struct Comparison {
 
 // Throws UsageError, BadScene, Refusal.
 Comparison compare(const CompareRequest&, const Catalogue&, const store::Listener&);
-Comparison compare(const CompareRequest&, const Catalogue&, const store::Listener&, study::Kept&);
+// `measure`: what else is measured of each cell (study::Job).
+Comparison compare(const CompareRequest&, const Catalogue&, const store::Listener&, study::Kept&,
+                   const std::function<void(const study::Ran&, study::Record&)>& measure = {});
 
 // ---- Which of the cells that were sought are worth a whole run and a clock.
 //

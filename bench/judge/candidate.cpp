@@ -11,6 +11,9 @@
 #include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/store/usage.hpp"
+#include "bench/study/cause.hpp"
+#include "reference/agreement.hpp"
+#include "scenes/excitation.hpp"
 #include "schemes/registry.hpp"
 #include "schemes/run.hpp"
 
@@ -91,16 +94,50 @@ std::string sentence_of(const study::Cells& cells, const study::TabledCell& cell
                                   : text;
 }
 
-// What stands behind the error, the gravest first.
-std::string cause_sentence(const study::Cell& cell) {
+// Whether a tap is louder in the last quarter of the trace than in the first.
+bool rises(const Trace& trace, double from) {
+    constexpr double louder = 1.05;
+    for (int k = 0; k < trace.taps(); ++k) {
+        const auto rows = rows_from(trace.column(k), from, trace.tap_rate);
+        const std::size_t quarter = rows.size() / 4;
+        double first = 0, last = 0;
+        for (std::size_t n = 0; n < quarter; ++n)
+            first += rows[n] * rows[n], last += std::pow(rows[rows.size() - 1 - n], 2);
+        if (last > louder * louder * first) return true;
+    }
+    return false;
+}
+
+// The cause of the whole trace, of which a run that diverges has the first rows alone: that of the
+// headline's tap, else of the first tap that has one.
+std::string cause_in(const study::Ran& ran) {
+    const Scene& scene = ran.point.true_scene();
+    const auto at = [&](int tap) {
+        return study::cause_of(scene, trace_of(ran.cell), *ran.reference, tap, free_from(scene));
+    };
+    std::string text = at(study::headline_of(scene).nut);
+    for (int k = 0; text.empty() && k < ran.reference->taps(); ++k)
+        if (text = at(k); !text.empty()) text += fmt::format(", at its tap {}", scene.taps[k].name);
+    return text;
+}
+
+// Stands behind the error. What grows is told from the energy of the scene.
+std::string cause_sentence(const study::Cell& cell, const Scene& scene) {
     constexpr double beyond_doubt = 1.05;
     const study::Summary& s = cell.summary;
-    if (s.largest_over_bound > beyond_doubt)
-        return fmt::format("\n  it grows: a tap reaches {:.3g} times what start and pluck allow",
-                           s.largest_over_bound);
+    const bool diverged = cell.status() == "diverged",
+               beyond = diverged || s.largest_over_bound > beyond_doubt;
+    if (!cell.cause.empty() && !(beyond && cell.cause.starts_with(study::too_slowly)))
+        return "it " + cell.cause;
     if (s.energy_gain > gain_allowed_unpromised)
-        return fmt::format("\n  it grows: {:.3g} of its energy is gained", s.energy_gain);
-    return cell.cause.empty() ? "" : "\n  it " + cell.cause;
+        return fmt::format("it grows: {:.3g} of its energy is gained", s.energy_gain);
+    if (!beyond) return cell.cause.empty() ? "" : "it " + cell.cause;
+    return (rises(trace_of(cell), free_from(scene)) ? "it grows: " : "it is too large: ") +
+           (diverged ? cell.reason +
+                           ": its taps or its own energies go beyond what ten times the "
+                           "energy of the scene could make"
+                     : fmt::format("a tap reaches {:.3g} times what start and pluck allow",
+                                   s.largest_over_bound));
 }
 
 // How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two
@@ -156,7 +193,11 @@ compare::Comparison judge(Candidate candidate, compare::CompareRequest request,
     const Costs costs = candidate.costs;
     std::vector<std::string> all = plugins;
     all.push_back(enter(std::move(candidate)));
-    compare::Comparison c = compare::compare(request, compare::Catalogue(all), listener, keep);
+    compare::Comparison c = compare::compare(request, compare::Catalogue(all), listener, keep,
+                                             [](const study::Ran& ran, study::Record& r) {
+                                                 if (is_candidate(ran.cell) && ran.reference)
+                                                     r.cell.cause = cause_in(ran);
+                                             });
     report_costs(c, name, costs);
     for (study::Record& r : c.outcome.records)
         if (is_candidate(r.cell) && r.cell.status() == "diverged")
@@ -173,15 +214,12 @@ std::string verdict_of(const compare::Comparison& c) {
         const study::Cell& cell = c.outcome.records[i].cell;
         if (!is_candidate(cell)) continue;
         text += text.empty() ? "" : "\n";
+        const std::string cause = cause_sentence(cell, c.scene());
         if (cell.status() != "diverged")
-            text += sentence_of(cells, cells[i]) + cause_sentence(cell) +
+            text += sentence_of(cells, cells[i]) + (cause.empty() ? "" : "\n  " + cause) +
                     beside(c, c.outcome.records[i]);
         else if (!no_number_in(trace_of(cell)).empty()) text += cells[i].run() + ": " + cell.reason;
-        else
-            text += fmt::format(
-                "{}: it grows: {}: its taps or its own energies go beyond what ten times the "
-                "energy of the scene could make",
-                cells[i].run(), cell.reason);
+        else text += cells[i].run() + ": " + cause;
     }
     const std::string own = c.outcome.records.front().cell.scheme->name;
     for (const compare::Rising& r : compare::rising_with_the_rate(cells))

@@ -11,8 +11,8 @@
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
+#include "bench/study/cause.hpp"
 #include "bench/study/cost.hpp"
-#include "bench/study/judgement.hpp"
 #include "scenes/excitation.hpp"
 
 namespace jvari::bench::study {

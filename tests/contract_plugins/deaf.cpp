@@ -42,6 +42,17 @@ void parts(Scene& scene, std::optional<Part> String::*part, auto change) {
         if (s.*part) change(*(s.*part));
     });
 }
+template <class Kind>
+void starts(Scene& scene, auto change) {
+    strings(scene, [&](String& s) {
+        if (auto* start = s.start ? std::get_if<Kind>(&*s.start) : nullptr) change(s, *start);
+    });
+}
+void measured(Scene& scene, auto change) {
+    parts(scene, &String::pluck, [&](Pluck& p) {
+        if (!p.file.empty()) change(p);
+    });
+}
 void body(Scene& scene, auto change) {
     if (scene.body)
         for (BodyMode& m : scene.body->modes) change(m);
@@ -78,7 +89,7 @@ constexpr Deaf table_of[] = {
          parts(s, &String::velocity,
                [](auto& v) { std::visit([](auto& shape) { shape.amplitude *= 1.02; }, v); });
      }},
-    {"second_barrier_lower", [](Scene& s) { second(s, [](auto& b) { b.height -= 1e-4; }); }},
+    {"second_barrier_lower", [](Scene& s) { second(s, [](auto& b) { b.height *= 1.25; }); }},
     {"second_barrier_softer", [](Scene& s) { second(s, [](auto& b) { b.stiffness.k *= 0.5; }); }},
     {"barriers_swapped", swap_barriers},
     {"diameter_up", [](Scene& s) { laws<Air>(s, [](auto& d) { d.diameter *= 1.2; }); }},
@@ -107,6 +118,39 @@ constexpr Deaf table_of[] = {
      waveguide},
     {"axial_stiffness_up", [](Scene& s) { strings(s, [](auto& x) { x.axial_stiffness *= 1.05; }); },
      "modal_tension"},
+    {"start_of_a_file_down",
+     [](Scene& s) {
+         starts<TableStart>(s, [](String&, auto& t) {
+             for (double& y : t.displacement) y *= 0.98;
+         });
+     }},
+    {"velocities_of_a_file_ignored",
+     [](Scene& s) {
+         starts<TableStart>(s, [](String&, auto& t) { std::ranges::fill(t.velocity, 0.0); });
+     }},
+    {"measured_force_down", [](Scene& s) { measured(s, [](auto& p) { p.amplitude *= 0.98; }); }},
+    {"measured_force_late",
+     [](Scene& s) {
+         measured(s, [](auto& p) {
+             const double late = 0.1 * p.duration;
+             for (double& t : p.time) t += late;
+             p.start += late;
+         });
+     }},
+    {"clipped_loss_as_hunt_crossley",
+     [](Scene& s) { lumped(s, [](auto& b) { b.loss_law = LossLaw::hunt_crossley; }); }},
+    {"thread_at_rest_lower",
+     [](Scene& s) {
+         starts<RestStart>(s, [](String& x, auto&) {
+             if (x.thread) x.thread->height = 0;
+         });
+     }},
+    {"second_mass_at_rest",
+     [](Scene& s) {
+         strings(s, [](String& x) {
+             if (x.masses.size() > 1) x.masses[1].velocity = 0;
+         });
+     }},
     {"nut_up_in_contact", [](Scene&) {}, "modal_two_point", 1.01},
 };
 

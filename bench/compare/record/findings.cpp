@@ -100,9 +100,10 @@ std::vector<ObservedOrder> convergence_of(const Cells& cells) {
 }
 
 std::vector<Rising> rising_with_the_rate(const Cells& cells) {
-    constexpr double rise = 1.2;
+    constexpr double rise = 1.2, audible = 1;  // [dB]
     std::vector<Rising> all;
-    const std::size_t window = headline_error(cells, study::all_rows(cells));
+    const std::size_t window = headline_error(cells, study::all_rows(cells)),
+                      octaves = study::measure("third_octave_db");
     for (Rows rows : differing_in_rate(cells)) {
         std::erase_if(rows, [&](std::size_t i) {
             return !reached(cells[i]) || !(bound_of(cells[i], window).error >= 0);
@@ -115,6 +116,14 @@ std::vector<Rising> rising_with_the_rate(const Cells& cells) {
             all.push_back({low, high,
                            fmt::format("its error rises with the rate, from {} at {:g} Hz to {}",
                                        percent(from.error), cells[low].rate, percent(to.error))});
+        const double near = cells[low].figure(octaves).value,
+                     far = cells[high].figure(octaves).value;
+        if (rise * to.most() < from.least() && far > rise * near && far > near + audible)
+            all.push_back({low, high,
+                           fmt::format("its third octaves move away from the reference's with the "
+                                       "rate, from {:.2g} dB at {:g} Hz to {:.2g} dB, while its "
+                                       "waveform comes nearer",
+                                       near, cells[low].rate, far)});
     }
     return all;
 }

@@ -50,7 +50,8 @@ std::vector<ObservedOrder> convergence_of(const study::Cells&);
 store::Table convergence_table(const study::Cells&);
 
 // Of each series of cells that differ in the rate alone whose error surely rises with it, by more
-// than a fifth over the headline's window: the cells of its lowest and its highest rate.
+// than a fifth over the headline's window: the cells of its lowest and its highest rate. Likewise
+// where that error falls and the third octaves' difference rises, by 1 dB at least.
 struct Rising {
     std::size_t low, high;
     std::string text;  // "its error rises with the rate, from 1.2 % at 44100 Hz to 3.4 %"
