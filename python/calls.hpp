@@ -89,6 +89,7 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
     const Job job = job_of(scheme, rate, tap_rate, modes, options);
     return unlocked([&] {
         RunOptions o;
+    compare::note_modes(*job.scheme, scene, job.settings, PythonListener());
         o.energy = energy;
         o.progress = [](long, long) { look_for_signals(); };
         return std::make_shared<TakenRun>(run(*job.scheme, scene, job.settings, o), scene);

@@ -230,6 +230,7 @@ int run_command(RunRequest r) {
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
     std::vector<Impacts> impacts(scene.strings.begin(), scene.strings.end());
     if (!r.impacts.empty()) {
+    compare::note_modes(d, scene, settings, console);
         if (std::ranges::all_of(scene.strings, [](const String& s) { return !s.has_contacts(); }))
             throw store::UsageError("--impacts: no string of the scene has a barrier or a mass");
         store::must_be_writable(r.impacts);
@@ -275,7 +276,8 @@ int run_command(RunRequest r) {
                             level.empty() ? "" : "  (" + level + ")");
     }
     if (!r.state.empty() && result.status.outcome == Outcome::ok) {
-        std::string rows = "mode,displacement_m,velocity_m_per_s\n";
+        std::string rows =
+            fmt::format("# state of {}\nmode,displacement_m,velocity_m_per_s\n", scene.name);
         for (std::size_t i = 0; i < result.state.displacement.size(); ++i)
             rows += fmt::format("{},{},{}\n", i + 1, result.state.displacement[i],
                                 result.state.velocity[i]);
