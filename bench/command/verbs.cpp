@@ -117,8 +117,8 @@ void Arguments::set(std::vector<std::string>& set) {
 
 void Arguments::modes(int& modes) {
     option("--modes", modes, counting,
-           "modes of each string, or interior nodes for a scheme on a grid; absent: every mode "
-           "below min(20 kHz, rate/2)");
+           "modes of each string, and as many nodes of modal_spatial_newton; finite differences "
+           "have --option grid=N; absent: every mode below min(20 kHz, rate/2)");
 }
 
 void Arguments::options(std::vector<std::string>& options) {

@@ -95,5 +95,24 @@ TEST(Files, OfTheFolderThatAreNoFilesAreNotReadFrom) {
     EXPECT_TRUE(ends(with("M\\303\\274ller,round,0.01,4e-4,"), 0, "written: my.toml"));
 }
 
+TEST(Files, AGridSaysThatItLeavesModesAsideAndIsComparedOnce) {
+    const Scratch scratch;
+    const std::string fd = "finite_difference_explicit";
+    EXPECT_TRUE(
+        says(shell(scratch, "$J run free_string --duration 0.005 --modes 30 --scheme " + fd).err,
+             "its grid follows from the rate, and modes = 30 is left aside"));
+    const Ended o = shell(scratch,
+                          "$J compare free_string --duration 0.005 --rates 44100 --modes "
+                          "20,40 --repeats 2 --json --schemes modal_two_point," +
+                              fd);
+    ASSERT_EQ(o.code, 0) << o.err;
+    int grids = 0, all = 0;
+    const auto answer = nlohmann::json::parse(o.out);
+    for (const auto& row : answer.at("cells")) grids += row.at("scheme") == fd, ++all;
+    EXPECT_EQ(grids, 1);
+    EXPECT_EQ(all, 3);
+    EXPECT_TRUE(says(o.err, "modes = 20,40 is left aside"));
+}
+
 }  // namespace
 }  // namespace jvari::test
