@@ -76,6 +76,16 @@ TEST(Files, AForceMuchLongerThanItsRunIsAskedAbout) {
     EXPECT_TRUE(says(o.err, "lasts 50 s, and the run 0.02 s. Is time_s in s?"));
 }
 
+// A pluck of 1e6 s is 4e10 steps: no more of them is computed than the run has.
+TEST(Files, AForceIsComputedAsFarAsTheRunLasts) {
+    const Scratch scratch;
+    const std::string run =
+        "timeout 10 $J run tanpura_c3 --scheme modal_two_point --modes 20 "
+        "--duration 0.02 --set string.0.pluck.duration=";
+    EXPECT_TRUE(ends(shell(scratch, run + "1e6"), 0, "status"));
+    EXPECT_TRUE(ends(shell(scratch, run + "1e300"), 3, "the pluck ends at 1e+300 s, after more "));
+}
+
 TEST(Files, OfTheFolderThatAreNoFilesAreNotReadFrom) {
     const Scratch scratch;
     EXPECT_TRUE(ends(shell(scratch,
