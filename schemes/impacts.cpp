@@ -42,7 +42,7 @@ void Impacts::add(const Impact& part) {
 }
 
 void Impacts::step(const BarrierOf& of, int a, double to, double lasts, double span, double force,
-                   double moved) {
+                   double moved, double stored) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (points_.size() <= static_cast<std::size_t>(a)) points_.resize(a + 1);
     Point& point = points_[a];
@@ -52,7 +52,7 @@ void Impacts::step(const BarrierOf& of, int a, double to, double lasts, double s
     if (force != 0) {
         last = {last.row, force + (to == last.until ? last.force : 0), to};
         add({barrier, to - lasts, to, last.force, force * lasts,
-             point.known ? -point.speed : unknown, unknown, -force * speed * lasts});
+             point.known ? -point.speed : unknown, unknown, stored - force * speed * lasts});
     } else if (point.force != 0) all_[last.row].speed_out = speed;
     point = {speed, force, true};
 }

@@ -22,7 +22,9 @@ struct Impact {
     double impulse = 0;         // [N s]
     double speed_in = 0;        // towards the barrier, before; NaN: it began in contact
     double speed_out = 0;       // away from it, after; NaN: not seen [m/s]
-    double energy_lost = 0;     // work of the string on the barrier, both ways [J]
+    // work of the string on the barrier, both ways, and what was stored where it began in contact;
+    // NaN: not known [J]
+    double energy_lost = 0;
 };
 
 class Impacts {
@@ -33,9 +35,9 @@ public:
     void add(const Impact& part);
 
     // A step of a scheme, which ends at `to` and stands for `lasts` [s]: the force on contact a,
-    // and the way that it moved in `span` [s].
+    // the way that it moved in `span` [s], and of the first step what it had stored before [J].
     void step(const BarrierOf& of, int a, double to, double lasts, double span, double force,
-              double moved);
+              double moved, double stored);
 
     const std::vector<Impact>& all() const { return all_; }
     bool told = false;  // by a scheme that tells of its contacts

@@ -137,14 +137,15 @@ void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, S
                         d.name));
 }
 
-// One row per contact, in the order of their starts; what lasts beyond the run has neither end nor
-// speed out.
+// One row per contact, in the order of their starts. Where it lasts beyond the run it has no end,
+// no speed out and no loss, where it was on before no speed in.
 store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& scene,
                            double until) {
     std::vector<std::pair<int, Impact>> all;  // string
     for (const Impacts& of : of_strings)
         for (Impact i : of.all()) {
-            if (i.end >= until) i.end = i.speed_out = nan;
+            if (i.end >= until) i.end = i.speed_out = i.energy_lost = nan;
+            if (i.start <= 0) i.speed_in = nan;
             if (i.start < until) all.emplace_back(&of - of_strings.data(), i);
         }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second.start; });

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "scenes/excitation.hpp"
@@ -177,7 +178,7 @@ private:
         if constexpr (stretches) obstacle_.set(string_->theta());
         if (!force_.empty() && !obstacle_.solve(at, force_.data(), impacts_ != nullptr))
             status_ = {Outcome::not_converged, done_};
-        if (impacts_) tell_impacts();
+        if (impacts_) tell_impacts(at);
         means_.count(force_.data());
         const Spent spent = string_->pass(force_.data(), 0, probed);
         masses_.pass(force_.data());
@@ -190,12 +191,21 @@ private:
         ++done_;
     }
 
-    void tell_impacts() noexcept {
+    // Of a contact that the run begins in: unknown with something in series [J].
+    double stored_at_start(int a, const ReadingsBeforeStep& at) const noexcept {
+        const Contacts& c = points().contacts;
+        if (done_ > 0 || c.laws[a].rigid()) return 0;
+        if (points().series) return std::numeric_limits<double>::quiet_NaN();
+        const auto in = [&](const double* y) { return c.laws[a].potential(c.heights[a] - y[a]); };
+        return levels == 1 ? in(at.older) : 0.5 * (in(at.older) + in(at.now));
+    }
+    void tell_impacts(const ReadingsBeforeStep& at) noexcept {
         const double to = (static_cast<double>(done_) + 0.5 * (levels + 1)) * dt_;
         for (int a = 0; a < obstacle_.contacts(); ++a) {
             const BarrierOf& of = points().contacts.of[a];
             impacts_[of.string].told = true;
-            impacts_[of.string].step(of, a, to, dt_, levels * dt_, force_[a], obstacle_.moved()[a]);
+            impacts_[of.string].step(of, a, to, dt_, levels * dt_, force_[a], obstacle_.moved()[a],
+                                     stored_at_start(a, at));
         }
     }
 
