@@ -30,6 +30,7 @@ int export_command(ExportRequest r) {
     const Console console(r.json, r.quiet);
     r.rates = {r.rate};
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
+    store::must_not_replace({{"--out", r.out}}, files_read(compare::load_scene(r), r.scene, {}));
     store::must_be_writable(r.out);
     const judge::Exported problem = judge::exported(r);
     std::optional<study::Truth> truth;
@@ -211,6 +212,9 @@ int check_command(const CheckRequest& r) {
         throw store::UsageError(
             "check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
     if (!r.junit.empty()) store::must_be_writable(r.junit);
+    std::vector<store::NamedFile> read;
+    for (const std::string& file : r.plugins) read.push_back({"a plugin", file});
+    store::must_not_replace({{"--junit", r.junit}}, read);
     std::vector<check::Checked> checked;
     bool broken = false;
     for (const Descriptor& one : chosen) {

@@ -131,9 +131,10 @@ void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, S
     if (d.clock == Clock::continuous) settings.sample_rate = 0;
     if (make_scheme(d, scene, settings)->state().displacement.empty())
         throw store::UsageError(
-            fmt::format("--state: {} keeps more here than displacement and velocity of each mode "
-                        "of one string; "
-                        "modal_two_point and the references do not, without compliance=matched",
+            fmt::format("--state: {} keeps more than displacement and velocity of each mode here, "
+                        "and a run from these alone would be another. Expected one string without "
+                        "masses and rigid barriers, by modal_two_point without compliance=matched "
+                        "or by a reference",
                         d.name));
 }
 
@@ -219,6 +220,9 @@ int run_command(RunRequest r) {
     const bool played = is_audio(r.out);
     const Scene own = compare::load_scene(r.scene, r.set, r.duration),
                 sounding = played ? audible(own) : own;
+    store::must_not_replace(
+        {{"--out", r.out}, {"--state", r.state}, {"--impacts", r.impacts}, {"--plot", r.plot}},
+        files_read(own, r.scene, r.plugins));
     const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
     Scene scene = sounding;
     scene.taps.insert(scene.taps.begin(), own.taps.begin(),
@@ -226,12 +230,12 @@ int run_command(RunRequest r) {
     compare::note_scene(scene, console);
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
+    compare::note_modes(d, scene, settings, console);
     const std::optional<report::Vega> vega = vega_for(r);
     check_state(r, d, scene, settings);
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
     std::vector<Impacts> impacts(scene.strings.begin(), scene.strings.end());
     if (!r.impacts.empty()) {
-    compare::note_modes(d, scene, settings, console);
         if (std::ranges::all_of(scene.strings, [](const String& s) { return !s.has_contacts(); }))
             throw store::UsageError("--impacts: no string of the scene has a barrier or a mass");
         store::must_be_writable(r.impacts);

@@ -10,6 +10,42 @@ namespace {
 const std::string c3 =
     "timeout 30 $J run tanpura_c3_release --scheme modal_two_point --duration 0.005 --modes 40 ";
 
+TEST(Files, NoResultReplacesAnotherOrWhatIsRead) {
+    const Scratch scratch;
+    shell(scratch,
+          "$J new tanpura mine; cp mine.toml scene.txt; cp mine.toml kept.toml\n"
+          "printf 'mode,displacement_m,velocity_m_per_s\\n1,1e-3,0\\n' >s.csv");
+    const std::string mine = "$J run mine.toml --scheme modal_two_point --duration 0.005 ",
+                      own = "$J run ./scene.txt --scheme modal_two_point --duration 0.005 ";
+    for (const auto& [line, said] : {
+             std::pair{c3 + "--out o.csv --state o.csv", "--state o.csv: --out writes that file"},
+             {c3 + "--out o.csv --impacts ./o.csv", "--impacts ./o.csv: --out writes that file"},
+             {"ln -s o.csv link.csv; " + c3 + "--out o.csv --state link.csv", "--out writes that"},
+             {mine + "--state mine.toml", "--state mine.toml: scenes end in .toml"},
+             {mine + "--impacts kept.toml", "--impacts kept.toml: scenes end in .toml"},
+             {own + "--state scene.txt", "--state scene.txt: this is the scene, which would be"},
+             {own + "--set string.0.start=s.csv --out s.csv",
+              "s.csv: this is a table of the scene"},
+             {std::string("$J export mine.toml --duration 0.005 --out mine.toml"), "end in .toml"},
+             {std::string("$J export ./scene.txt --duration 0.005 --out scene.txt"), "the scene"},
+             {std::string("$J check modal_two_point --only energy --junit mine.toml"), ".toml"},
+         })
+        EXPECT_TRUE(ends(shell(scratch, line), 2, said)) << line;
+    EXPECT_EQ(content(scratch / "mine.toml"), content(scratch / "kept.toml"));
+    EXPECT_EQ(content(scratch / "scene.txt"), content(scratch / "kept.toml"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "o.csv"));
+}
+
+TEST(Files, AStateThatARunCannotGoOnFromIsRefusedWithoutACounterclaim) {
+    const Scratch scratch;
+    const Ended o = shell(scratch,
+                          "$J run rigid_point_bridge --scheme modal_two_point --duration 0.005 "
+                          "--state s.csv");
+    EXPECT_TRUE(ends(o, 2, "modal_two_point keeps more than displacement and velocity"));
+    EXPECT_TRUE(says(o.err, "Expected one string without masses and rigid barriers"));
+    EXPECT_EQ(o.err.find("do not, without"), std::string::npos) << o.err;
+}
+
 TEST(Files, AStateSaysWhoseItIsAndWhatOfItARunLeavesOut) {
     const Scratch scratch;
     shell(scratch, c3 + "--state s.csv");
@@ -122,6 +158,20 @@ TEST(Files, AGridSaysThatItLeavesModesAsideAndIsComparedOnce) {
     EXPECT_EQ(grids, 1);
     EXPECT_EQ(all, 3);
     EXPECT_TRUE(says(o.err, "modes = 20,40 is left aside"));
+}
+
+TEST(Files, TheCommandOfARecordIsOneThatAShellReadsBack) {
+    const Scratch scratch;
+    ASSERT_EQ(shell(scratch,
+                    "$J new tanpura t; mv t.toml \"it's \\$(mine).toml\"; $J compare "
+                    "\"it's \\$(mine).toml\" --schemes modal_two_point --rates 44100 "
+                    "--modes 10 --reference-modes 20 --duration 0.005 --repeats 2 --out m")
+                  .code,
+              0);
+    const auto manifest = nlohmann::json::parse(content(scratch / "m/manifest.json"));
+    overwrite(scratch / "again", "jvari() { printf '%s' \"$2\"; }\n" +
+                                     manifest.at("command").get<std::string>() + "\n");
+    EXPECT_EQ(shell(scratch, "sh ./again").out, "it's $(mine).toml");
 }
 
 }  // namespace
