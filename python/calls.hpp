@@ -153,9 +153,10 @@ inline std::vector<std::string> written(const Compared& c) {
 }
 template <class Act>
 py::object compared(const compare::CompareRequest& request, Act act) {
+    const report::OwnFolder own(request.out, "comparison of " + compare::load_scene(request).name,
+                                compare::identity_of(request), PythonListener());
     study::Kept keep;
-    keep.folder = report::cells_folder(
-        request.out, "comparison of " + compare::load_scene(request).name, PythonListener());
+    keep.folder = own.cells;
     std::unique_ptr<Compared> all;
     const std::string rows = unlocked(
         [&] {
@@ -186,7 +187,8 @@ inline std::vector<std::string> report_of(const py::object& of, const std::files
     if (out.empty()) throw store::UsageError("report: expected the folder that is to be written");
     c.request.out = out.string();
     return unlocked([&] {
-        report::cells_folder(out, "comparison of " + c.comparison.scene().name, PythonListener());
+        const report::OwnFolder own(out, "comparison of " + c.comparison.scene().name,
+                                    compare::identity_of(c.request), PythonListener());
         return written(c);
     });
 }
@@ -230,10 +232,8 @@ inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path
     const study::Plan plan = suite::plan_of(suite, catalogue, files);
     for (const std::string& note : plan.notes) PythonListener().note(note);
     at_least(0, jobs, "jobs");
-    const auto below = [&folder](const char* name) {
-        if (!folder.empty()) std::filesystem::create_directories(folder / name);
-        return folder.empty() ? folder : folder / name;
-    };
+    const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan),
+                                PythonListener());
     std::string cells;
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
@@ -241,8 +241,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path
             const suite::MapRun maps = suite::run_maps(
                 suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs},
                 PythonListener());
-            const study::Study run =
-                study::run(plan, below("cells"), resume, jobs, PythonListener());
+            const study::Study run = study::run(plan, own.cells, resume, jobs, PythonListener());
             cells = store::indented(
                 compare::json_of(compare::with_front(study::cells_of(plan, run.records))));
             tables.emplace_back("maps", suite::maps_table(maps));
@@ -293,6 +292,8 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
                           tap_rate,
                           at_least(0, reference_modes, "reference_modes"),
                           at_least(0, jobs, "jobs")};
+    const report::OwnFolder own(out, "trim of " + s.scene.name, trim::identity_of(r),
+                                PythonListener());
     const compare::Catalogue catalogue(plugins());
     store::Table path, needs;
     std::string toml;

@@ -160,6 +160,26 @@ TEST(Files, AGridSaysThatItLeavesModesAsideAndIsComparedOnce) {
     EXPECT_TRUE(says(o.err, "modes = 20,40 is left aside"));
 }
 
+// The second study begins while the first has written nothing yet, and so does the third.
+TEST(Files, AFolderHasOneStudyAtATime) {
+    const Scratch scratch;
+    const auto study = [](const std::string& arguments) {
+        return "(timeout 60 $J compare " + arguments +
+               " --schemes modal_two_point --repeats 2 --out two --quiet; echo $? >>codes)";
+    };
+    const std::string brief = " --rates 44100 --modes 20 --reference-modes 40 --duration 0.01";
+    const Ended o = shell(
+        scratch, study("tanpura_c3_release --rates 44100,88200 --modes 40 --duration 0.3") +
+                     " &\nfor k in $(seq 200); do ls two/cells/*.lock >/dev/null 2>&1 && break; "
+                     "sleep 0.02; done\n" +
+                     study("guitar_over_fret" + brief) + "\n" +
+                     study("tanpura_c3_release" + brief) + "\nwait");
+    EXPECT_EQ(content(scratch / "codes"), "2\n2\n0\n");
+    EXPECT_TRUE(says(o.err, "--out two: a process is at work there on the comparison of tanpura"));
+    EXPECT_TRUE(says(o.err, "--out two: a process is at work there on another comparison of tan"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "two/cells/study.lock"));
+}
+
 TEST(Files, TheCommandOfARecordIsOneThatAShellReadsBack) {
     const Scratch scratch;
     ASSERT_EQ(shell(scratch,
