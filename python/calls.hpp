@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ inline std::vector<std::string> plugins() {  // those whose schemes can run here
     return here;
 }
 
-inline void add_plugin(const std::string& path) {
+inline void add_plugin(const std::filesystem::path& path) {
     const std::string file = std::filesystem::absolute(path);
     std::vector<std::string> all = all_plugins();
     if (std::ranges::find(all, file) != all.end()) return;
@@ -76,7 +77,8 @@ inline Job job_of(const std::string& scheme, double rate, std::optional<double> 
         throw store::UsageError("scheme " + scheme +
                                 ": a scheme in Python cannot run one in Python");
     const Descriptor& d = compare::Catalogue(plugins()).find(scheme);
-    return {&d, compare::settings_of_run(d, rate, tap_rate, modes, options_of(options))};
+    return {&d, compare::settings_of_run(d, rate, tap_rate, at_least(0, modes, "modes"),
+                                         options_of(options))};
 }
 
 inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme,
@@ -87,6 +89,7 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
     if (duration) scene.duration = *duration;
     compare::note_scene(scene, PythonListener());
     const Job job = job_of(scheme, rate, tap_rate, modes, options);
+    compare::note_modes(*job.scheme, scene, job.settings, PythonListener());
     return unlocked([&] {
         RunOptions o;
         o.energy = energy;
@@ -99,6 +102,7 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
                        double rate, int modes, std::optional<double> duration,
                        std::optional<double> tap_rate, const py::dict& options, int jobs) {
     const Job job = job_of(scheme, rate, tap_rate, modes, options);
+    at_least(0, jobs, "jobs");
     std::vector<Scene> all;
     for (const py::object& o : scenes) {
         all.push_back(NamedScene::of(o).scene);
@@ -149,9 +153,10 @@ inline std::vector<std::string> written(const Compared& c) {
 }
 template <class Act>
 py::object compared(const compare::CompareRequest& request, Act act) {
+    const report::OwnFolder own(request.out, "comparison of " + compare::load_scene(request).name,
+                                compare::identity_of(request), PythonListener());
     study::Kept keep;
-    keep.folder = report::cells_folder(
-        request.out, "comparison of " + compare::load_scene(request).name, PythonListener());
+    keep.folder = own.cells;
     std::unique_ptr<Compared> all;
     const std::string rows = unlocked(
         [&] {
@@ -168,20 +173,22 @@ py::object compared(const compare::CompareRequest& request, Act act) {
         py::capsule(all.release(), [](void* c) { delete static_cast<Compared*>(c); });
     return list;
 }
-inline std::vector<std::string> report_of(const py::object& of, const std::string& out) {
+inline std::vector<std::string> report_of(const py::object& of, const std::filesystem::path& out) {
     if (!py::hasattr(of, "_comparison")) {
         if (py::isinstance<py::list>(of) || !out.empty())
             throw store::UsageError(
                 "report: expected the rows as compare or judge gave them and a "
                 "folder, or a folder alone, which is drawn again");
-        const auto folder = py::module_::import("os").attr("fspath")(of).cast<std::string>();
+        if (!is_path(of)) refuse("report", of, "rows as compare or judge gave them, or a folder");
+        const std::string folder = path_text(of);
         return unlocked([&] { return report::write_report(folder, PythonListener()); });
     }
     Compared c = *of.attr("_comparison").cast<py::capsule>().get_pointer<Compared>();
     if (out.empty()) throw store::UsageError("report: expected the folder that is to be written");
-    c.request.out = out;
+    c.request.out = out.string();
     return unlocked([&] {
-        report::cells_folder(out, "comparison of " + c.comparison.scene().name, PythonListener());
+        const report::OwnFolder own(out, "comparison of " + c.comparison.scene().name,
+                                    compare::identity_of(c.request), PythonListener());
         return written(c);
     });
 }
@@ -191,41 +198,42 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
                                const std::variant<int, std::vector<int>>& modes,
                                const std::string& reference, int reference_modes, bool controls,
                                std::optional<double> duration, std::optional<double> tap_rate,
-                               const py::dict& options, int repeats, const std::string& out,
-                               int jobs) {
+                               const py::dict& options, int repeats,
+                               const std::filesystem::path& out, int jobs) {
     const NamedScene s = NamedScene::of(scene);
     compare::CompareRequest r;
-    r.out = out;
+    r.out = out.string();
     r.scene = s.name;
     r.set = s.set;
     r.schemes = schemes;
     r.rates = rates;
-    if (const int* n = std::get_if<int>(&modes)) r.modes.assign(*n > 0 ? 1 : 0, *n);
-    else r.modes = std::get<std::vector<int>>(modes);
+    if (const int* n = std::get_if<int>(&modes))
+        r.modes.assign(at_least(0, *n, "modes") > 0 ? 1 : 0, *n);
+    else
+        for (const int each : std::get<std::vector<int>>(modes))
+            r.modes.push_back(at_least(1, each, "modes"));
     r.reference = reference;
-    r.reference_modes = reference_modes;
+    r.reference_modes = at_least(0, reference_modes, "reference_modes");
     r.controls = controls;
     r.duration = duration;
     r.tap_rate = tap_rate;
     r.options = options_of(options);
-    r.repeats = repeats;
-    r.jobs = jobs;
+    r.repeats = at_least(1, repeats, "repeats");
+    r.jobs = at_least(0, jobs, "jobs");
     const compare::Catalogue catalogue(plugins());
     return compared(
         r, [&](study::Kept& k) { return compare::compare(r, catalogue, PythonListener(), k); });
 }
 
-inline py::dict tables_of(const suite::Suite& suite, const std::string& out, bool resume,
-                          int jobs) {
+inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path& folder,
+                          bool resume, int jobs) {
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
     const study::Plan plan = suite::plan_of(suite, catalogue, files);
     for (const std::string& note : plan.notes) PythonListener().note(note);
-    const std::filesystem::path folder = out;
-    const auto below = [&folder](const char* name) {
-        if (!folder.empty()) std::filesystem::create_directories(folder / name);
-        return folder.empty() ? folder : folder / name;
-    };
+    at_least(0, jobs, "jobs");
+    const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan),
+                                PythonListener());
     std::string cells;
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
@@ -233,8 +241,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
             const suite::MapRun maps = suite::run_maps(
                 suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs},
                 PythonListener());
-            const study::Study run =
-                study::run(plan, below("cells"), resume, jobs, PythonListener());
+            const study::Study run = study::run(plan, own.cells, resume, jobs, PythonListener());
             cells = store::indented(
                 compare::json_of(compare::with_front(study::cells_of(plan, run.records))));
             tables.emplace_back("maps", suite::maps_table(maps));
@@ -242,20 +249,21 @@ inline py::dict tables_of(const suite::Suite& suite, const std::string& out, boo
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"
-                                  : study::kept_of(plan, folder) + " are kept in " + out +
-                                        "; resume=True goes on from there";
+                                  : study::kept_of(plan, folder) + " are kept in " +
+                                        folder.string() + "; resume=True goes on from there";
         });
     py::dict rows;
     rows["cells"] = parsed(cells);
     for (const auto& [name, table] : tables) rows[py::str(name)] = rows_of(table);
     return rows;
 }
-inline py::dict suite_tables(const std::string& file, const std::string& out, bool resume,
-                             int jobs) {
-    return tables_of(suite::read_suite(file), out, resume, jobs);
+inline py::dict suite_tables(const std::filesystem::path& file, const std::filesystem::path& out,
+                             bool resume, int jobs) {
+    return tables_of(suite::read_suite(file.string()), out, resume, jobs);
 }
-inline py::list suite_rows(const std::string& file, const std::string& out, bool resume, int jobs) {
-    suite::Suite suite = suite::read_suite(file);
+inline py::list suite_rows(const std::filesystem::path& file, const std::filesystem::path& out,
+                           bool resume, int jobs) {
+    suite::Suite suite = suite::read_suite(file.string());
     suite.maps.clear();
     return tables_of(suite, out, resume, jobs)["cells"];
 }
@@ -269,10 +277,23 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
                              const std::string& of, const std::string& tap,
                              const std::string& scheme, std::optional<double> duration,
                              double tap_rate, const std::string& reference, int reference_modes,
-                             const std::string& out, int jobs) {
+                             const std::filesystem::path& out, int jobs) {
     const NamedScene s = NamedScene::of(scene);
-    const trim::Request r{s.name, of,        within,   tap,      scheme,          reference, out,
-                          s.set,  plugins(), duration, tap_rate, reference_modes, jobs};
+    const trim::Request r{s.name,
+                          of,
+                          within,
+                          tap,
+                          scheme,
+                          reference,
+                          out.string(),
+                          s.set,
+                          plugins(),
+                          duration,
+                          tap_rate,
+                          at_least(0, reference_modes, "reference_modes"),
+                          at_least(0, jobs, "jobs")};
+    const report::OwnFolder own(out, "trim of " + s.scene.name, trim::identity_of(r),
+                                PythonListener());
     const compare::Catalogue catalogue(plugins());
     store::Table path, needs;
     std::string toml;
@@ -286,9 +307,9 @@ inline TrimmedRows trim_rows(const py::object& scene, const std::string& within,
             return t.path.within_tolerance;
         },
         [&] {
-            return out.empty()
-                       ? "nothing is kept, for there is no out"
-                       : "what was judged is kept in " + out + "; the same call goes on from there";
+            return out.empty() ? "nothing is kept, for there is no out"
+                               : "what was judged is kept in " + out.string() +
+                                     "; the same call goes on from there";
         });
     return {found, rows_of(path), rows_of(needs), toml};
 }

@@ -27,7 +27,9 @@ inline py::object problem_of(const py::object& of, double rate, int modes,
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
     refuse_beyond_arrays(scene);
-    return namespace_of(Problem(scene, {rate, tap_rate_of({rate}, tap_rate), modes, {}}).arrays());
+    return namespace_of(
+        Problem(scene, {rate, tap_rate_of({rate}, tap_rate), at_least(0, modes, "modes"), {}})
+            .arrays());
 }
 
 // jvari.scheme("mine", ...): what it gives takes the class, registers it and gives it back.
@@ -110,7 +112,7 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces,
     compare::CompareRequest r;
     r.scene = s.name, r.set = s.set, r.schemes = schemes, r.reference = reference,
     r.duration = duration, r.tap_rate = tap_rate, r.tap = tap;
-    r.repeats = repeats, r.jobs = jobs;
+    r.repeats = at_least(1, repeats, "repeats"), r.jobs = at_least(0, jobs, "jobs");
     py::dict by_rate;
     const bool rates = py::isinstance<py::dict>(traces) && py::len(traces) > 0 &&
                        !py::isinstance<py::str>(py::list(traces)[0]);

@@ -7,7 +7,8 @@ from typing import Any, Mapping, Sequence, Union
 import numpy as np
 from numpy.typing import NDArray
 
-_Value = Union[bool, int, float, str, Sequence["_Value"]]
+_Path = Union[str, PathLike[str]]
+_Value = Union[bool, int, float, _Path, Sequence["_Value"]]
 # Its keys are columns; numbers as numbers, None where nothing is known. Of a cell, row["errors"]
 # has {tap: {measure: {"value", "floor", "certificate", "in_model", "certificate_in_model"}}}.
 _Row = dict[str, Any]
@@ -76,39 +77,39 @@ class Trimmed:
     @property
     def toml(self) -> str: ...
 
-def scene(name: str) -> Scene: ...
+def scene(name: _Path) -> Scene: ...
 def run(
-    scene: Scene | str, scheme: str, rate: float = 44100, modes: int = 0,
+    scene: Scene | _Path, scheme: str, rate: float = 44100, modes: int = 0,
     duration: float | None = None, tap_rate: float | None = None, energy: bool = False,
     options: Mapping[str, _Value] = {},
 ) -> Run: ...
 def run_many(
-    scenes: Sequence[Scene | str], scheme: str, rate: float = 44100, modes: int = 0,
+    scenes: Sequence[Scene | _Path], scheme: str, rate: float = 44100, modes: int = 0,
     duration: float | None = None, tap_rate: float | None = None,
     options: Mapping[str, _Value] = {}, jobs: int = 0,
 ) -> NDArray[np.float64]: ...  # shape (run, time, tap); NaN after a failure
 def compare(
-    scene: Scene | str, schemes: Sequence[str] = [], rates: Sequence[float] = [],
+    scene: Scene | _Path, schemes: Sequence[str] = [], rates: Sequence[float] = [],
     modes: int | Sequence[int] = 0, reference: str = "", reference_modes: int = 0,
     controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
-    options: Mapping[str, _Value] = {}, repeats: int = 5, out: str = "", jobs: int = 0,
+    options: Mapping[str, _Value] = {}, repeats: int = 5, out: _Path = "", jobs: int = 0,
 ) -> Rows: ...
-def report(of: Rows | str | PathLike[str], out: str = "") -> list[str]: ...
-def suite(file: str, out: str = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...
+def report(of: Rows | _Path, out: _Path = "") -> list[str]: ...
+def suite(file: _Path, out: _Path = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...
 def suite_tables(  # "cells", "maps", "boundaries"; SI units
-    file: str, out: str = "", resume: bool = False, jobs: int = 0,
+    file: _Path, out: _Path = "", resume: bool = False, jobs: int = 0,
 ) -> dict[str, list[_Row]]: ...
 def trim(
-    scene: Scene | str, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any",
+    scene: Scene | _Path, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any",
     duration: float = 0.05, tap_rate: float = 44100, reference: str = "", reference_modes: int = 0,
-    out: str = "", jobs: int = 0,
+    out: _Path = "", jobs: int = 0,
 ) -> Trimmed: ...
 def problem(
-    scene: Scene | str, rate: float = 44100, modes: int = 0, duration: float | None = None,
+    scene: Scene | _Path, rate: float = 44100, modes: int = 0, duration: float | None = None,
     tap_rate: float | None = None,
 ) -> Any: ...  # its members: docs/own-scheme/README.md
 def judge(
-    scene: Scene | str, traces: Any, *, name: str = "mine",
+    scene: Scene | _Path, traces: Any, *, name: str = "mine",
     cost: float | Mapping[float, float] | None = None, schemes: Sequence[str] = [],
     duration: float | None = None, tap_rate: float | None = None, tap: str = "",
     reference: str = "", repeats: int = 5, jobs: int = 0,
@@ -118,7 +119,7 @@ def scheme(
     source: str = "a scheme in Python", compiled: bool = False,
 ) -> Any: ...  # a decorator
 def check(scheme: str) -> list[_Row]: ...
-def plugin(path: str) -> None: ...
+def plugin(path: _Path) -> None: ...
 def schemes() -> list[str]: ...
 def scenes() -> list[str]: ...
 def made_by() -> dict[str, Any]: ...

@@ -83,7 +83,9 @@ auto unlocked(Work work) {
     look_for_signals();
     struct UnderWay {
         UnderWay() { ++calls().under_way; }
-        ~UnderWay() { --calls().under_way; }
+        ~UnderWay() {
+            if (calls().under_way > 0) --calls().under_way;  // 0 in the child of a fork
+        }
     } const under_way;
     const auto at_work = [&] {
         const py::gil_scoped_release released;

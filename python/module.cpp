@@ -52,6 +52,9 @@ void translate_exceptions(py::module_& m) {
             raise_as(scene, e);
         } catch (const BadScene& e) { raise_as(scene, e); } catch (const Refusal& e) {
             raise_as(refusal, e);
+        } catch (const py::cast_error&) {
+            PyErr_SetString(PyExc_TypeError,
+                            "an argument, or a part of one, has another type than jvari.pyi says");
         }
     });
 }
@@ -83,7 +86,7 @@ void add_scene(py::module_& m) {
             "The scene as a file that reads back as the same.")
         .def("__repr__", &NamedScene::repr);
     m.def(
-        "scene", [](const std::string& name) { return NamedScene::of(name, {}); }, py::arg("name"),
+        "scene", [](const py::object& name) { return NamedScene::of(name); }, py::arg("name"),
         "A scene file, or a scene of the library. Raises SceneError.");
     m.def("scenes", &library_scenes, "Names of the scenes in the library.");
 }
@@ -241,6 +244,9 @@ PYBIND11_MODULE(jvari, m) {
     m.attr("__version__") = bench::store::machine().version;
     translate_exceptions(m);
     py::module_::import("atexit").attr("register")(py::cpp_function(&python::wait_for_calls));
+    // the threads of its calls are not in the child of a fork
+    py::module_::import("os").attr("register_at_fork")(
+        py::arg("after_in_child") = py::cpp_function([] { python::calls() = {}; }));
     add_scene(m);
     add_run(m);
     add_studies(m);

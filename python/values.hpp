@@ -14,11 +14,31 @@
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
 #include "schemes/run.hpp"
 
 namespace jvari::python {
 
 namespace py = pybind11;
+
+// What cannot be is refused with what was found: repr(), shortened.
+[[noreturn]] inline void refuse(const std::string& what, const py::handle& found,
+                                const std::string& expected) {
+    throw bench::store::UsageError(what + ": found " +
+                                   found_text(py::repr(found).cast<std::string>()) + ", expected " +
+                                   expected);
+}
+inline int at_least(int least, int n, const char* what) {
+    if (n < least)
+        refuse(what, py::int_(n), "a whole number, " + std::to_string(least) + " or more");
+    return n;
+}
+inline bool is_path(const py::handle& value) {
+    return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+}
+inline std::string path_text(const py::handle& value) {
+    return py::module_::import("os").attr("fspath")(value).cast<std::string>();
+}
 
 // as an override or an option has it
 inline std::string text_of(const py::handle& value, int level = 0) {
@@ -26,25 +46,31 @@ inline std::string text_of(const py::handle& value, int level = 0) {
     if (level > deepest)
         throw bench::store::UsageError("found lists nested deeper than " + std::to_string(deepest));
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-    if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+    if (is_path(value)) return path_text(value);
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
         std::string text;
         for (const py::handle& item : value)
             text += (text.empty() ? "" : ", ") + text_of(item, level + 1);
         return "[" + text + "]";
     }
-    return py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>()
-                                           : bench::store::text_of(value.cast<double>());
+    if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
+    if (!py::hasattr(value, "__float__"))
+        refuse("value", value, "a text, a number, True, False or a list of them");
+    return bench::store::text_of(py::float_(py::reinterpret_borrow<py::object>(value)));
 }
 
 // {"[SCHEME:]NAME": value}
 inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& options) {
     std::vector<bench::compare::SchemeOption> all;
     for (const auto& [key, value] : options) {
+        if (!py::isinstance<py::str>(key)) refuse("options", key, "the name of an option");
+        const std::string name = key.cast<std::string>();
         const auto add = [&](const py::handle& one) {
-            all.push_back(bench::compare::SchemeOption::of(key.cast<std::string>(), text_of(one)));
+            all.push_back(bench::compare::SchemeOption::of(name, text_of(one)));
         };
-        if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
+        const bool several = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
+        if (several && py::len(value) == 0) refuse("option " + name, value, "one value at least");
+        if (several)
             for (const auto& one : value) add(one);
         else add(value);
     }
@@ -61,7 +87,9 @@ struct NamedScene {  // a scene with the name and overrides that it was read by
         return {name, std::move(set), std::move(scene)};
     }
     static NamedScene of(const py::object& o) {
-        return py::isinstance<py::str>(o) ? of(o.cast<std::string>(), {}) : o.cast<NamedScene>();
+        if (is_path(o)) return of(path_text(o), {});
+        if (!py::isinstance<NamedScene>(o)) refuse("scene", o, "a Scene, a name or a path");
+        return o.cast<NamedScene>();
     }
     NamedScene with(const std::string& key, const py::object& to) const {
         auto all = set;

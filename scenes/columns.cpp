@@ -77,7 +77,7 @@ struct ColumnLine {
                                      ", expected " + expected);
         };
         if (auto* const* words = std::get_if<std::vector<std::string>*>(&c.to)) {
-            check(!cell.empty(), "a word");
+            check(!cell.empty() && is_text(cell), "a word in UTF-8");
             return (*words)->emplace_back(cell), void();
         }
         auto* const* perhaps = std::get_if<std::vector<std::optional<double>>*>(&c.to);
@@ -90,10 +90,11 @@ struct ColumnLine {
 };
 }  // namespace
 
-void read_columns(const std::string& path, const std::string& text,
-                  std::span<const ColumnTo> columns) {
+std::vector<int> read_columns(const std::string& path, const std::string& text,
+                              std::span<const ColumnTo> columns) {
     constexpr std::size_t lacking = -1;
     std::vector<std::size_t> places;
+    std::vector<int> lines;
     int line = 0;
     for (std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
          begin < text.size();) {
@@ -103,14 +104,19 @@ void read_columns(const std::string& path, const std::string& text,
         begin = end + 1;
         if (one.empty() || one.front() == '#') continue;
         const auto cells = cells_of(one);
+        if (end == text.size())
+            throw SceneFileError(at.place +
+                                 ": found no end of the line, expected one behind each row. Is "
+                                 "the file cut off?");
         const bool header = places.empty();
+        if (!header) lines.push_back(line);
         for (std::size_t k = 0; k < columns.size(); ++k) {
             const ColumnTo& c = columns[k];
             if (header) places.push_back(at.find(cells, c.column, c.may_lack).value_or(lacking));
             else if (places[k] != lacking) at.read(cells, places[k], c);
         }
     }
-    if (!places.empty()) return;
+    if (!places.empty()) return lines;
     std::vector<std::string> names;
     for (const ColumnTo& c : columns)
         if (!c.may_lack) names.emplace_back(c.column.name);
@@ -118,8 +124,6 @@ void read_columns(const std::string& path, const std::string& text,
 }
 
 namespace {
-constexpr Range mode_number{"the number of a mode, a whole number >= 1", 1};
-
 template <class Number, class Bits>
 Number of_bits(Bits bits) {  // std::bit_cast, which Emscripten of Debian 12 does not have
     static_assert(sizeof(Number) == sizeof(Bits));
@@ -134,7 +138,8 @@ std::uint64_t little_endian(std::string_view bytes) {
     return n;
 }
 
-// Of a RIFF WAVE file: chunks of a name, a size and a content.
+// A RIFF WAVE file is chunks of a name, a size and a content. A sample of fewer bits than its bytes
+// hold, as of 20 or 12, has them at the top.
 void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
     constexpr int pcm = 1, floating = 3, extensible = 0xfffe;
     const auto check = [&path](bool holds, const std::string& found) {
@@ -151,7 +156,16 @@ void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
         const std::size_t size = little_endian(bytes.substr(4, 4));
         bytes.remove_prefix(8);
         if (name == "fmt ") format = bytes.substr(0, size);
-        if (name == "data") data = bytes.substr(0, size);
+        if (name != "data") {
+            bytes.remove_prefix(std::min(bytes.size(), size + size % 2));
+            continue;
+        }
+        if (size > bytes.size())
+            throw SceneFileError(path + ": found " + std::to_string(bytes.size()) +
+                                 " bytes of samples, expected the " + std::to_string(size) +
+                                 " that its header announces. Is the file cut off?");
+        check(data.data() == nullptr, "two blocks of samples");
+        data = bytes.substr(0, size);
         bytes.remove_prefix(std::min(bytes.size(), size + size % 2));
     }
     check(format.size() >= 16, "no format");
@@ -160,48 +174,36 @@ void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
     };
     auto tag = field(0, 2);
     if (tag == extensible && format.size() >= 26) tag = field(24, 2);
-    const std::uint64_t channels = field(2, 2), rate = field(4, 4), size = field(14, 2) / 8;
+    const std::uint64_t channels = field(2, 2), rate = field(4, 4), size = field(12, 2),
+                        bits = field(14, 2);
     check(channels == 1, std::to_string(channels) + " channels");
-    check((tag == pcm && size >= 2 && size <= 4) || (tag == floating && (size == 4 || size == 8)),
+    check(bits <= 8 * size && bits + 8 > 8 * size &&
+              ((tag == pcm && size >= 2 && size <= 4) ||
+               (tag == floating && (size == 4 || size == 8))),
           "samples of another kind");
+    if (data.size() % size != 0)
+        throw SceneFileError(path +
+                             ": found a part of a sample at its end, expected whole ones. "
+                             "Is the file cut off?");
     check(rate > 0, "no sample rate");
     for (std::size_t n = 0; n < data.size() / size; ++n) {
-        const std::uint64_t bits = little_endian(data.substr(n * size, size));
-        const auto whole = static_cast<std::int64_t>(bits << (64 - 8 * size));  // with its sign
+        const std::uint64_t sample = little_endian(data.substr(n * size, size));
+        const auto whole = static_cast<std::int64_t>(sample << (64 - 8 * size));  // with its sign
         p.share.push_back(tag == pcm  ? std::ldexp(static_cast<double>(whole), -63)
-                          : size == 8 ? of_bits<double>(bits)
-                                      : of_bits<float>(static_cast<std::uint32_t>(bits)));
+                          : size == 8 ? of_bits<double>(sample)
+                                      : of_bits<float>(static_cast<std::uint32_t>(sample)));
         p.time.push_back(static_cast<double>(n) / static_cast<double>(rate));
         check(std::isfinite(p.share.back()), "a sample that is no number");
     }
 }
 }  // namespace
 
-TableStart start_from(const std::string& path, const std::string& text) {
-    TableStart t;
-    std::vector<double> x, mode;
-    const ColumnTo columns[] = {
-        {{"x_m", "x_m", any}, &x, true},
-        {{"mode", "mode", mode_number}, &mode, true},
-        {{"displacement_m", "displacement", any}, &t.displacement},
-        {{"velocity_m_per_s", "velocity", any}, &t.velocity, true},
-    };
-    read_columns(path, text, columns);
-    if (x.empty() == mode.empty())
-        throw SceneFileError(
-            path + ": found " +
-            (x.empty() ? "no rows of \"x_m\" or \"mode\"" : "\"x_m\" and \"mode\"") +
-            ", expected rows of one of the columns \"x_m\" and \"mode\"");
-    t.of_modes = x.empty();
-    t.at = t.of_modes ? mode : x;
-    if (t.velocity.empty()) t.velocity.assign(t.at.size(), 0.0);
-    return t;
-}
-
 void force_from(const std::string& path, const std::string& text, Pluck& p) {
     const ColumnTo columns[] = {{{"time_s", "time", not_negative}, &p.time},
                                 {{"force_N", "newtons", any}, &p.share}};
-    if (path.ends_with(".wav")) samples_of(path, text, p);
+    std::string ending = std::filesystem::path(path).extension();
+    for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 'a' - 'A' : c);
+    if (ending == ".wav" || text.starts_with("RIFF")) samples_of(path, text, p);
     else read_columns(path, text, columns);
     for (const double F : p.share) p.peak = std::max(p.peak, std::abs(F));
     if (p.time.size() < 2 || !(p.peak > 0))
@@ -233,15 +235,24 @@ std::vector<SoldString> sold_strings() {
                                 {{core_diameter, core_diameter, positive}, &core}};
     std::string text;
     if (!std::filesystem::exists(gauges, error)) text = library_text(gauges);
+    else if (!std::filesystem::is_regular_file(gauges, error))
+        throw SceneFileError(std::string(gauges) +
+                             " of this folder is no file, expected a CSV file of strings, or none");
     else try {
             text = text_of_file(gauges, 1u << 20);
         } catch (const std::exception& e) {
             throw SceneFileError(std::string(gauges) + " " + e.what());
         }
-    read_columns(gauges, text, columns);
+    const std::vector<int> lines = read_columns(gauges, text, columns);
     std::vector<SoldString> strings;
-    for (std::size_t k = 0; k < maker.size(); ++k)
+    for (std::size_t k = 0; k < maker.size(); ++k) {
+        if (core[k] && *core[k] > gauge[k] * inch * (1 + 1e-9))
+            throw SceneFileError(std::string(gauges) + ":" + std::to_string(lines[k]) + ": " +
+                                 core_diameter + ": found " + number_text(*core[k]) +
+                                 ", expected at most the string's own, " +
+                                 number_text(gauge[k] * inch));
         strings.push_back({maker[k], series[k], gauge[k], density[k], core[k]});
+    }
     return strings;
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "scenes/modes.hpp"
 #include "scenes/schema.hpp"
 
 namespace jvari {
@@ -17,7 +18,8 @@ namespace jvari {
 std::string text_of_file(const std::string& path, std::size_t limit);
 
 // Reads columns, found by their names or aliases in the header. Other columns and lines that begin
-// with # are skipped. Throws SceneFileError with the line of the CSV file.
+// with # are skipped. Throws SceneFileError with the line of the CSV file, also where the last line
+// has no end: a file that is cut off there has a wrong last number.
 struct ColumnTo {
     Column column;
     // numbers; numbers whose cell may be empty; words, none of them empty
@@ -26,16 +28,27 @@ struct ColumnTo {
         to;
     bool may_lack = false;  // then `to` stays empty
 };
-void read_columns(const std::string& path, const std::string& text, std::span<const ColumnTo>);
+// Returns the line of each row.
+std::vector<int> read_columns(const std::string& path, const std::string& text,
+                              std::span<const ColumnTo>);
 
-// What a start or a force comes from. Both throw SceneFileError with the line.
+// ---- Modes (damping.cpp), starts (start.cpp) and forces. All throw SceneFileError with the line.
+
+inline constexpr Range mode_number{"the number of a mode, a whole number from 1 to 1048576", 1,
+                                   most_modes};
+
+// CSV: the columns of a frequency and a decay rate, and perhaps mode, the number of each row's
+// mode. Modes that such a file lacks are filled in: (f/m)^2 is a straight line in m^2 between the
+// neighbours, as of a stiff string, and the decay rate one in m.
+void modes_from(const std::string& path, const std::string& text, const Column& frequency,
+                const Column& decay, TableDamping&);
 
 // CSV: x_m, displacement_m and perhaps velocity_m_per_s; or mode, displacement_m and
-// velocity_m_per_s.
+// velocity_m_per_s. A first line "# state of NAME" names the scene that it is a state of.
 TableStart start_from(const std::string& path, const std::string& text);
 
-// CSV: time_s, force_N; or, where the name ends in .wav, a sound of one channel, whose samples are
-// newtons, of whole numbers the full scale 1. Sets time, share, peak, amplitude, start, duration.
+// CSV: time_s, force_N; or a RIFF WAVE file of one channel, whose samples are newtons, of whole
+// numbers the full scale 1. Sets time, share, peak, amplitude, start, duration.
 void force_from(const std::string& path, const std::string& text, Pluck&);
 
 // A string as it is sold, a row of gauges.csv: that of the working directory or, where it has none,

@@ -34,6 +34,12 @@ double tension_for(const String& s, double hertz) {
 }
 
 double pitch_of(const String& s) {
+    const auto* measured = std::get_if<TableDamping>(&s.damping);
+    return measured && !measured->frequency_hz.empty() ? measured->frequency_hz.front()
+                                                       : tuned_pitch(s);
+}
+
+double tuned_pitch(const String& s) {
     const double beta = std::numbers::pi / s.length;
     return beta / (2 * std::numbers::pi) *
            std::sqrt((s.tension + s.bending_stiffness * beta * beta) / s.linear_density);

@@ -19,7 +19,10 @@ std::optional<double> frequency_of_note(std::string_view note);  // [Hz]
 double tension_for(const String&, double hertz);  // [N]
 double slack_pitch(const String&);                // of a string without tension [Hz]
 
-double pitch_of(const String&);  // of the first mode without damping [Hz]
+// Of the first mode without damping [Hz]: by length, tension, linear density and bending stiffness;
+// and as the string has it, of measured modes their own.
+double tuned_pitch(const String&);
+double pitch_of(const String&);
 // B = pi^2 EI/(T L^2), where f_n = n f_0 sqrt(1 + B n^2); infinite without tension
 double inharmonicity(const String&);
 // the nearest note and the deviation: "E2", "C3 -14 cents"; "" outside C-1 to B9

@@ -38,6 +38,8 @@ struct TableDamping {                  // measured modes: replaces both frequenc
     std::string file;                  // as written in the scene
     std::vector<double> frequency_hz;  // one per mode, ascending
     std::vector<double> decay_rate;    // sigma [1/s]
+    // numbers of modes that the file lacks; theirs lie between those of their neighbours
+    std::vector<int> filled = {};
     bool operator==(const TableDamping&) const = default;
 };
 // amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
@@ -148,6 +150,7 @@ using Shape = std::variant<ModeShape, TriangleShape>;  // amplitude [m], of a ve
 // rows along the string, with straight lines between them and to its ends, or rows of modes
 struct TableStart {
     std::string file;                  // as written in the scene
+    std::string state_of = {};         // the scene whose state it is; "": it does not say
     bool of_modes = false;             // what `at` is
     std::vector<double> at;            // x [m] or the number of a mode, ascending
     std::vector<double> displacement;  // [m]

@@ -8,6 +8,7 @@
 #include "scenes/columns.hpp"
 #include "scenes/document.hpp"
 #include "scenes/installed.hpp"
+#include "scenes/schema.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari {
@@ -52,6 +53,31 @@ std::string library_text(const std::string& file) {
     try {
         return text_of_file(path, largest_scene);
     } catch (const std::exception& e) { throw SceneFileError(found_text(path) + " " + e.what()); }
+}
+
+namespace {
+struct TablesNamed : Pass<TablesNamed> {
+    fs::path folder{};
+    std::vector<std::string> files{};
+    void add(const std::string& file) {
+        if (!file.empty()) files.push_back((folder / file).string());
+    }
+    void columns(const char*, const std::string& file, auto&&...) { add(file); }
+    void file(const char*, const std::string& name) {
+        if (!name.empty()) files.push_back(name);
+    }
+    void start_table(const TableStart& t) { add(t.file); }
+    void force(const char*, const Pluck& p) { add(p.file); }
+};
+}  // namespace
+
+std::vector<std::string> files_of(const Scene& scene, const std::string& file_or_library_name) {
+    const std::string path = path_of(file_or_library_name);
+    TablesNamed tables;
+    tables.folder = fs::path(path).parent_path();
+    tables.files = {path};
+    fields(tables, scene);
+    return tables.files;
 }
 
 Scene parse_scene(std::string_view text, const std::string& file_name,

@@ -31,6 +31,9 @@ Scene read_scene(const std::string& file_or_library_name,
 Scene parse_scene(std::string_view text, const std::string& file_name,
                   const std::vector<std::string>& overrides = {});
 
+// The file that it read, and those of the tables that the scene names.
+std::vector<std::string> files_of(const Scene&, const std::string& file_or_library_name);
+
 // TOML that reads back as the same scene, if its tables lie beside the file.
 std::string write_scene(const Scene&);
 

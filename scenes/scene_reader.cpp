@@ -194,7 +194,7 @@ public:
     }
     void file(const char* key, std::string& s) {
         optional_text(key, s);
-        if (!s.empty()) s = beside(s);
+        if (!s.empty()) s = beside(found_from(*table_.find(key), s));
     }
     template <class Enum>
     void choice(const char* key, Enum& e, std::span<const char* const> names) {
@@ -209,15 +209,23 @@ public:
         const Value* v = table_.find(key);
         if (v && !(overridden_ && v->place > 0)) fail(*v, at(key), v->found(), expected);
     }
+    std::string table(const char* key, std::string& file, const Column& first,
+                      const Column& second) {
+        text(key, file);
+        file = found_from(*table_.find(key), file);
+        return contents_of(key, file,
+                           "a CSV file with the columns " + list_of({first.name, second.name}));
+    }
     void columns(const char* key, std::string& file, const Column& first, std::vector<double>& a,
                  const Column& second, std::vector<double>& b) {
-        text(key, file);
-        const std::string contents = contents_of(
-            key, file, "a CSV file with the columns " + list_of({first.name, second.name}));
+        const std::string contents = table(key, file, first, second);
         const ColumnTo both[] = {{first, &a}, {second, &b}};
         read_columns(beside(file), contents, both);
     }
-    // The file of an override is found from where the program runs, and its place kept.
+    void modes(const char* key, TableDamping& t, const Column& frequency, const Column& decay) {
+        const std::string contents = table(key, t.file, frequency, decay);
+        modes_from(beside(t.file), contents, frequency, decay, t);
+    }
     void start(const char* key, std::optional<Start>& s) {
         const Value* v = table_.find(key);
         const auto* word = v ? std::get_if<std::string>(&v->content) : nullptr;
@@ -291,6 +299,7 @@ private:
     std::string beside(const std::string& file) const {
         return (std::filesystem::path(document_.file).parent_path() / file).string();
     }
+    // The file of an override is found from where the program runs, and its place kept.
     std::string found_from(const Value& v, const std::string& file) const {
         return v.place < 0 ? (std::filesystem::current_path() / file).string() : file;
     }

@@ -4,7 +4,8 @@
 // the end of the string.
 //
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
-// scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), one_of
+// scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), modes
+// (columns whose rows have numbers), one_of
 // (a variant and the key that chooses it), material (with a diameter, in place of two numbers),
 // tension (or a pitch), start ("rest" or a CSV file, in place of a table), start_table (its
 // columns), force (a file), part (a table) and parts (an array of tables).
@@ -75,6 +76,9 @@ struct Pass {
     void string_index(const char* key, auto&) { self().seen(key); }
     void refused(const char* key, const char*) { self().seen(key); }
     void columns(const char* key, auto&&...) { self().seen(key); }
+    void modes(const char* key, auto& t, const Column& frequency, const Column& decay) {
+        self().columns(key, t.file, frequency, t.frequency_hz, decay, t.decay_rate);
+    }
     void start(const char* key, auto&) { self().seen(key); }
     void force(const char* key, auto&) { self().seen(key); }
     void material() {}
@@ -115,8 +119,8 @@ void fields(auto& pass, Is<QualityFactorDamping> auto& d) {
     pass.number("thermoelastic_loss", d.thermoelastic_loss, not_negative, "");
 }
 void fields(auto& pass, Is<TableDamping> auto& d) {
-    pass.columns("file", d.file, Column{"frequency_hz", "frequency_hz", positive}, d.frequency_hz,
-                 Column{"decay_rate_per_s", "sigma_per_s", not_negative}, d.decay_rate);
+    pass.modes("file", d, Column{"frequency_hz", "frequency_hz", positive},
+               Column{"decay_rate_per_s", "sigma_per_s", not_negative});
 }
 void fields(auto& pass, Is<PerPeriodDamping> auto& d) {
     pass.number("factor", d.factor, fraction, "");

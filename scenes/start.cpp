@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "scenes/barrier.hpp"
+#include "scenes/columns.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/scene_file.hpp"
 
 namespace jvari {
 
@@ -168,6 +170,30 @@ std::vector<double> resting_forces(std::span<const RestingPoint> points,
     }
     residual(z);
     return left <= rounding * largest ? F : std::vector<double>();
+}
+
+TableStart start_from(const std::string& path, const std::string& text) {
+    TableStart t;
+    std::vector<double> x, mode;
+    const ColumnTo columns[] = {
+        {{"x_m", "x_m", any}, &x, true},
+        {{"mode", "mode", mode_number}, &mode, true},
+        {{"displacement_m", "displacement", any}, &t.displacement},
+        {{"velocity_m_per_s", "velocity", any}, &t.velocity, true},
+    };
+    read_columns(path, text, columns);
+    if (x.empty() == mode.empty())
+        throw SceneFileError(
+            path + ": found " +
+            (x.empty() ? "no rows of \"x_m\" or \"mode\"" : "\"x_m\" and \"mode\"") +
+            ", expected rows of one of the columns \"x_m\" and \"mode\"");
+    t.of_modes = x.empty();
+    t.at = t.of_modes ? mode : x;
+    if (t.velocity.empty()) t.velocity.assign(t.at.size(), 0.0);
+    constexpr std::string_view state = "# state of ";
+    if (text.starts_with(state))
+        t.state_of = text.substr(state.size(), text.find('\n') - state.size());
+    return t;
 }
 
 ModalStart start_of(const Modes& modes, const String& s, const Yield& yield) {

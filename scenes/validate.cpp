@@ -87,6 +87,10 @@ struct On {
         if (c.x.size() < 2)
             throw BadScene(path + part + ".file", std::to_string(c.x.size()) + " rows",
                            "at least two");
+        for (const double x : {c.x.front(), c.x.back()})
+            if (std::abs(x) > string.length + slack)
+                throw BadScene(path + part + ".file", "x_m " + number_text(x),
+                               between("<=") + "; is the table in mm?");
         if (c.x.front() > b.from || c.x.back() < b.to)
             throw BadScene(path + part + ".file",
                            "heights from " + number_text(c.x.front()) + " to " +
@@ -169,7 +173,7 @@ struct On {
             if (t.of_modes ? x < 1 || x > most_modes || x != std::floor(x) : x > string.length)
                 throw BadScene(path + "start", (t.of_modes ? "mode " : "x_m ") + number_text(x),
                                t.of_modes ? "whole numbers from 1 to " + std::to_string(most_modes)
-                                          : between("<="));
+                                          : between("<=") + "; is the table in mm?");
             if (!t.of_modes && (x == 0 || x == string.length) &&
                 (t.displacement[k] != 0 || t.velocity[k] != 0))
                 throw BadScene(path + "start", "an end of the string that is not at rest at 0",

@@ -83,6 +83,27 @@ std::string quote(std::string_view s) {
     return text + '"';
 }
 
+bool is_text(std::string_view s) {
+    for (std::size_t i = 0; i < s.size();) {
+        const auto at = [&](std::size_t k) { return static_cast<unsigned char>(s[k]); };
+        const unsigned first = at(i);
+        const std::size_t size = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+        unsigned code = size == 1 ? first : first & (0xffu >> (size + 1));
+        if (first < 0x20 || first == 0x7f || (first >= 0x80 && first < 0xc2) || first > 0xf4 ||
+            i + size > s.size())
+            return false;
+        for (std::size_t k = 1; k < size; ++k) {
+            if ((at(i + k) & 0xc0) != 0x80) return false;
+            code = code << 6 | (at(i + k) & 0x3fu);
+        }
+        const unsigned least[] = {0, 0x80, 0x800, 0x10000};
+        if (code < least[size - 1] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000))
+            return false;
+        i += size;
+    }
+    return true;
+}
+
 std::string unfit_as_file(std::string_view name) {
     constexpr std::size_t longest = 100;  // of 255 bytes that a file's name may have
     if (name.empty()) return "is empty";

@@ -18,6 +18,7 @@ std::optional<double> number_of(std::string_view);
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 // a TOML basic string: quotes, backslashes and control characters escaped
 std::string quote(std::string_view);
+bool is_text(std::string_view);  // UTF-8 without control characters
 // "" where a name can be a part of the name of a file; else what is wrong with it.
 std::string unfit_as_file(std::string_view name);
 // quoted, and cut to the length of a line

@@ -132,8 +132,9 @@ int compare_command(CompareCall r) {
         throw store::UsageError("--resume: there is no --out DIR to resume from");
     study::Kept keep;
     keep.resume = r.resume;
-    keep.folder =
-        report::cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console);
+    const report::OwnFolder own(r.out, "comparison of " + compare::load_scene(r).name,
+                                compare::identity_of(r), console);
+    keep.folder = own.cells;
     std::optional<store::WhenInterrupted> last_word(std::in_place,
                                                     [&] { console.note(kept_text(keep)); });
     compare::Comparison c = compare::compare(r, catalogue, console, keep);

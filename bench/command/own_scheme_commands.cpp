@@ -30,6 +30,7 @@ int export_command(ExportRequest r) {
     const Console console(r.json, r.quiet);
     r.rates = {r.rate};
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
+    store::must_not_replace({{"--out", r.out}}, files_read(compare::load_scene(r), r.scene, {}));
     store::must_be_writable(r.out);
     const judge::Exported problem = judge::exported(r);
     std::optional<study::Truth> truth;
@@ -127,8 +128,9 @@ int judge_command(JudgeRequest r) {
     const Console console(r.json, r.quiet);
     if (r.modes_of_each > 0) r.modes = {r.modes_of_each};
     judge::Candidate candidate = candidate_of(r);
-    study::Kept keep{
-        report::cells_folder(r.out, "comparison of " + compare::load_scene(r).name, console), true};
+    const report::OwnFolder folder(r.out, "comparison of " + compare::load_scene(r).name,
+                                   compare::identity_of(r) + candidate.contents, console);
+    study::Kept keep{folder.cells, true};
     const compare::Comparison c = judge::judge(std::move(candidate), r, r.plugins, console, keep);
     const report::Written results = report::written(c, r, console);
     const std::string verdict = judge::verdict_of(c);
@@ -210,6 +212,9 @@ int check_command(const CheckRequest& r) {
     if (chosen.empty())
         throw store::UsageError(
             "check: expected a scheme, or --plugin LIB.so (see jvari check --help)");
+    std::vector<store::NamedFile> read;
+    for (const std::string& file : r.plugins) read.push_back({"a plugin", file});
+    store::must_not_replace({{"--junit", r.junit}}, read);
     if (!r.junit.empty()) store::must_be_writable(r.junit);
     std::vector<check::Checked> checked;
     bool broken = false;

@@ -131,20 +131,22 @@ void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, S
     if (d.clock == Clock::continuous) settings.sample_rate = 0;
     if (make_scheme(d, scene, settings)->state().displacement.empty())
         throw store::UsageError(
-            fmt::format("--state: {} keeps more here than displacement and velocity of each mode "
-                        "of one string; "
-                        "modal_two_point and the references do not, without compliance=matched",
+            fmt::format("--state: {} keeps more than displacement and velocity of each mode here, "
+                        "and a run from these alone would be another. Expected one string without "
+                        "masses and rigid barriers, by modal_two_point without compliance=matched "
+                        "or by a reference",
                         d.name));
 }
 
-// One row per contact, in the order of their starts; what lasts beyond the run has neither end nor
-// speed out.
+// One row per contact, in the order of their starts. Where it lasts beyond the run it has no end,
+// no speed out and no loss, where it was on before no speed in.
 store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& scene,
                            double until) {
     std::vector<std::pair<int, Impact>> all;  // string
     for (const Impacts& of : of_strings)
         for (Impact i : of.all()) {
-            if (i.end >= until) i.end = i.speed_out = nan;
+            if (i.end >= until) i.end = i.speed_out = i.energy_lost = nan;
+            if (i.start <= 0) i.speed_in = nan;
             if (i.start < until) all.emplace_back(&of - of_strings.data(), i);
         }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second.start; });
@@ -218,6 +220,9 @@ int run_command(RunRequest r) {
     const bool played = is_audio(r.out);
     const Scene own = compare::load_scene(r.scene, r.set, r.duration),
                 sounding = played ? audible(own) : own;
+    store::must_not_replace(
+        {{"--out", r.out}, {"--state", r.state}, {"--impacts", r.impacts}, {"--plot", r.plot}},
+        files_read(own, r.scene, r.plugins));
     const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
     Scene scene = sounding;
     scene.taps.insert(scene.taps.begin(), own.taps.begin(),
@@ -226,6 +231,7 @@ int run_command(RunRequest r) {
     const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
                                                        r.modes, scheme_options(r.options));
     compare::note_force_files(scene, settings.sample_rate, console);
+    compare::note_modes(d, scene, settings, console);
     const std::optional<report::Vega> vega = vega_for(r);
     check_state(r, d, scene, settings);
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
@@ -276,7 +282,8 @@ int run_command(RunRequest r) {
                             level.empty() ? "" : "  (" + level + ")");
     }
     if (!r.state.empty() && result.status.outcome == Outcome::ok) {
-        std::string rows = "mode,displacement_m,velocity_m_per_s\n";
+        std::string rows =
+            fmt::format("# state of {}\nmode,displacement_m,velocity_m_per_s\n", scene.name);
         for (std::size_t i = 0; i < result.state.displacement.size(); ++i)
             rows += fmt::format("{},{},{}\n", i + 1, result.state.displacement[i],
                                 result.state.velocity[i]);

@@ -106,14 +106,14 @@ int suite_command(const SuiteRequest& r) {
     study::Plan plan = suite::plan_of(suite, catalogue, r.plugins);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
-    const fs::path kept_cells = report::cells_folder(folder, "suite " + suite.name, console);
+    const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan), console);
     if (r.resume) note_missing_locks(folder, console);
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
     if (r.resume) study::keep_references_in(plan, folder / "references");
     const suite::RecordedMaps maps = suite::run_and_record_maps(
         suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs},
         console);
-    const study::Study run = study::run(plan, kept_cells, r.resume, r.jobs, console);
+    const study::Study run = study::run(plan, own.cells, r.resume, r.jobs, console);
     const study::Cells cells = compare::with_front(study::cells_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
     const std::vector<compare::Answer> cheapest = compare::cheapest_of(cells);

@@ -124,9 +124,8 @@ int trim_command(TrimCall r) {
             console.note("interrupted: what was judged is kept in " + r.out +
                          "; the same command goes on from there");
         });
-    if (!r.out.empty())
-        report::must_be_ours(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name,
-                             console);
+    const report::OwnFolder own(r.out, "trim of " + compare::load_scene(r.scene, r.set, {}).name,
+                                trim::identity_of(request), console);
     trim::Judge judge(request, catalogue, console);
     const trim::Trimmed t = trim::trimmed(judge, request, catalogue, console);
     const auto manifest = trim::manifest_of(t, judge, request);

@@ -10,6 +10,7 @@
 #include "bench/store/keys.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
 
 namespace jvari::bench::command {
@@ -117,8 +118,8 @@ void Arguments::set(std::vector<std::string>& set) {
 
 void Arguments::modes(int& modes) {
     option("--modes", modes, counting,
-           "modes of each string, or interior nodes for a scheme on a grid; absent: every mode "
-           "below min(20 kHz, rate/2)");
+           "modes of each string, and as many nodes of modal_spatial_newton; finite differences "
+           "have --option grid=N; absent: every mode below min(20 kHz, rate/2)");
 }
 
 void Arguments::options(std::vector<std::string>& options) {
@@ -173,6 +174,15 @@ std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>
         if (list.value.empty()) options.push_back(list);
     }
     return options;
+}
+
+std::vector<store::NamedFile> files_read(const Scene& scene, const std::string& name,
+                                         const std::vector<std::string>& plugins) {
+    std::vector<store::NamedFile> read;
+    for (const std::string& file : files_of(scene, name))
+        read.push_back({read.empty() ? "the scene" : "a table of the scene", file});
+    for (const std::string& file : plugins) read.push_back({"a plugin", file});
+    return read;
 }
 
 }  // namespace jvari::bench::command

@@ -13,6 +13,7 @@
 
 #include "bench/compare/catalogue.hpp"
 #include "bench/report/results.hpp"
+#include "bench/store/fresh_file.hpp"
 #include "bench/study/record.hpp"
 
 namespace jvari::bench::command {
@@ -83,6 +84,10 @@ public:
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts);
 // Each value of a list for itself; UsageError where an option is named twice.
 std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts);
+
+// The files of a scene, and other files that a call reads.
+std::vector<store::NamedFile> files_read(const Scene&, const std::string& scene,
+                                         const std::vector<std::string>& plugins);
 
 // ---- The verbs
 

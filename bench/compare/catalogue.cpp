@@ -1,6 +1,6 @@
 #include "bench/compare/catalogue.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,17 @@
 #include "schemes/registry.hpp"
 
 namespace jvari::bench::compare {
+
+std::string identity_of(const CompareRequest& r) {
+    std::string text =
+        write_scene(load_scene(r)) +
+        fmt::format("{}\n{}\n{}\n{}\n{}\n{} {} {} {}", r.reference, fmt::join(r.schemes, " "),
+                    fmt::join(r.rates, " "), fmt::join(r.modes, " "), r.tap,
+                    r.reference_modes.value_or(-1), r.search, r.controls, r.tap_rate.value_or(0));
+    for (const SchemeOption& o : r.options)
+        text += fmt::format("\n{}:{}={}", o.scheme, o.name, o.value);
+    return text;
+}
 
 Catalogue::Catalogue(const std::vector<std::string>& plugins) {
     for (const Descriptor& d : jvari::schemes()) schemes.push_back(&d);

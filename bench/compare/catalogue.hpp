@@ -45,6 +45,9 @@ struct CompareRequest {
     int jobs = 0;  // 0: as many as there are cores
 };
 
+// All that its results depend on but the program, as text.
+std::string identity_of(const CompareRequest&);
+
 // ---- Names to things
 
 struct Catalogue {

@@ -5,10 +5,11 @@
 // which a note says. Several strings have each as many as lie below 20 kHz.
 #include "bench/compare/compare_plan.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
+#include "bench/compare/scene_notes.hpp"
 #include "bench/study/cell.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/controls.hpp"
@@ -171,6 +172,8 @@ void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const
     Settings at_lowest = settings;
     at_lowest.sample_rate = form.rates.front();
     if (d.clock != Clock::continuous) settings.modes = modes_of(d, scene, r, at_lowest, into);
+    if (has_own_grid(d) && !r.modes.empty())
+        note(into, grid_text(d, fmt::format("{}", fmt::join(r.modes, ","))));
     for (const Rung& rung : rungs_of(r, d, scene, settings, form.rates))
         for (const double rate : rung.rates) {
             job.cell = {&d, settings};

@@ -8,6 +8,7 @@
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
 #include "scenes/barrier.hpp"
+#include "scenes/modes.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/start.hpp"
 #include "schemes/contact/compliance.hpp"
@@ -39,6 +40,12 @@ bool pressed(const String& s) {  // at rest something above or below it pushes o
                return lumped ? above(*lumped) : somewhere(std::get<ProfileBarrier>(b));
            });
 }
+double highest(const ProfileBarrier& b) {  // with its sign
+    double most = 0;
+    for (const double g : heights(b.curve, {b.from, b.to}))
+        if (std::abs(g) > std::abs(most)) most = g;
+    return most;
+}
 bool set_in_motion(const String& s, double before) {
     const bool table = s.start && std::holds_alternative<TableStart>(*s.start);
     return largest_displacement(s) != 0 || table || s.velocity || pressed(s) ||
@@ -51,8 +58,11 @@ bool set_in_motion(const String& s, double before) {
 std::string tuning_text(const String& s) {
     const double f1 = pitch_of(s);
     const std::string note = note_of(f1);
-    return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, inharmonicity {:.2g}", f1,
-                       note.empty() ? "" : " (" + note + ")", s.tension, inharmonicity(s));
+    const auto measured = modes_measured(s);
+    return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, {}", f1,
+                       note.empty() ? "" : " (" + note + ")", s.tension,
+                       measured ? fmt::format("{} measured modes", *measured)
+                                : fmt::format("inharmonicity {:.2g}", inharmonicity(s)));
 }
 
 std::string untouched_text(const Scene& scene, const Figures& run) {
@@ -77,13 +87,18 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
         };
         doubt(s.length < least_length || s.length > most_length, "length", s.length, "m",
               "0.03 to 4 m");
-        doubt(pitch_of(s) < least_pitch || pitch_of(s) > most_pitch,
-              "the pitch that length, tension and linear_density give", pitch_of(s), "Hz",
+        doubt(tuned_pitch(s) < least_pitch || tuned_pitch(s) > most_pitch,
+              "the pitch that length, tension and linear_density give", tuned_pitch(s), "Hz",
               "10 to 10000 Hz");
         const double start = largest_displacement(s);
         doubt(start > most_start * s.length, "start.amplitude", start, "m",
               "less than a tenth of the length");
-        for (const Barrier& b : s.barriers)
+        for (const Barrier& b : s.barriers) {
+            if (const auto* profile = std::get_if<ProfileBarrier>(&b)) {
+                const double g = highest(*profile);
+                doubt(std::abs(g) > most_start * s.length, "barrier height", g, "m",
+                      "less than a tenth of the length");
+            }
             if (const auto* lumped = std::get_if<LumpedBarrier>(&b)) {
                 doubt(std::abs(lumped->height) > most_start * s.length, "barrier.height",
                       lumped->height, "m", "less than a tenth of the length");
@@ -91,9 +106,11 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
                 doubt(std::isfinite(k) && k > most_stiffness, "barrier.stiffness", k,
                       "N/m^exponent", "at most 1e13, or \"rigid\"");
             }
+        }
         doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude",
               plucked(s) ? s.pluck->amplitude : 0, "N", "less than the tension");
     }
+    note_tables(scene, listener);
     const auto moves = [&](const String& s) { return set_in_motion(s, scene.duration); };
     // one shakes the others
     if (scene.body && !scene.body->modes.empty() && std::ranges::any_of(scene.strings, moves))

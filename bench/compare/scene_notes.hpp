@@ -7,10 +7,11 @@
 #include "bench/compare/bound.hpp"
 #include "bench/store/system/listener.hpp"
 #include "scenes/scene.hpp"
+#include "schemes/scheme.hpp"
 
 namespace jvari::bench::compare {
 
-// "f1 = 82.4 Hz (E2), tension 74.3 N, inharmonicity 1.2e-04"
+// "f1 = 82.4 Hz (E2), tension 74.3 N, inharmonicity 1.2e-04"; or "..., 40 measured modes"
 std::string tuning_text(const String&);
 
 // Where a scene has barriers and its run never touched one: that, and what to look at. ""
@@ -21,6 +22,15 @@ std::string untouched_text(const Scene&, const Figures& run);
 // nothing sets in motion before the scene ends: no start, no pluck, no barrier that presses it, no
 // other string through a moving body.
 void note_scene(const Scene&, const store::Listener&);
+// The part of it on tables: modes that a file lacks, a first mode that is out of tune, the state of
+// another scene, a force much longer than the run.
+void note_tables(const Scene&, const store::Listener&);
+
+// Finite differences take their nodes from the rate, whatever modes are asked for.
+bool has_own_grid(const Descriptor&);
+std::string grid_text(const Descriptor&, const std::string& modes);
+// Before a run: modes that its scheme leaves aside, or that a start has beyond them.
+void note_modes(const Descriptor&, const Scene&, const Settings&, const store::Listener&);
 
 // Says of a force file whose rows are closer than a step of the lowest sample rate [Hz] that each
 // step pushes by the mean. 0: no rate.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bench/compare/catalogue.hpp"
+#include "bench/compare/scene_notes.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/contact/compliance.hpp"
@@ -144,6 +145,7 @@ std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const S
                            const Settings& settings, const std::vector<double>& rates) {
     std::vector<Rung> rungs;
     for (const int modes : r.modes) rungs.push_back({modes, rates, false});
+    if (rungs.size() > 1 && has_own_grid(d)) rungs.resize(1);  // all are the same cell
     if (!rungs.empty()) return rungs;
     rungs.push_back({settings.modes, rates, false});
     // as one whose nodes are its points of contact

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -69,14 +70,14 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of,
         read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
 }
 
-// Each problem is computed once: a cell is run by the search, for its errors, and once more where
-// it is looked at again.
+// Each problem is computed once, with a trace, a refusal or a failure: a cell is run by the search,
+// for its errors, and once more where it is looked at again.
 std::shared_ptr<const Trace> known(const External& e, const Exported& of,
                                    const Unwanted& unwanted) {
     struct Each {
         std::once_flag once;
         std::shared_ptr<const Trace> trace;
-        std::string refusal;
+        std::exception_ptr failure;
     };
     static std::mutex mutex;  // of `all`
     static std::map<std::string, Each> all;
@@ -87,9 +88,12 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of,
     std::call_once(each.once, [&] {  // whoever asks for it meanwhile waits
         try {
             each.trace = computed(e, of, problem, unwanted);
-        } catch (const Refusal& refusal) { each.refusal = refusal.what(); }
+        } catch (const std::exception&) {
+            if (unwanted()) throw;  // it was ended: the next who asks calls it anew
+            each.failure = std::current_exception();
+        }
     });
-    if (!each.refusal.empty()) throw Refusal(each.refusal);
+    if (each.failure) std::rethrow_exception(each.failure);
     return each.trace;
 }
 

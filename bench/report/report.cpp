@@ -3,8 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -111,6 +115,8 @@ Json kept_levels(const Results& r) {
     return all;
 }
 
+}  // namespace
+
 Json data_of(const Results& r) {
     Json data = empty_data(r.name, r.source + (r.source.empty() ? "" : " \u2014 ") + r.about);
     data["source"] = r.source;
@@ -128,7 +134,6 @@ Json data_of(const Results& r) {
     data["levels"] = kept_levels(r);
     return data;
 }
-}  // namespace
 
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about) {
     const Json none = Json::array();
@@ -163,6 +168,67 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
     return page_of(data, scripts);
 }
 
+Results best_of(const Results& r, std::size_t cells) {
+    const std::size_t headline = compare::headline_error(r.cells, study::all_rows(r.cells));
+    std::vector<char> first(r.cells.size());
+    std::map<std::string, std::pair<double, std::size_t>> best;  // of a scheme on a problem
+    for (const compare::Answer& a : compare::cheapest_of(r.cells, r.controls))
+        if (a.cell) first[*a.cell] = true;
+    for (std::size_t i = 0; i < r.cells.size(); ++i) {
+        const study::TabledCell& c = r.cells[i];
+        const double shown = compare::bound_of(c, headline).shown();
+        auto& [least, place] =
+            best.try_emplace(c.problem() + "|" + c.scheme, HUGE_VAL, i).first->second;
+        if (shown < least) least = shown, place = i;
+        first[i] = first[i] || c.pareto == 1;
+    }
+    for (const auto& [who, of] : best) first[of.second] = true;
+    study::Rows order = study::all_rows(r.cells);
+    std::ranges::stable_partition(order, [&](std::size_t i) { return first[i]; });
+    order.resize(std::min(cells, order.size()));
+    std::ranges::sort(order);
+    Results some = r;
+    some.cells.clear();
+    some.series.clear();
+    for (const std::size_t i : order) {
+        some.cells.push_back(r.cells[i]);
+        some.series.push_back(r.series[i]);
+    }
+    return some;
+}
+
+std::string fitting_page_of(const Results& r, Json data, const std::string& scripts,
+                            std::size_t limit) {
+    const std::string missing = data["missing"];
+    std::string html = fitting_page_of(data, scripts, limit);
+    std::size_t kept = r.cells.size();
+    while (html.size() > limit && kept > 1) {
+        const double share = 0.8 * static_cast<double>(limit) / static_cast<double>(html.size());
+        kept =
+            std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(kept)));
+        data = data_of(best_of(r, kept));
+        data["missing"] = missing;
+        data["left_out"]["cells"].push_back(
+            fmt::format("{} of {} cells are in this page: those that answer, and the best of each "
+                        "scheme, come first. All are in the csv files beside it.",
+                        kept, r.cells.size()));
+        html = fitting_page_of(data, scripts, limit);
+    }
+    while (html.size() > limit && !data["tables"].empty()) {
+        auto largest = data["tables"].begin();
+        for (auto t = data["tables"].begin(); t != data["tables"].end(); ++t)
+            if (t->get_ref<const std::string&>().size() >
+                largest->get_ref<const std::string&>().size())
+                largest = t;
+        data["left_out"]["cells"].push_back(
+            fmt::format("The table {} is left out for the page's size; {}.csv lies beside it.",
+                        largest.key(), largest.key()));
+        data["tables"].erase(largest);
+        html = fitting_page_of(data, scripts, limit);
+    }
+    return html;
+}
+
 std::vector<std::string> write_report(const fs::path& folder, const store::Listener& listener,
                                       double width) {
     const Results results = read_results(folder);
@@ -186,7 +252,7 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
         data["missing"] = vega.missing;
     }
     store::write_fresh(folder / "report.html",
-                       fitting_page_of(std::move(data), scripts, page_limit));
+                       fitting_page_of(results, std::move(data), scripts, page_limit));
     written.emplace_back("report.html");
     return written;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/report/results.hpp"
 #include "bench/report/vega.hpp"
 #include "bench/store/records.hpp"
 #include "bench/store/system/listener.hpp"
@@ -27,9 +28,18 @@ std::vector<std::string> write_report(const std::filesystem::path& folder, const
 // A table that is too large goes without the columns that take most room, those that charts need
 // excepted.
 store::Table fitting(store::Table, nlohmann::ordered_json& left_out);
-// The page in less than `limit` bytes: sounds are left out from the last on, and the page says so.
+// The page in less than `limit` bytes, as far as leaving out sounds from the last on does that; the
+// page says so.
 std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts,
                             std::size_t limit);
+// So many cells of a folder's: those that answer a question or are on a front, the best of each
+// scheme, then the others as they stand.
+Results best_of(const Results&, std::size_t cells);
+// The page of `data_of(results)` in less than `limit` bytes: beyond sounds, cells are left out, and
+// at last whole tables, the largest first.
+std::string fitting_page_of(const Results&, nlohmann::ordered_json data, const std::string& scripts,
+                            std::size_t limit);
+nlohmann::ordered_json data_of(const Results&);
 
 // The data of a page with nothing in it: a title, what it is about, the schemes and references that
 // there are (name, is it a control; in the order of their registry), and empty tables, sounds and

@@ -208,7 +208,6 @@ std::string what_is_in(const fs::path& folder) {  // "" where that is unknown
         return "comparison of " + m.at("scene").at("name").get<std::string>();
     } catch (const std::exception&) { return ""; }
 }
-}  // namespace
 
 void must_be_ours(const fs::path& folder, const std::string& what,
                   const store::Listener& listener) {
@@ -239,15 +238,24 @@ void must_be_ours(const fs::path& folder, const std::string& what,
         names, foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
 }
 
-fs::path cells_folder(const fs::path& folder, const std::string& what,
-                      const store::Listener& listener) {
-    if (folder.empty()) return folder;
+}  // namespace
+
+OwnFolder::OwnFolder(const fs::path& folder, const std::string& what, const std::string& request,
+                     const store::Listener& listener)
+    : cells(folder.empty() ? folder : folder / "cells") {
+    if (folder.empty()) return;
     must_be_ours(folder, what, listener);
-    store::make_folder(folder / "cells");
+    store::make_folder(cells);
     store::must_be_writable(folder / "cells.csv");
-    store::must_be_writable(folder / "cells" / "any.json");
+    store::must_be_writable(cells / "any.json");
+    lock_.emplace(cells / "study.lock", what + ", request " + store::hash_of(request));
+    if (const std::string& others = lock_->others(); !others.empty())
+        throw store::UsageError(fmt::format(
+            "--out {}: a process is at work there on {} {}, and its tables would be written over. "
+            "Wait for its end, or choose another folder",
+            folder.string(), others.starts_with(what + ",") ? "another" : "the",
+            others.substr(0, others.rfind(','))));
     for (const char* own : own_folders) store::sweep_parts(folder / own);
-    return folder / "cells";
 }
 
 void ResultsFolder::add(const std::string& name, const std::string& content) {

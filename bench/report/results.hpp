@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,16 +68,21 @@ nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, doubl
 // ---- The folder that results go to: of one comparison, one suite or one trimmed scene, so that no
 // page mixes what was measured apart.
 
-// Before anything is run. Throws UsageError where the folder holds the results of something else
-// than `what` ("comparison of tanpura_c3", "suite smoke", "trim of tanpura_c3"); notes files that
-// no such folder has, which stay where they are. A folder that is not there is empty.
-void must_be_ours(const std::filesystem::path& folder, const std::string& what,
-                  const store::Listener&);
+// A study's own folder while it runs: made, found writable, and without the parts that a killed run
+// left. Any number of processes of one study may have it, and no other study meanwhile.
+class OwnFolder {
+public:
+    // Before anything is run. `what`: "comparison of tanpura_c3", "suite smoke", "trim of
+    // tanpura_c3"; `request`: all that its results depend on. Throws UsageError where the folder
+    // holds the results of something else than `what`, or where a process is at work there on
+    // another request; notes files that no such folder has, which stay where they are.
+    OwnFolder(const std::filesystem::path& folder, const std::string& what,
+              const std::string& request, const store::Listener&);
+    const std::filesystem::path cells;  // where its cells are kept; "" of nowhere
 
-// Where the cells of such a folder are kept, once it is ours: made, found writable, and without the
-// parts that a killed run left. "" of nowhere.
-std::filesystem::path cells_folder(const std::filesystem::path& folder, const std::string& what,
-                                   const store::Listener&);
+private:
+    std::optional<store::SharedLock> lock_;
+};
 
 // What is written into it, and the paths of that; nowhere ("") nothing is.
 class ResultsFolder {

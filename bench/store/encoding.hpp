@@ -26,6 +26,9 @@ std::string sealed(const std::string& object);
 // content.
 std::string unsealed(const std::string& file);
 
+// A word as a shell reads it back: in apostrophes where it is not plain.
+std::string shell_word(const std::string&);
+
 // ---- Base64 (RFC 4648, section 4): bytes as text, in a record and in a page.
 
 std::string base64(std::string_view bytes);

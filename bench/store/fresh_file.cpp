@@ -55,6 +55,34 @@ void must_be_writable(const fs::path& named) {
             fmt::format("cannot write {}: something that is no file stands there", path.string()));
 }
 
+void must_not_replace(const std::vector<NamedFile>& results, const std::vector<NamedFile>& read) {
+    const auto same = [](const NamedFile& a, const NamedFile& b) {
+        std::error_code error;
+        const auto whole = [&error](const fs::path& p) {
+            return fs::weakly_canonical(fs::absolute(behind_links(p), error), error);
+        };
+        return fs::equivalent(a.path, b.path, error) || whole(a.path) == whole(b.path);
+    };
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        const NamedFile& r = results[k];
+        const std::string name = r.what + " " + r.path.string() + ": ";
+        if (r.path.empty()) continue;
+        if (r.path.extension() == ".toml")
+            throw UsageError(name +
+                             "scenes end in .toml, and this result is none. Choose another "
+                             "ending");
+        for (const NamedFile& other : read)
+            if (!other.path.empty() && same(r, other))
+                throw UsageError(name + "this is " + other.what +
+                                 ", which would be lost. Choose another name");
+        for (std::size_t j = 0; j < k; ++j)
+            if (!results[j].path.empty() && same(r, results[j]))
+                throw UsageError(name + results[j].what +
+                                 " writes that file too, and one of them would be lost. Choose "
+                                 "another name");
+    }
+}
+
 void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);

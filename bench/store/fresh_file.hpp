@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "bench/store/system/interruption.hpp"
 
@@ -30,6 +31,15 @@ private:
 // throws UsageError, Unwritable
 void write_fresh(const std::filesystem::path&, const std::string& content);
 std::string read_whole(const std::filesystem::path&);  // throws UsageError
+
+// Files of one call, each by the option that names it or by what it is: "--out", "the scene".
+struct NamedFile {
+    std::string what;
+    std::filesystem::path path;
+};
+// Throws UsageError where a result would replace a file that is read or another result, or has the
+// ending of scenes, .toml.
+void must_not_replace(const std::vector<NamedFile>& results, const std::vector<NamedFile>& read);
 
 void make_folder(const std::filesystem::path&);  // where there is none; throws UsageError
 // Throws UsageError where no file could be written there, before an hour of work is spent on it.

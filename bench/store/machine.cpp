@@ -73,13 +73,12 @@ std::string program_identity(const std::vector<std::string>& plugins, const Mach
 }
 
 namespace {
-std::string command() {  // as typed, by the kernel's account; a word with blanks in quotes
+std::string command() {  // as typed, by the kernel's account
     std::ifstream words("/proc/self/cmdline", std::ios::binary);
     std::string text, word;
     for (bool first = true; std::getline(words, word, '\0'); first = false) {
         if (first) word = word.substr(word.rfind('/') + 1);
-        const bool plain = !word.empty() && word.find_first_of(" \t\n'\"") == std::string::npos;
-        text += (first ? "" : " ") + (plain ? word : "'" + word + "'");
+        text += (first ? "" : " ") + shell_word(word);
     }
     return as_utf8(text);
 }

@@ -76,6 +76,16 @@ void address(Plan& plan, const std::string& of_program) {
     plan.jobs = std::move(once);
 }
 
+std::string identity_of(const Plan& plan) {
+    std::string all;
+    for (const Job& job : plan.jobs) {
+        Json identity = store::parsed(job.identity);
+        identity.erase("program");
+        all += store::compact(identity) + "\n";
+    }
+    return all;
+}
+
 std::string what_of(const Job& job) {
     std::string text = job.point->scene.name;
     for (const auto& [key, value] : job.point->swept) text += " " + key + "=" + value;

@@ -74,6 +74,8 @@ struct Plan {
 // Fills keys and identities, and leaves each job once. `program`: store::program_identity.
 void address(Plan&, const std::string& program);
 
+std::string identity_of(const Plan&);  // of all its jobs, whatever program runs them
+
 std::string what_of(const Job&);  // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
 
 // The references of a study: each is run by the first job that needs it, and gone with the last.

@@ -15,6 +15,7 @@
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/scene_file.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/making.hpp"
 
@@ -57,6 +58,15 @@ Model toggled(Model m, int part) {
     if (at != m.left_out.end() && *at == part) m.left_out.erase(at);
     else m.left_out.insert(at, part);
     return m;
+}
+
+std::string identity_of(const Request& r) {
+    std::string text = write_scene(compare::load_scene(r.scene, r.set, r.duration)) +
+                       fmt::format("{} {} {} {} {} {} {}", r.measure, r.within, r.tap, r.scheme,
+                                   r.reference, r.tap_rate, r.reference_modes);
+    for (const compare::SchemeOption& o : r.options)
+        text += fmt::format("\n{}:{}={}", o.scheme, o.name, o.value);
+    return text;
 }
 
 double processor_time(const Model& m, const Scene& left) {

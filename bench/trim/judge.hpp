@@ -64,6 +64,8 @@ struct Request {
     std::vector<compare::SchemeOption> options{};
 };
 
+std::string identity_of(const Request&);  // all that its results depend on but the program
+
 struct Model {
     std::vector<int> left_out;  // of Judge::reductions, ascending
     const Descriptor* scheme;

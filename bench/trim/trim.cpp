@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/compare_plan.hpp"
+#include "bench/store/encoding.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "scenes/scene_file.hpp"
@@ -215,7 +216,7 @@ store::Table path_table(const Trimmed& t, Judge& judge) {
 }
 
 std::string command_of(const Trimmed& t, const std::string& file) {
-    return fmt::format("jvari run {} {}", file,
+    return fmt::format("jvari run {} {}", store::shell_word(file),
                        compare::arguments_of(*t.last().model.scheme, t.last().model.settings));
 }
 

@@ -72,15 +72,15 @@ public:
     }
 
     // Forces on the string [N] out, one per point. False where the contacts did not converge.
-    // Allocates nothing. in_full: moved() and gained() are asked for.
+    // Allocates nothing. in_full: moved() and lost_by() are asked for.
     bool solve(const ReadingsBeforeStep& at, double* force, bool in_full = false) noexcept {
         if (series_) return solve_in_series(at, force, in_full);
         return fused_ && !in_full ? solve_one(at, force) : solve_points(at, force, false, in_full);
     }
     // Of each contact in the last step, solved for in full: its way with what is in series [m], and
-    // by how much more its potential holds [J]
+    // what it lost while it pushed by a force [J]
     const double* moved() const { return r_.data(); }
-    const double* gained() const { return gained_.data(); }
+    double lost_by(int a, double force) const { return -force * r_[a] / levels_ - gained_[a]; }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept {
         return series_ ? solve(at, force) : solve_points(at, force, true, false);
     }

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "scenes/excitation.hpp"
@@ -207,10 +208,9 @@ private:
         for (int a = 0; a < obstacle_.contacts(); ++a) {
             const BarrierOf& of = points().contacts.of[a];
             impacts_[of.string].told = true;
-            const double moved = obstacle_.moved()[a];
             impacts_[of.string].step(of, a,
-                                     {to, dt_, levels * dt_, force_[a], moved,
-                                      -force_[a] * moved / levels - obstacle_.gained()[a]});
+                                     {to, dt_, levels * dt_, force_[a], obstacle_.moved()[a],
+                                      obstacle_.lost_by(a, force_[a])});
         }
     }
 

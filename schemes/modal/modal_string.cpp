@@ -1,9 +1,11 @@
 #include "schemes/modal/modal_string.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "scenes/wording.hpp"
 #include "schemes/making.hpp"
 #include "schemes/modal_coefficients.hpp"
 
@@ -32,18 +34,16 @@ std::vector<double> tap_weights(const Tap& tap, const Modes& modes, const String
     }
 }
 
-PluckSteps pluck_steps(const Pluck& pluck, double dt) {
-    const double first = std::floor(pluck.start / dt),
-                 last = std::ceil((pluck.start + pluck.duration) / dt);
-    // [steps]
-    constexpr double longest = 1 << 28,
-                     latest = 0.5 * static_cast<double>(std::numeric_limits<long>::max());
-    if (!(last < latest && last - first < longest))
-        throw Refusal("the pluck, from " + std::to_string(pluck.start) + " s on, for " +
-                      std::to_string(pluck.duration) + " s, is too long or too late at " +
-                      std::to_string(1 / dt) + " Hz: its force is kept for every step, of which " +
-                      std::to_string(1 << 28) + " fit");
-    return {static_cast<long>(first), static_cast<long>(last - first)};
+PluckSteps pluck_steps(const Pluck& pluck, double dt, double duration) {
+    constexpr double most = 0.5 * static_cast<double>(std::numeric_limits<long>::max());
+    const double first = std::floor(pluck.start / dt), end = pluck.start + pluck.duration,
+                 last = std::ceil(end / dt);
+    if (!(last < most))
+        throw Refusal("the pluck ends at " + number_text(end) +
+                      " s, after more steps than can be " + "counted at " + number_text(1 / dt) +
+                      " Hz");
+    const double kept = std::clamp(std::ceil(duration / dt) - first, 0.0, last - first);
+    return {static_cast<long>(first), static_cast<long>(last - first), static_cast<long>(kept)};
 }
 
 }  // namespace jvari

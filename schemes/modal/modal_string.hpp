@@ -29,11 +29,12 @@ inline constexpr Approximation modal_approximates[] = {
 inline constexpr std::span<const Approximation> modal_approximates_elastic =
     std::span(modal_approximates).first(1);
 
-// The steps of dt that a pluck acts in. Refusal where it lasts longer than its table can.
+// The steps of dt that a pluck acts in, and how many of them begin before the scene ends, which are
+// tabulated. Refusal where they cannot be counted.
 struct PluckSteps {
-    long first, count;
+    long first, count, tabulated;
 };
-PluckSteps pluck_steps(const Pluck&, double dt);
+PluckSteps pluck_steps(const Pluck&, double dt, double duration);
 
 // What a tap of displacement, velocity or nut force reads of the modes' displacements or
 // velocities; none of contact forces.

@@ -17,6 +17,11 @@ using std::numbers::pi;
 
 namespace {
 using Moments = TwoMomentStream;
+
+PluckMoments moments_of(const Pluck& e, long n, double dt) {
+    const double t = static_cast<double>(n) * dt;
+    return {mean_force(e, t, dt), first_moment(e, t, dt)};
+}
 }  // namespace
 
 // cos 2z = cos(omega H)/cosh(sigma H), cosh in place of cos where a mode is overdamped; by its half
@@ -151,7 +156,7 @@ void TwoMomentModes::put_points(const Modes& modes, const Scene& scene) {
             p_.theta[p * D + q] = T.m00, p_.theta[p * D + P + q] = T.m01;
             p_.theta[(P + p) * D + q] = T.m10, p_.theta[(P + p) * D + P + q] = T.m11;
         }
-    if (const auto& pluck = scene.strings.front().pluck) put_pluck(modes, *pluck, g);
+    if (const auto& pluck = scene.strings.front().pluck) put_pluck(modes, *pluck, scene.duration, g);
 }
 
 // Sums rounded once: an error in Theta is one in the balance of every step.
@@ -170,7 +175,7 @@ MomentMatrix TwoMomentModes::compliance(const std::vector<double>& g,
 }
 
 void TwoMomentModes::put_pluck(const Modes& modes, const Pluck& pluck,
-                               const std::vector<std::vector<double>>& g) {
+                               double duration, const std::vector<std::vector<double>>& g) {
     const int P = m_.points;
     const auto g_e = footprint_weights(modes, pluck.position, pluck.width);
     for (int i = 0; i < m_.modes; ++i) {
@@ -179,13 +184,12 @@ void TwoMomentModes::put_pluck(const Modes& modes, const Pluck& pluck,
     }
     pluck_.theta.resize(P);
     for (int p = 0; p < P; ++p) pluck_.theta[p] = compliance(g[p], g_e);
-    const PluckSteps steps = pluck_steps(pluck, dt_);
+    const PluckSteps steps = pluck_steps(pluck, dt_, duration);
+    pluck_.of = pluck;
     pluck_.first_step = steps.first;
     pluck_.steps = steps.count;
-    for (long n = steps.first; n < steps.first + steps.count; ++n) {
-        pluck_.mean.push_back(mean_force(pluck, static_cast<double>(n) * dt_, dt_));
-        pluck_.first.push_back(first_moment(pluck, static_cast<double>(n) * dt_, dt_));
-    }
+    for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
+        pluck_.moments.push_back(moments_of(pluck, n, dt_));
 }
 
 void TwoMomentModes::put_taps(const Modes& modes, const Scene& scene) {
@@ -249,8 +253,10 @@ void TwoMomentModes::reset() noexcept {
 void TwoMomentModes::approach(bool) noexcept {
     const long k = step_ - pluck_.first_step;
     const bool plucked = k >= 0 && k < pluck_.steps;
-    F_0_ = plucked ? pluck_.mean[k] : 0;
-    F_1_ = plucked ? pluck_.first[k] : 0;
+    const PluckMoments F = !plucked                           ? PluckMoments{}
+                           : k < std::ssize(pluck_.moments) ? pluck_.moments[k]
+                                                              : moments_of(pluck_.of, step_, dt_);
+    F_0_ = F.mean, F_1_ = F.first;
     const int P = m_.points;
     for (int p = 0; p < 2 * P; ++p) free_[p] = free_sums_[p];
     sum_ = 0;

@@ -32,6 +32,10 @@ struct ExactMode {
     double p_1() const;
 };
 
+struct PluckMoments {  // of its force in a step [N]
+    double mean = 0, first = 0;
+};
+
 class TwoMomentModes {
 public:
     static constexpr int levels = 1, moments = 2;
@@ -67,8 +71,9 @@ private:
         std::vector<double> on_mean;  // of each point's force; of contact forces only
     };
     struct PluckForce {
-        std::vector<double> mean, first;  // moments in the step first_step + n [N]
-        std::vector<MomentMatrix> theta;  // of each point [m/N]
+        Pluck of;
+        std::vector<PluckMoments> moments;  // in the step first_step + n
+        std::vector<MomentMatrix> theta;    // of each point [m/N]
         std::vector<double> p_0, p_1;
         long first_step = 0, steps = 0;
     };
@@ -83,7 +88,8 @@ private:
     Reading reading_of(const std::vector<double>& weights, bool velocity) const;
     MomentMatrix compliance(const std::vector<double>& g, const std::vector<double>& h) const;
     void put_points(const Modes&, const Scene&);
-    void put_pluck(const Modes&, const Pluck&, const std::vector<std::vector<double>>& g);
+    void put_pluck(const Modes&, const Pluck&, double duration,
+                   const std::vector<std::vector<double>>& g);
     void put_taps(const Modes&, const Scene&);
     void begin(int i, double displacement, double velocity) noexcept;
     Spent spent(const double* force) const noexcept;

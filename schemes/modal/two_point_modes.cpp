@@ -34,6 +34,9 @@ double gram(const AlignedVector& a, const AlignedVector& b) {
     for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<long double>(a[i]) * b[i];
     return static_cast<double>(sum);
 }
+double mean_in_step(const Pluck& e, long n, double dt) {
+    return mean_force(e, static_cast<double>(n) * dt, dt);
+}
 }  // namespace
 
 TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {  // (33)
@@ -95,11 +98,12 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         g_e_ = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
         m_.g_e = g_e_.data();
         for (const AlignedVector& g : g_) pluck_.theta.push_back(gram(g, g_e_));
-        const PluckSteps steps = pluck_steps(*s.pluck, dt_);
+        const PluckSteps steps = pluck_steps(*s.pluck, dt_, scene.duration);
+        pluck_.of = *s.pluck;
         pluck_.first = steps.first;
         pluck_.steps = steps.count;
-        for (long n = steps.first; n < steps.first + steps.count; ++n)
-            pluck_.mean.push_back(mean_force(*s.pluck, n * dt_, dt_));
+        for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
+            pluck_.mean.push_back(mean_in_step(pluck_.of, n, dt_));
     }
     std::vector<const AlignedVector*> all;
     for (const AlignedVector& g : g_) all.push_back(&g);
@@ -187,7 +191,9 @@ void TwoPointModes::reset() noexcept {
 
 void TwoPointModes::approach(bool) noexcept {
     const long k = m_.step - pluck_.first;
-    F_e_ = k < 0 || k >= pluck_.steps ? 0 : pluck_.mean[k];
+    F_e_ = k < 0 || k >= pluck_.steps    ? 0
+           : k < std::ssize(pluck_.mean) ? pluck_.mean[k]
+                                         : mean_in_step(pluck_.of, m_.step, dt_);
     sum_ = 0;
     const std::size_t contacts = p_.contacts.laws.size();
     for (std::size_t a = 0; a < g_.size(); ++a) {

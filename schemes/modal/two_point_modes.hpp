@@ -66,7 +66,8 @@ private:
         std::vector<double> on_mean;  // of each point's force; of contact forces only
     };
     struct PluckForce {
-        std::vector<double> mean;   // in the step first + n [N]
+        Pluck of;
+        std::vector<double> mean;   // in the step first + n, as far as the scene lasts [N]
         std::vector<double> theta;  // of each point [m/N]
         long first = 0, steps = 0;
     };

@@ -207,10 +207,7 @@ double MomentObstacle::potential(const double*, int) const {
 
 double MomentObstacle::loss() const {
     double lost = ladder_ ? ladder_->lost(x_before_.data(), last_.data()) : 0;
-    for (int a = 0; a < n_; ++a) {
-        const Point& p = at_[a];
-        lost += p.closed ? rules_[a].lost_linear(p.eta_before, p.from) : p.lost;
-    }
+    for (int a = 0; a < n_; ++a) lost += lost_by(a, 0);
     if (thread_ && thread_->damping > 0) {  // r_c/H (r_0^2 + 3 r_1^2), r_1 from phi_c1
         const double r = thread_->damping / span_, r_0 = x_.back() - x_before_.back(),
                      r_1 = -(last_.back() + 0.5 * thread_->stiffness * r_0) / (3 * r);

@@ -56,6 +56,10 @@ public:
     template <int few, bool thread, bool series>
     [[gnu::always_inline]] bool step(const double* free, double* force) noexcept;
     const double* moved() const { return moved_.data(); }
+    double lost_by(int a, double) const noexcept {  // by a contact in the last step [J]
+        const Point& p = at_[a];
+        return p.closed ? rules_[a].lost_linear(p.eta_before, p.from) : p.lost;
+    }
 
     double potential(const double*, int = 0) const;  // [J]
     double loss() const;                             // in the last step [W]

@@ -37,6 +37,33 @@ TEST(External, WhatItLeavesBehindIsNotWaitedFor) {
         0, "rows"));
 }
 
+TEST(External, OneThatFailsIsNotStartedAgain) {
+    const Scratch scratch;
+    for (const char* fails : {"exit 1", "echo x >\"$2\"", "kill -9 $$"}) {
+        std::ofstream(scratch / "mine") << "[ \"$1\" = represents ] && exit 0\necho x >>calls\n"
+                                        << fails << "\n";
+        EXPECT_EQ(shell(scratch, "rm -f calls; " + run).code, 4) << fails;
+        EXPECT_EQ(content(scratch / "calls"), "x\n") << fails;
+    }
+}
+
+// However the program dies, and whatever the command has started. What has ended may stand in the
+// list of processes until init looks at it.
+TEST(External, NothingOfItLivesOnAfterTheProgram) {
+    const Scratch scratch;
+    std::ofstream(scratch / "mine") << "[ \"$1\" = represents ] && exit 0\nsleep 87.65 & echo $! "
+                                       ">>pids; echo $$ >>pids\nsleep 78.56\n";
+    const Ended o =
+        shell(scratch,
+              "$J run free_string --duration 0.005 --scheme mine --external 'cd . && "
+              "sh mine' & own=$!\nfor k in $(seq 100); do [ \"$(cat pids 2>/dev/null | "
+              "wc -l)\" = 2 ] && break; sleep 0.05; done\nkill -9 $own; wait $own\nfor "
+              "k in $(seq 40); do sleep 0.05; live=; for p in $(cat pids); do case $(ps "
+              "-o stat= -p $p) in '' | Z*) ;; *) live=\"$live $p\" ;; esac; done; [ -z "
+              "\"$live\" ] && break; done\necho \"$(wc -l <pids) started, live:$live\"");
+    EXPECT_EQ(o.out, "2 started, live:\n");
+}
+
 TEST(External, OfWhatItSaysTheEndIsKept) {
     const Scratch scratch;
     std::ofstream(scratch / "mine")

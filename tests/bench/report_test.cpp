@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/compare/record/findings.hpp"
 #include "bench/report/results.hpp"
@@ -243,6 +244,47 @@ TEST(Report, WhatDoesNotFitIsLeftOutFromTheLastOnAndThePageSaysSo) {
     EXPECT_EQ(data.at("sounds").size(), 8u);
     EXPECT_EQ(data.at("sounds").back().at("row"), 7);
     EXPECT_TRUE(says(data.at("left_out").at("sounds")[0].get<std::string>(), "2 more sounds"));
+}
+
+// 60 copies of the made-up cells, each a scene of its own: too many for a page of 200 kB more than
+// one without tables.
+TEST(Report, APageOfManyCellsKeepsItsSizeAndTheBestOfEachScheme) {
+    const Folder folder(every_file);
+    for (const char* name : {"facts.csv", "errors.csv", "cost.csv"}) {
+        const bench::store::Table t = bench::store::read_csv(content(folder / name));
+        bench::store::Table all{t.columns, {}};
+        for (int k = 0; k < 60; ++k)
+            for (auto row : t.rows) {
+                for (const char* key : {"cell", "scene"})
+                    if (const int at = t.column(key); at >= 0) row[at] += fmt::format("_{}", k);
+                all.rows.push_back(row);
+            }
+        overwrite(folder / name, bench::store::csv(all));
+    }
+    const bench::report::Results results = bench::report::read_results(folder.path);
+    const Json whole = bench::report::data_of(results);
+    const std::size_t bare = bench::report::page_of(a_page(), "").size(), limit = bare + 200'000;
+    ASSERT_GT(bench::report::page_of(whole, "").size(), limit);
+    const std::string page = bench::report::fitting_page_of(results, whole, "", limit);
+    EXPECT_LE(page.size(), limit);
+    const Json data = data_of(page);
+    const auto cells = [](const Json& of) {
+        return bench::store::read_csv(of.at("tables").at("cells")).rows.size();
+    };
+    EXPECT_GT(cells(data), 20u);
+    EXPECT_LT(cells(data), results.cells.size());
+    EXPECT_TRUE(
+        says(data.at("left_out").at("cells").dump(),
+             fmt::format("{} of {} cells are in this page", cells(data), results.cells.size())));
+    // fewer than there are schemes and problems would be needed for all of them
+    const bench::report::Results some = bench::report::best_of(results, results.cells.size() / 2);
+    std::set<std::string> before, after;
+    for (const auto* r : {&results, &some})
+        for (const auto& c : r->cells)
+            (r == &some ? after : before).insert(c.problem() + "|" + c.scheme);
+    EXPECT_EQ(before, after);
+    // a table that fits no page goes whole
+    EXPECT_LE(bench::report::fitting_page_of(results, whole, "", bare + 5000).size(), bare + 5000);
 }
 
 TEST(Report, ATableThatWouldBeTooLargeKeepsTheColumnsThatChartsNeedAndSaysSo) {

@@ -26,8 +26,11 @@ let folders = 0,
   failures = 0;
 
 // The functions of the page on a page's data: of("sections_of()").
-const on = page =>
-  new Function("page", `"use strict"; ${files.join("\n")}; return code => eval(code);`)(page);
+const on = (page, more = []) =>
+  new Function(
+    "page",
+    `"use strict"; ${[...files, ...more].join("\n")}; return code => eval(code);`,
+  )(page);
 function report(folder, allowed = 0) {
   const run = spawnSync(program, ["report", folder], {
     encoding: "utf8",
@@ -153,6 +156,59 @@ test(
     assert.deepEqual(read(""), {columns: [], rows: []});
   },
 );
+
+test("a field is saved with the apostrophe that keeps a spreadsheet from running it", () => {
+  const of = on({tables: {}}, [readFileSync(join(sources, "table.js"), "utf8")]),
+    saved = of("csv_field");
+  for (const [plain, text] of [
+    ["@SUM(1)", "'@SUM(1)"],
+    ["=1+1", "'=1+1"],
+    ['=HYPERLINK("a,b")', '"\'=HYPERLINK(""a,b"")"'],
+    ["-1e-3", "-1e-3"],
+    ["-inf", "-inf"],
+    ["-a", "'-a"],
+    ["'=1", "''=1"],
+    ["a", "a"],
+    ["", ""],
+  ])
+    assert.equal(saved(plain), text);
+  assert.equal(of("read_csv")(`a\n${saved("@SUM(1)")}\n`).rows[0][0], "@SUM(1)");
+});
+
+// ---- Take it
+test("a command is read back by a shell as it was meant, whoever wrote the record", () => {
+  const names = ["it's mine.toml", "x; echo PWNED #", "$(echo PWNED)", "plain.toml", "a\nb", "-x"];
+  for (const asked_as of names) {
+    const page = {
+        tables: {},
+        schemes: [["modal_two_point", false]],
+        manifest: {scene: {asked_as, set: ["string.0.material=phosphor bronze"]}},
+      },
+      of = on(page, [readFileSync(join(sources, "answer.js"), "utf8")]),
+      cell = {
+        scheme: "modal_two_point",
+        options: "compliance=matched nodes='3;x",
+        rate: "44100; echo PWNED",
+        modes: "20",
+      },
+      {shell} = of("commands")(cell);
+    const read = spawnSync("sh", ["-c", `jvari() { printf '%s\\0' "$@"; }; ${shell}`], {
+      encoding: "utf8",
+    });
+    assert.deepEqual(read.stdout.split("\0").slice(0, -1), [
+      ...["run", asked_as, "--scheme", "modal_two_point", "--modes", "20"],
+      ...["--option", "compliance=matched", "--option", "nodes='3;x"],
+      ...["--set", "string.0.material=phosphor bronze", "--out", "string.wav"],
+    ]);
+    page.manifest.scene.set = [];
+    const {Python, "C++": cpp} = of("commands")(cell),
+      text = JSON.stringify(asked_as);
+    assert.ok(Python.includes(`jvari.run(${text}, "modal_two_point"`), Python);
+    assert.ok(Python.includes(`options={"compliance": "matched", "nodes": "'3;x"}`), Python);
+    assert.ok(cpp.includes(`read_scene(${text})`), cpp);
+    assert.ok(cpp.includes(`.options = {{"compliance", "matched"}, {"nodes", "'3;x"}}`), cpp);
+  }
+});
 
 // ---- Sections
 test("sections stand in their order, and those without data do not appear", () => {

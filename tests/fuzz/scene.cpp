@@ -37,6 +37,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         read_columns("table.csv", text, both);
     } catch (const SceneFileError&) {}
     try {
+        TableDamping modes;
+        modes_from("modes.csv", text, {"frequency_hz", "", positive}, {"sigma_per_s", "", any},
+                   modes);
+        promise(modes.frequency_hz.size() == modes.decay_rate.size(), "a mode has a rate", text);
+    } catch (const SceneFileError&) {}
+    try {
         const TableStart start = start_from("start.csv", text);
         promise(start.at.size() == start.velocity.size(), "a row has a velocity", text);
     } catch (const SceneFileError&) {}

@@ -58,6 +58,59 @@ class Module(unittest.TestCase):
         self.assertTrue(all(isinstance(value, float) for value in run.facts.values()) and run.facts)
         self.assertEqual(run.steps, 884)
 
+    def test_paths_stand_wherever_a_file_is_named(self):
+        from pathlib import Path
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "f.toml").write_text(jvari.scene("free_string").toml())
+            (folder / "s.csv").write_text("mode,displacement_m\n1,1e-3\n")
+            scene = jvari.scene(folder / "f.toml").set("string.0.start", folder / "s.csv")
+            self.assertEqual(jvari.run(scene, "modal_two_point", **SHORT).status, "ok")
+            self.assertEqual(jvari.run(folder / "f.toml", "modal_two_point", **SHORT).status, "ok")
+            rows = jvari.compare(folder / "f.toml", ["modal_two_point"], [44100], modes=10,
+                                 reference_modes=20, repeats=2, out=folder / "out", **SHORT)
+            self.assertIn(str(folder / "again" / "cells.csv"), jvari.report(rows, folder / "again"))
+            with self.assertRaisesRegex(jvari.UsageError, "nowhere.toml"):
+                jvari.suite(folder / "nowhere.toml")
+
+    def test_what_is_no_value_is_refused_with_what_was_found(self):
+        run = lambda **more: jvari.run("free_string", "modal_two_point", **SHORT, **more)
+        for call, said in (
+                (lambda: run(options={"compliance": None}), "found \"None\", expected a text"),
+                (lambda: run(options={"compliance": []}), "option compliance: found .*one value"),
+                (lambda: run(options={3: "own"}), "options: found \"3\", expected the name"),
+                (lambda: jvari.scene("free_string").set("string.0.tension", None), "found \"None\""),
+                (lambda: jvari.run(3, "modal_two_point"), "scene: found \"3\", expected a Scene"),
+                (lambda: run(modes=-1), "modes: found \"-1\", expected a whole number, 0 or more"),
+                (lambda: jvari.compare("free_string", modes=-1), "modes: found \"-1\""),
+                (lambda: jvari.compare("free_string", modes=[10, 0]), "modes: found \"0\""),
+                (lambda: jvari.compare("free_string", repeats=0), "repeats: found \"0\""),
+                (lambda: jvari.compare("free_string", jobs=-1), "jobs: found \"-1\""),
+                (lambda: jvari.run_many(["free_string"], "modal_two_point", modes=-1), "modes"),
+                (lambda: jvari.report(3), "report: found \"3\"")):
+            with self.assertRaisesRegex(jvari.UsageError, said):
+                call()
+        traces = {name: run()[name] for name in jvari.scene("free_string").taps}
+        with self.assertRaisesRegex(TypeError, "another type than jvari.pyi says"):
+            jvari.judge("free_string", traces, cost={44100: None}, **SHORT)
+
+    def test_the_child_of_a_fork_does_not_wait_for_the_calls_of_its_parent(self):
+        code = """import jvari, os, sys, threading, time
+threading.Thread(target=lambda: jvari.run("tanpura_c3_release", "modal_two_point", duration=300.0,
+                                          modes=60), daemon=True).start()
+time.sleep(0.5)
+pid = os.fork()
+if pid == 0: sys.exit(7)
+for _ in range(100):
+    ended, status = os.waitpid(pid, os.WNOHANG)
+    if ended: os._exit(os.waitstatus_to_exitcode(status))
+    time.sleep(0.1)
+os.kill(pid, 9)
+os._exit(1)"""
+        env = {**os.environ, "PYTHONPATH": os.path.dirname(jvari.__file__)}
+        ended = subprocess.run([sys.executable, "-c", code], env=env, timeout=60)
+        self.assertEqual(ended.returncode, 7)
+
     def test_a_run_that_blows_up_says_so_whether_its_energy_is_asked_for_or_not(self):
         scene = jvari.scene("tanpura_c3_release").set("string.0.barrier.0.stiffness", 1e8)
         bare, probed = (jvari.run(scene, "modal_explicit_penalty", energy=energy, duration=0.004)

@@ -323,13 +323,13 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n200,1\n100,1\n"),
               "scene.toml:9: string.0.damping.file: found frequency_hz 100 in row 2, expected a "
               "positive number, above that of the row before");
-    d.write("bridge.csv", "x_m,height_m\n0,0\n0.01,0\n");
-    EXPECT_EQ(
-        message(profile + "from = 0\nto = 0.02\n",
-                {"string.0.barrier.0.curve=table", "string.0.barrier.0.file=bridge.csv"}, file),
-        "--set string.0.barrier.0.file=bridge.csv: string.0.barrier.0.file: found heights from 0 "
-        "to 0.01 m, expected them from 0 to "
-        "0.02 m");
+    const std::string override =
+        "string.0.barrier.0.file=" + d.write("bridge.csv", "x_m,height_m\n0,0\n0.01,0\n");
+    EXPECT_EQ(message(profile + "from = 0\nto = 0.02\n",
+                      {"string.0.barrier.0.curve=table", override}, file),
+              "--set " + override +
+                  ": string.0.barrier.0.file: found heights from 0 to 0.01 m, expected them from "
+                  "0 to 0.02 m");
 }
 
 // ---- Overrides

@@ -7,7 +7,9 @@
 
 #include "scenes/columns.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/wording.hpp"
 #include "tests/c3.hpp"
 #include "tests/says.hpp"
 
@@ -113,35 +115,6 @@ TEST(ForceOfAFile, IsStraightBetweenItsRowsAndNothingBeyondThem) {
     EXPECT_NEAR(force(p, 0.15), -4, 1e-14);
 }
 
-std::string wav(int tag, int bits, std::initializer_list<std::uint64_t> samples, int channels = 1) {
-    std::string text = "RIFF....WAVE", data;
-    const auto put = [](std::string& to, std::uint64_t n, int bytes) {
-        for (int k = 0; k < bytes; ++k) to += static_cast<char>(n >> 8 * k);
-    };
-    for (const std::uint64_t s : samples) put(data, s, bits / 8);
-    text += "junk", put(text, 3, 4), text += "abc ";
-    text += "fmt ", put(text, 16, 4), put(text, tag, 2), put(text, channels, 2), put(text, 8000, 4);
-    put(text, 0, 4), put(text, bits / 8, 2), put(text, bits, 2);
-    text += "data", put(text, data.size(), 4);
-    return text + data;
-}
-
-TEST(ForceOfAFile, OfASoundHasItsRateAndItsSamplesAsNewtons) {
-    for (const auto& text :
-         {wav(1, 16, {0, 0x4000, 0x8000}), wav(1, 24, {0, 0x400000, 0x800000}),
-          wav(1, 32, {0, 0x40000000, 0x80000000}), wav(3, 32, {0, 0x3f000000, 0xbf800000}),
-          wav(3, 64, {0, 0x3fe0000000000000, 0xbff0000000000000})}) {
-        Pluck p;
-        force_from("f.wav", text, p);
-        EXPECT_EQ(force(p, 1 / 8000.), 0.5);
-        EXPECT_EQ(force(p, 2 / 8000.), -1);
-        EXPECT_EQ(force(p, 1.5 / 8000), -0.25);
-    }
-    Pluck p;
-    EXPECT_TRUE(says(why([&] { force_from("f.wav", wav(1, 16, {1, 1}, 2), p); }), "2 channels"));
-    EXPECT_TRUE(says(why([&] { force_from("f.wav", "RIFF", p); }), "no RIFF WAVE file"));
-}
-
 class InAFolder : public testing::Test {
 protected:
     void SetUp() override {
@@ -162,6 +135,130 @@ protected:
     }
     std::filesystem::path folder;
 };
+
+std::string wav(int tag, int bits, std::initializer_list<std::uint64_t> samples, int channels = 1) {
+    const int container = (bits + 7) / 8;
+    std::string text = "RIFF....WAVE", data;
+    const auto put = [](std::string& to, std::uint64_t n, int bytes) {
+        for (int k = 0; k < bytes; ++k) to += static_cast<char>(n >> 8 * k);
+    };
+    for (const std::uint64_t s : samples) put(data, s, container);
+    text += "junk", put(text, 3, 4), text += "abc ";
+    text += "fmt ", put(text, 16, 4), put(text, tag, 2), put(text, channels, 2), put(text, 8000, 4);
+    put(text, 0, 4), put(text, container * channels, 2), put(text, bits, 2);
+    text += "data", put(text, data.size(), 4);
+    return text + data;
+}
+
+TEST(ForceOfAFile, OfASoundHasItsRateAndItsSamplesAsNewtons) {
+    for (const auto& text :
+         {wav(1, 16, {0, 0x4000, 0x8000}), wav(1, 24, {0, 0x400000, 0x800000}),
+          wav(1, 20, {0, 0x400000, 0x800000}), wav(1, 12, {0, 0x4000, 0x8000}),
+          wav(1, 32, {0, 0x40000000, 0x80000000}), wav(3, 32, {0, 0x3f000000, 0xbf800000}),
+          wav(3, 64, {0, 0x3fe0000000000000, 0xbff0000000000000})}) {
+        Pluck p;
+        force_from("f.wav", text, p);
+        EXPECT_EQ(force(p, 1 / 8000.), 0.5);
+        EXPECT_EQ(force(p, 2 / 8000.), -1);
+        EXPECT_EQ(force(p, 1.5 / 8000), -0.25);
+    }
+    Pluck p, named;
+    EXPECT_TRUE(says(why([&] { force_from("f.wav", wav(1, 16, {1, 1}, 2), p); }), "2 channels"));
+    EXPECT_TRUE(says(why([&] { force_from("f.wav", "RIFF", p); }), "no RIFF WAVE file"));
+    const std::string whole = wav(1, 16, {0, 0x4000, 0x8000});
+    for (const std::size_t lacks : {1, 2, 4})
+        EXPECT_TRUE(says(why([&] {
+                             Pluck cut;
+                             force_from("f.wav", whole.substr(0, whole.size() - lacks), cut);
+                         }),
+                         "that its header announces. Is the file cut off?"));
+    EXPECT_TRUE(says(why([&] {
+                         Pluck twice;
+                         force_from("f.wav", whole + whole.substr(whole.find("data")), twice);
+                     }),
+                     "two blocks of samples"));
+    force_from("F.WAV", whole, named);
+    EXPECT_EQ(force(named, 1 / 8000.), 0.5);
+}
+
+TEST_F(InAFolder, AFileThatIsCutOffInItsLastNumberIsRefused) {
+    put("s.csv", "mode,displacement_m\n1,1e-3\n2,0.1");
+    put("f.csv", "time_s,force_N\n0,1\n1,0.1");
+    put("m.csv", "frequency_hz,decay_rate_per_s\n100,1\n200,1");
+    for (const std::string keys :
+         {"start = \"s.csv\"\n", "[string.pluck]\nposition = 0.5\nfile = \"f.csv\"\n",
+          "[string.damping]\nlaw = \"table\"\nfile = \"m.csv\"\n"})
+        EXPECT_TRUE(says(why([&] { read(keys); }), ".csv:3: found no end of the line")) << keys;
+}
+
+// (f/m)^2 of a stiff string is straight in m^2: what a table lacks is filled in exactly.
+TEST_F(InAFolder, RowsOfModesAreThoseThatTheirColumnNumbers) {
+    String s = read("").strings[0];
+    s.bending_stiffness = 1e-4;
+    const Modes modes = modes_of(s, 9);
+    std::string text = "decay_rate_per_s,mode,frequency_hz\n";
+    for (const int m : {1, 2, 5, 6, 9})
+        text += number_text(3 * m) + "," + number_text(m) + "," +
+                number_text(modes.omega0[m - 1] / (2 * std::numbers::pi)) + "\n";
+    put("m.csv", text);
+    const std::string law = "[string.damping]\nlaw = \"table\"\nfile = \"m.csv\"\n";
+    const Scene scene = read(law);
+    const auto& t = std::get<TableDamping>(scene.strings[0].damping);
+    EXPECT_EQ(t.filled, (std::vector<int>{3, 4, 7, 8}));
+    ASSERT_EQ(t.frequency_hz.size(), 9u);
+    for (int m = 1; m <= 9; ++m) {
+        EXPECT_NEAR(2 * std::numbers::pi * t.frequency_hz[m - 1] / modes.omega0[m - 1], 1, 1e-12);
+        EXPECT_NEAR(t.decay_rate[m - 1], 3 * m, 1e-12);
+    }
+    EXPECT_TRUE(scene == parse_scene(write_scene(scene), (folder / "b.toml").string()));
+    const auto refusal = [&](const std::string& rows) {
+        put("m.csv", "mode,frequency_hz,decay_rate_per_s\n" + rows);
+        return why([&] { read(law); });
+    };
+    EXPECT_TRUE(says(refusal("2,200,1\n3,300,1\n"), "m.csv:2: mode: found 2 in the first row"));
+    EXPECT_TRUE(says(refusal("1,100,1\n1,200,1\n"), "m.csv:3: mode: found 1 after 1"));
+    EXPECT_TRUE(says(refusal("1,100,1\n2.5,200,1\n"), "m.csv:3: mode: found 2.5 after 1"));
+    EXPECT_TRUE(says(refusal("1,100,1\n1e9,200,1\n"), "m.csv:3: mode: found \"1e9\""));
+    const auto bare = [&](const std::string& rows) {
+        put("m.csv", "frequency_hz,decay_rate_per_s\n" + rows);
+        return why([&] { read(law); });
+    };
+    EXPECT_TRUE(says(bare("100,1\n201,1\n403,1\n"), "m.csv:4: frequency_hz: found 403 after 201"));
+    EXPECT_TRUE(says(bare("200,1\n300,1\n"), "m.csv:3: frequency_hz: found 300 after 200 and 0"));
+    EXPECT_EQ(bare("100,1\n205,1\n330,1\n480,1\n"), "");
+}
+
+TEST_F(InAFolder, ATableBeyondTheStringIsAskedWhetherItIsInMm) {
+    put("b.csv", "x_m,height_m\n0,0\n10,-0.6\n19,-2.3\n");
+    put("s.csv", "x_m,displacement_m\n500,1\n");
+    EXPECT_TRUE(says(why([&] {
+                         read(
+                             "[[string.barrier]]\nshape = \"profile\"\ncurve = \"table\"\nfile "
+                             "= \"b.csv\"\nfrom = 0\nto = 0.02\nstiffness_density = 1e9\n");
+                     }),
+                     "a.toml:10: string.0.barrier.0.file: found x_m 19, expected 0 <= x <= 1 [m], "
+                     "on the string; is the table in mm?"));
+    EXPECT_TRUE(says(why([&] { read("start = \"s.csv\"\n"); }), "is the table in mm?"));
+}
+
+TEST_F(InAFolder, EveryFileOfAnOverrideIsFoundFromWhereTheProgramRuns) {
+    put("m.csv", "frequency_hz,decay_rate_per_s\n100,1\n200,2\n");
+    put("b.csv", "x_m,height_m\n0,0\n0.02,-1e-6\n");
+    const auto from_here = [&](const std::string& file) {
+        return std::filesystem::relative(folder / file).string();
+    };
+    const std::string keys =
+        "[string.damping]\nlaw = \"none\"\n[[string.barrier]]\nshape = \"profile\"\ncurve = "
+        "\"flat\"\nfrom = 0\nto = 0.02\nstiffness_density = 1e9\n[body]\nbridge = \"r.wav\"\n";
+    const Scene scene = read(
+        keys, {"string.0.damping.law=table", "string.0.damping.file=" + from_here("m.csv"),
+               "string.0.barrier.0.curve=table", "string.0.barrier.0.file=" + from_here("b.csv"),
+               "body.bridge=" + from_here("r.wav")});
+    EXPECT_EQ(std::get<TableDamping>(scene.strings[0].damping).decay_rate,
+              (std::vector<double>{1, 2}));
+    EXPECT_TRUE(std::filesystem::path(scene.body->bridge).is_absolute());
+    EXPECT_TRUE(scene == parse_scene(write_scene(scene), "elsewhere/a.toml"));
+}
 
 TEST_F(InAFolder, StartsAreWrittenAsTheyAreRead) {
     put("s.csv", "x_m,displacement_m\n0.5,1e-3\n");

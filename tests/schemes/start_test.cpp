@@ -259,7 +259,7 @@ TEST(State, TwoRunsJoinedAreOne) {
         if (first.state.displacement.empty()) continue;
         ++continued;
         Scene after = lasting(scene, 0.01);
-        TableStart start{"", true, {}, first.state.displacement, first.state.velocity};
+        TableStart start{"", "", true, {}, first.state.displacement, first.state.velocity};
         for (std::size_t i = 0; i < start.displacement.size(); ++i)
             start.at.push_back(static_cast<double>(i + 1));
         after.strings.front().start = start;

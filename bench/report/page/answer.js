@@ -44,34 +44,44 @@ function ranking_of({ranking, unpriced, error, within}) {
   ];
 }
 
+// A word as a shell reads it back, and a text as C++ and Python do: what a record holds is somebody
+// else's, and is pasted.
+const shell_word = text =>
+  /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+const literal = text => JSON.stringify(text);
+
 // What gives the answer: {shell, "C++", Python}.
 function commands(c) {
   const {asked_as = c.scene ?? page.title, set = []} = page.manifest?.scene ?? {},
     changed = [...set, ...swept_keys().flatMap(key => (c[key] ? [`${key}=${c[key]}`] : []))],
     options = c.options ? c.options.split(" ") : [],
-    modes = Number(c.modes) > 0 && !(number(c.fact_grid_intervals) > 0) ? c.modes : "",
+    rate = number(c.rate) > 0 ? number(c.rate) : 0,
+    modes = number(c.modes) > 0 && !(number(c.fact_grid_intervals) > 0) ? number(c.modes) : 0,
     pairs = (...[open, between, close]) =>
-      options.map(o => open + o.replace("=", between) + close).join(", ");
+      options
+        .map(o => o.split(/=(.*)/s))
+        .map(([name, value]) => open + literal(name) + between + literal(value ?? "") + close)
+        .join(", ");
   const shell = [
-    `jvari run ${asked_as} --scheme ${c.scheme}`,
-    [c.rate && `--rate ${c.rate}`, modes && `--modes ${modes}`].filter(Boolean).join(" "),
-    ...options.map(o => `--option ${o}`),
-    ...changed.map(text => `--set ${text}`),
+    `jvari run ${shell_word(asked_as)} --scheme ${shell_word(c.scheme)}`,
+    [rate && `--rate ${rate}`, modes && `--modes ${modes}`].filter(Boolean).join(" "),
+    ...options.map(o => `--option ${shell_word(o)}`),
+    ...changed.map(text => `--set ${shell_word(text)}`),
     "--out string.wav",
   ];
   if (!page.schemes.some(([name]) => name === c.scheme)) return {};
   const all = {shell: shell.filter(Boolean).join(" \\\n    ")};
   if (changed.length) return all;
-  all["C++"] = `const auto scene = jvari::read_scene("${asked_as}");
+  all["C++"] = `const auto scene = jvari::read_scene(${literal(asked_as)});
 const auto all = jvari::schemes();
 const auto found = std::ranges::find(
-    all, std::string("${c.scheme}"), &jvari::Descriptor::name);
+    all, std::string(${literal(c.scheme)}), &jvari::Descriptor::name);
 const auto voice = jvari::make_scheme(*found, scene, {
-    .sample_rate = ${c.rate || 0}, .tap_rate = 44100, .modes = ${modes || 0},
-    .options = {${pairs('{"', '", "', '"}')}}});
+    .sample_rate = ${rate}, .tap_rate = 44100, .modes = ${modes},
+    .options = {${pairs("{", ", ", "}")}}});
 voice->advance(block);  // allocates nothing: docs/host.md`;
-  all.Python = `run = jvari.run("${asked_as}", "${c.scheme}",
-    rate=${c.rate || 0}, modes=${modes || 0}, options={${pairs('"', '": "', '"')}})`;
+  all.Python = `run = jvari.run(${literal(asked_as)}, ${literal(c.scheme)},
+    rate=${rate}, modes=${modes}, options={${pairs("", ": ", "")}})`;
   return all;
 }
 function take_it() {

@@ -6,6 +6,12 @@ const element = (name, properties = {}, ...children) => {
   return e;
 };
 
+// With the apostrophe of the program's own files, so that no spreadsheet takes a text for a formula.
+function csv_field(plain) {
+  const text = /^[=+@'\t-]/.test(plain) && Number.isNaN(number(plain)) ? "'" + plain : plain;
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
 function table_of(table, caption) {
   const at = Object.fromEntries(table.columns.map((name, k) => [name, k]));
   const texts = new Set(
@@ -133,9 +139,8 @@ function table_of(table, caption) {
     fill();
   };
   save.onclick = () => {
-    const field = text => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
     const text =
-      [table.columns, ...table.rows].map(row => row.map(field).join(",")).join("\n") + "\n";
+      [table.columns, ...table.rows].map(row => row.map(csv_field).join(",")).join("\n") + "\n";
     const link = element("a", {
       href: URL.createObjectURL(new Blob([text], {type: "text/csv"})),
       download: caption.toLowerCase().replaceAll(/[^a-z]+/g, "-") + ".csv",

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <thread>
 
 #include "bench/store/system/side_by_side.hpp"
 
@@ -16,25 +17,31 @@ namespace jvari::bench::store {
 namespace fs = std::filesystem;
 
 namespace {
+constexpr const char* nobody = "another process";  // of a file that holds no words
+
 enum class Taken { here, elsewhere, impossible };
 
-Taken take(int file) {
+Taken take(int file, short kind = F_WRLCK) {
     struct stat status = {};
     if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return Taken::impossible;
     struct flock whole = {};
-    whole.l_type = F_WRLCK;
+    whole.l_type = kind;
     whole.l_whence = SEEK_SET;
     if (fcntl(file, F_OFD_SETLK, &whole) == 0) return Taken::here;
     return errno == EAGAIN || errno == EACCES ? Taken::elsewhere : Taken::impossible;
 }
 
-std::string name_in(int file) {  // of its holder, who may be about to write it
-    char text[100];
-    const ssize_t n = pread(file, text, sizeof text, 0);
-    std::string name(text, n > 0 ? static_cast<std::size_t>(n) : 0);
-    for (char& c : name)
+std::string printable(std::string text) {
+    for (char& c : text)
         if (c < ' ' || c > '~') c = '?';
-    return name.empty() ? "another process" : name;
+    return text;
+}
+
+std::string name_in(int file) {  // of its holder, who may be about to write it
+    char text[300];
+    const ssize_t n = pread(file, text, sizeof text, 0);
+    const std::string name = printable({text, n > 0 ? static_cast<std::size_t>(n) : 0});
+    return name.empty() ? nobody : name;
 }
 
 std::string own_name() {
@@ -91,6 +98,50 @@ FileLock::~FileLock() {
     removed_too_.reset();
     unlink(path_.c_str());
     close(file_);
+}
+
+SharedLock::SharedLock(fs::path file, const std::string& doing) : path_(std::move(file)) {
+    constexpr int most_tries = 100;
+    constexpr std::chrono::milliseconds pause{10};
+    for (int k = 0; k < most_tries && !path_.empty() && !take(printable(doing)); ++k)
+        std::this_thread::sleep_for(pause);
+    if (file_ >= 0) removed_too_.emplace([this] { remove_if_last(); });
+}
+
+SharedLock::~SharedLock() {
+    if (file_ < 0) return;
+    removed_too_.reset();
+    remove_if_last();
+    close(file_);
+}
+
+bool SharedLock::take(const std::string& doing) {
+    const int file =
+        open(path_.c_str(), O_RDWR | O_CREAT | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0) return true;
+    Taken taken = store::take(file);
+    if (taken == Taken::impossible) return close(file), true;
+    std::string there = doing;
+    if (taken == Taken::elsewhere) {
+        taken = store::take(file, F_RDLCK);
+        there = name_in(file);
+    } else if (stands_at(path_, file)) {
+        // a full disk: it holds without words
+        if (ftruncate(file, 0) != 0 || pwrite(file, doing.data(), doing.size(), 0) < 0) errno = 0;
+        taken = store::take(file, F_RDLCK);
+    }
+    const bool shared = taken == Taken::here && stands_at(path_, file);
+    if (shared && (there == doing || there == nobody)) {
+        file_ = file;
+        return true;
+    }
+    close(file);
+    if (shared) others_ = there;
+    return shared;
+}
+
+void SharedLock::remove_if_last() const noexcept {
+    if (store::take(file_) == Taken::here && stands_at(path_, file_)) unlink(path_.c_str());
 }
 
 std::unique_ptr<FileLock> lock_of(const fs::path& file, const std::string& doing,

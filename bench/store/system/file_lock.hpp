@@ -44,4 +44,25 @@ private:
 std::unique_ptr<FileLock> lock_of(const std::filesystem::path& file, const std::string& doing,
                                   const Listener&);
 
+// A lock that several hold at once who do the same, by its words. The file at that path holds them,
+// and goes with its last holder.
+class SharedLock {
+public:
+    // Of "" none, as of a FileLock.
+    SharedLock(std::filesystem::path file, const std::string& doing);
+    ~SharedLock();
+    SharedLock(const SharedLock&) = delete;
+    SharedLock& operator=(const SharedLock&) = delete;
+    const std::string& others() const { return others_; }  // do what, if not the same; else ""
+
+private:
+    bool take(const std::string& doing);  // false: another was just taking or removing it
+    void remove_if_last() const noexcept;
+
+    const std::filesystem::path path_;
+    int file_ = -1;
+    std::string others_;
+    std::optional<WhenInterrupted> removed_too_;
+};
+
 }  // namespace jvari::bench::store

@@ -20,18 +20,22 @@ namespace {
 constexpr int look_ms = 20;                 // between two looks at a program that says nothing
 constexpr std::size_t most_text = 1 << 16;  // of what it says, and as much as a pipe holds
 
-// In the child of a program with threads: calls alone that are safe in a signal handler.
-[[noreturn]] void become(char* const* argv, int out, pid_t parent) {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(127);
-    // This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing,
-    // which are errors to it: not so the other.
+// This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing, which
+// are errors to it: not so the other.
+void unblock_signals() {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
     signal(SIGPIPE, SIG_DFL);
     signal(SIGXFSZ, SIG_DFL);
+}
+
+// In the child of a program with threads: calls alone that are safe in a signal handler.
+[[noreturn]] void become(char* const* argv, int out, pid_t parent) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // until its watcher runs
+    if (getppid() != parent) _exit(127);
+    unblock_signals();
     dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), 0);
     dup2(out, 1);
     dup2(out, 2);
@@ -56,6 +60,7 @@ public:
     Group(const Group&) = delete;
     Group& operator=(const Group&) = delete;
     bool runs() const { return leader_ > 0; }
+    pid_t leader() const { return leader_; }
 
     // its leader, which is not waited for yet: until then nobody else gets the number of the group
     bool has_ended() const {
@@ -76,6 +81,45 @@ public:
 private:
     pid_t leader_;
     std::optional<WhenInterrupted> killed_too_;
+};
+
+// Ends a group where this program dies, however it dies: a shell that reads from a pipe whose other
+// end this program alone has. (PR_SET_PDEATHSIG reaches the leader, and none that it starts.)
+class Watcher {
+public:
+    explicit Watcher(pid_t leader) {
+        int ends[2];
+        if (pipe2(ends, O_CLOEXEC) != 0) return;
+        end_ = ends[1];
+        std::string group = std::to_string(leader);
+        char shell[] = "/bin/sh", option[] = "-c", text[] = "read -r x; kill -9 \"-$0\"";
+        char* const argv[] = {shell, option, text, group.data(), nullptr};
+        const Undisturbed starting;
+        pid_ = fork();
+        if (pid_ == 0) {
+            setpgid(0, 0);
+            unblock_signals();
+            dup2(ends[0], 0);
+            dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), 1);
+            dup2(1, 2);
+            execv(argv[0], argv);
+            _exit(127);
+        }
+        close(ends[0]);
+    }
+    ~Watcher() {
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
+        }
+        if (end_ >= 0) close(end_);
+    }
+    Watcher(const Watcher&) = delete;
+    Watcher& operator=(const Watcher&) = delete;
+
+private:
+    int end_ = -1;
+    pid_t pid_ = -1;
 };
 
 class Pipe {
@@ -121,6 +165,7 @@ Said run_program(std::vector<std::string> words, const std::function<bool()>& un
     Group group(argv.data(), pipe.in());
     if (!group.runs()) return {-errno, ""};
     pipe.close_in();
+    const Watcher watcher(group.leader());
     Said said{};
     const WaitsForAnother counted;
     while (!group.has_ended() && !(unwanted && unwanted())) {
