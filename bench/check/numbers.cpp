@@ -121,10 +121,11 @@ std::vector<Scene> make_scenes_of_numbers() {
     }
     add("from_modes", [](String& s) {
         s.start =
-            TableStart{"modes", true, {1, 2, 3, 5}, {1e-3, 4e-4, -2e-4, 1e-4}, {1, -0.8, 0.5, 0.2}};
+            TableStart{"modes", "", true, {1, 2, 3, 5}, {1e-3, 4e-4, -2e-4, 1e-4}, {1, -0.8, 0.5, 0.2}};
     });
     add("from_points", [](String& s) {
         s.start = TableStart{"points",
+                             "",
                              false,
                              {0.05, 0.12, 0.2, 0.26},
                              {6e-4, 1e-3, 7e-4, 2e-4},

@@ -18,7 +18,7 @@ using std::numbers::pi;
 namespace {
 using Moments = TwoMomentStream;
 
-PluckMoments moments_of(const Pluck& e, long n, double dt) {
+PluckMoments pluck_moments(const Pluck& e, long n, double dt) {
     const double t = static_cast<double>(n) * dt;
     return {mean_force(e, t, dt), first_moment(e, t, dt)};
 }
@@ -189,7 +189,7 @@ void TwoMomentModes::put_pluck(const Modes& modes, const Pluck& pluck,
     pluck_.first_step = steps.first;
     pluck_.steps = steps.count;
     for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
-        pluck_.moments.push_back(moments_of(pluck, n, dt_));
+        pluck_.moments.push_back(pluck_moments(pluck, n, dt_));
 }
 
 void TwoMomentModes::put_taps(const Modes& modes, const Scene& scene) {
@@ -255,7 +255,7 @@ void TwoMomentModes::approach(bool) noexcept {
     const bool plucked = k >= 0 && k < pluck_.steps;
     const PluckMoments F = !plucked                           ? PluckMoments{}
                            : k < std::ssize(pluck_.moments) ? pluck_.moments[k]
-                                                              : moments_of(pluck_.of, step_, dt_);
+                                                              : pluck_moments(pluck_.of, step_, dt_);
     F_0_ = F.mean, F_1_ = F.first;
     const int P = m_.points;
     for (int p = 0; p < 2 * P; ++p) free_[p] = free_sums_[p];
