@@ -95,13 +95,11 @@ public:
         std::copy(start_.velocity.begin(), start_.velocity.end(), v_.begin());
         std::fill(a_.begin(), a_.end(), 0.0);
         if (!start_.force.empty()) return;  // in equilibrium
-        const double F_e = pluck_at(0);
-        for (int i = 0; i < count(); ++i)
-            a_[i] = (g_e_.empty() ? 0 : g_e_[i] * F_e / modes_.mass) -
-                    modes_.omega0[i] * modes_.omega0[i] * q_[i] - 2 * modes_.sigma[i] * v_[i];
+        for (int i = 0; i < count(); ++i)  // a pluck acts from the first step on
+            a_[i] = -modes_.omega0[i] * modes_.omega0[i] * q_[i] - 2 * modes_.sigma[i] * v_[i];
     }
     void approach(bool) noexcept {  // next_: v'^{n+1} without the points' forces
-        F_e_ = (1 - w_.f) * pluck_at(step_ + 1) + w_.f * pluck_at(step_);
+        F_e_ = p_.pluck ? mean_force(*p_.pluck, static_cast<double>(step_) * dt_, dt_) : 0;
         for (int i = 0; i < count(); ++i) {
             const double w0 = modes_.omega0[i] * modes_.omega0[i], sigma = 2 * modes_.sigma[i],
                          f = 1 - w_.f;
@@ -166,9 +164,6 @@ private:
     double gain(int i) const { return dt_ * dt_ * w_.beta() * inverse_[i] / modes_.mass; }
     double moved(int i, double a) const {
         return dt_ * v_[i] + dt_ * dt_ * ((0.5 - w_.beta()) * a_[i] + w_.beta() * a);
-    }
-    double pluck_at(long n) const {
-        return p_.pluck ? mean_about(*p_.pluck, static_cast<double>(n) * dt_, dt_) : 0;
     }
 
     Weights w_;

@@ -28,7 +28,6 @@ extern const Descriptor modal_two_moment = {
     .clock = Clock::stepped,
     .make = make,
     .options = {&compliance_option, 1},
-    .note = "a profile's many points cost more than the gain: 10 us a step with 16",
-    .stand_in_rank = 3};
+    .note = "a profile's many points cost more than the gain: 10 us a step with 16"};
 
 }  // namespace jvari

@@ -30,38 +30,25 @@ ExactMode::ExactMode(double mass, double omega0, double sigma, double H)
     : kappa(std::sqrt(mass) * omega0) {
     const double square = omega_squared_damped(omega0, sigma),
                  decay = std::min(sigma * H, 300.0),  // a mode that is gone in a step
-        root = std::sqrt(std::abs(square)) * H, grows = std::cosh(decay);
+        turns = std::sqrt(std::abs(square)) * H, half = 0.5 * turns, grows = std::cosh(decay),
+                 damped = std::pow(std::sinh(0.5 * decay), 2);
     delta = std::exp(-2 * decay);
-    const double half_decay = std::sinh(0.5 * decay);
-    double s, c, sine_of, cosine_of;  // exp(-sigma H) times sin(omega H)/omega and cos(omega H)
-    const double R = std::exp(-decay);
     if (square > 0) {
-        const double half = 0.5 * root, turn = std::floor(root / pi);
-        s = std::sqrt((half_decay * half_decay + std::sin(half) * std::sin(half)) / grows);
-        c = std::sqrt((half_decay * half_decay + std::cos(half) * std::cos(half)) / grows);
-        const double acute = std::atan2(s, c);
-        const bool odd = std::fmod(turn, 2) == 1;
-        z = odd ? 0.5 * (turn + 1) * pi - acute : 0.5 * turn * pi + acute;
-        sine_of = R * std::sin(root) / root * H;
-        cosine_of = R * std::cos(root);
-    } else {
-        const double gamma = std::min(root, decay), slow = 0.5 * omega0 * H * omega0 * H /
-                                                           (sigma * H + root);
-        s = std::sqrt(std::sinh(0.5 * (decay + gamma)) * std::sinh(std::min(slow, decay)) / grows);
-        c = std::sqrt((half_decay * half_decay + std::cosh(0.5 * gamma) * std::cosh(0.5 * gamma)) /
-                      grows);
-        z = std::atan2(s, c);
-        const double up = std::exp(gamma - decay), down = std::exp(-gamma - decay);
-        sine_of = gamma > 0 ? 0.5 * (up - down) / gamma * H : R * H;
-        cosine_of = 0.5 * (up + down);
+        const double s = std::sqrt((damped + std::pow(std::sin(half), 2)) / grows),
+                     c = std::sqrt((damped + std::pow(std::cos(half), 2)) / grows),
+                     branch = std::floor(turns / pi);
+        z = std::fmod(branch, 2) == 1 ? 0.5 * (branch + 1) * pi - std::atan2(s, c)
+                                      : 0.5 * branch * pi + std::atan2(s, c);
+        lead = std::abs(std::atan2(std::cos(turns) * std::tanh(decay), std::sin(turns)) -
+                        std::atan2(sigma * std::sin(turns), std::sqrt(square) * std::sin(turns)));
+    } else {  // the difference of two squares, of sinh, as a product
+        const double gamma = std::min(turns, decay),
+                     slow = std::min(0.5 * std::pow(omega0 * H, 2) / (sigma * H + turns), decay);
+        z = std::atan2(std::sqrt(std::sinh(0.5 * (decay + gamma)) * std::sinh(slow) / grows),
+                       std::sqrt((damped + std::pow(std::cosh(0.5 * gamma), 2)) / grows));
     }
     sine = std::sin(z), cosine = std::cos(z);
-    // The velocity by which the step's motion meets the true one at every row; the plain one where
-    // a mode at half the rate is seen in one phase alone.
-    const double turned = std::sin(2 * z), w = 2 * z / H, over = turned != 0 ? 1 / turned : 0;
-    by_v = sine_of * over;
-    by_y = sigma * by_v - cosine_of * std::tanh(decay) * over;
-    if (!(by_v * w > 1e-3 * R)) by_v = R / w, by_y = 0;
+    by_v = 0.5 * H * std::exp(-decay) / z;
 }
 
 double ExactMode::p_1() const {
@@ -86,7 +73,7 @@ TwoMomentModes::TwoMomentModes(const Descriptor& descriptor, const Scene& scene,
     for (int i = 0; i < count; ++i) {
         const double omega0 = modes.omega0[i], sigma = modes.sigma[i],
                      square = omega_squared_damped(omega0, sigma);
-        modes_.emplace_back(modes.mass, omega0, sigma, dt_);
+        offset_ = std::max(offset_, modes_.emplace_back(modes.mass, omega0, sigma, dt_).lead);
         own.push_back(1 / (modes.mass * omega0 * omega0));
         free_modes_.push_back({square > 0 ? std::sqrt(square) : 0, sigma});
     }
@@ -113,9 +100,9 @@ TwoMomentModes::Reading TwoMomentModes::reading_of(const std::vector<double>& we
     for (int i = 0; i < m_.modes; ++i) {
         const ExactMode& e = modes_[i];
         const double w = weights[i] / e.kappa;
-        // y = (a c - b s)/kappa; the damped velocity over w is (a s + b c)/kappa = by_v v + by_y y
-        r.on_a[i] = velocity ? w * (e.sine - e.by_y * e.cosine) / e.by_v : w * e.cosine;
-        r.on_b[i] = velocity ? w * (e.cosine + e.by_y * e.sine) / e.by_v : -w * e.sine;
+        // y = (a c - b s)/kappa; the damped velocity over w is (a s + b c)/kappa = by_v v
+        r.on_a[i] = velocity ? w * e.sine / e.by_v : w * e.cosine;
+        r.on_b[i] = velocity ? w * e.cosine / e.by_v : -w * e.sine;
     }
     return r;
 }
@@ -209,7 +196,7 @@ void TwoMomentModes::put_taps(const Modes& modes, const Scene& scene) {
 void TwoMomentModes::begin(int i, double displacement, double velocity) noexcept {
     const ExactMode& e = modes_[i];
     const double y = e.kappa * displacement,
-                 u = e.kappa * (e.by_v * velocity + e.by_y * displacement);
+                 u = e.kappa * e.by_v * velocity;
     a0_[i] = y * e.cosine + u * e.sine;
     b0_[i] = u * e.cosine - y * e.sine;
 }
@@ -219,7 +206,7 @@ ModalState TwoMomentModes::state() const {
     for (int i = 0; i < m_.modes; ++i) {
         const auto [y, u] = at_row(i);
         state.displacement.push_back(y / modes_[i].kappa);
-        state.velocity.push_back((u - modes_[i].by_y * y) / (modes_[i].kappa * modes_[i].by_v));
+        state.velocity.push_back(u / (modes_[i].kappa * modes_[i].by_v));
     }
     return state;
 }
@@ -229,7 +216,7 @@ bool TwoMomentModes::start_from(const TwoMomentModes& before) noexcept {
     for (int i = 0; i < m_.modes; ++i) {
         const ExactMode& e = before.modes_[i];
         const auto [y, u] = before.at_row(i);
-        begin(i, y / e.kappa, (u - e.by_y * y) / (e.kappa * e.by_v));
+        begin(i, y / e.kappa, u / (e.kappa * e.by_v));
     }
     return true;
 }

@@ -11,7 +11,7 @@
 //     Theta_00 = sum of p_0 q_0/2,  Theta_11 = sum of p_1 q_1/2,
 //     Theta_01 = -Theta_10 = -sum of cos z S_1 g_p g_q/kappa^2
 //
-// w and the start's velocity are those by which free motion is exact at every row.
+// Frequency and decay of free motion are exact; without losses so is its phase.
 #pragma once
 
 #include "schemes/driver/driver.hpp"
@@ -26,8 +26,8 @@ struct ExactMode {
     double sine, cosine, z;  // of z = w H/2
     double kappa;            // [sqrt(kg)/s]
     double delta;            // exp(-2 sigma H)
-    // the velocity after the damping at a row is w (by_v v + by_y y): [s], [1]
-    double by_v, by_y;
+    double by_v;      // the velocity after the damping at a row, over w, of v [s]
+    double lead = 0;  // phase by which a release at rest leads the true one [rad]
     double p_0() const { return 2 * sine / kappa; }  // of g = 1
     double p_1() const;
 };
@@ -56,7 +56,7 @@ public:
     double tap(int k, const double* mean) const noexcept;
     int dofs() const { return 2 * m_.modes; }
     ModalState state() const;
-    std::vector<Fact> facts() const { return {}; }
+    std::vector<Fact> facts() const { return {{facts::start_phase_offset, offset_}}; }
     std::vector<FreeMode> free_modes() const { return free_modes_; }
 
     void fuse(MomentObstacle&, int steps_per_row);
@@ -113,6 +113,7 @@ private:
     std::vector<FreeMode> free_modes_;
     std::vector<double> free_;  // these with the pluck
     double sum_ = 0;            // of the means [m]
+    double offset_ = 0;         // of the phase of a start from rest [rad]
     long step_ = 0;
     // whole rows
     TwoMomentRowsKernel rows_ = nullptr;

@@ -58,11 +58,11 @@ MomentRule::Quotient MomentRule::quotient(double from, double to, const Powers& 
     if (law_.alpha == 1 && from > 0 && to > 0)
         return {0.5 * (a.force + b.force), 0.5 * law_.k, 0.5 * law_.k};
     const double d = to - from;
-    if (std::abs(d) < 1e-5 * std::max(from, to)) {  // the middle, up to d^2
-        const double middle = 0.5 * (from + to);
-        const Powers m = powers(middle);
-        const double bend = m.slope * (law_.alpha - 1) / middle;
-        return {m.force + bend * d * d / 24, 0.5 * m.slope, 0.5 * m.slope};
+    if (from > 0 && std::abs(d) < 0.05 * from) {  // without the difference of V
+        const auto [value, slope] = power_quotient(law_.alpha + 1, d / from);
+        const double mean = a.force / (law_.alpha + 1) * value,
+                     by_to = a.force / (law_.alpha + 1) * slope / from;
+        return {mean, (law_.alpha * mean - to * by_to) / from, by_to};  // DV is homogeneous
     }
     const double value = (b.V - a.V) / d;
     return {value, (value - a.force) / d, (b.force - value) / d};
@@ -93,14 +93,14 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
             return put(phi_0, phi_1, c_ * (phi_0 - phi_1), c_ * (phi_0 + phi_1));
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
-    if (E_1 > 0) {  // enters: (A_0^2 + 2 c m) x^2 - 2 c (E_1 m + w) x + 2 c E_1 w = 0, x = e_1
-        const double m = A_0 + A_1, w = A_0 * E_0 + A_1 * E_1, A = A_0 * A_0 + 2 * c_ * m,
-                     B = c_ * (E_1 * m + w), C = -2 * c_ * E_1 * w, square = B * B + A * C;
+    if (E_1 > 0) {  // enters: no sum below has terms of both signs
+        const double rise = E_1 - E_0, square = c_ * c_ * rise * rise -
+                                                2 * c_ * E_1 * (A_0 * E_0 + A_1 * E_1);
         if (square >= 0) {
-            const double root = std::sqrt(square),
-                         x = B > 0 ? (B + root) / A : C / (root - B), p = (E_1 - x) / A_0;
-            if (p > 0 && E_0 + A_1 * p <= 0 && x >= 0)
-                return put(p, p, std::min(0.0, x - 0.5 * x * x / (c_ * p)), x);
+            const double p = E_1 * E_1 / (E_1 * A_0 + c_ * rise + std::sqrt(square)),
+                         from = E_0 + A_1 * p, cp = c_ * p;
+            if (p > 0 && from <= 0 && E_1 >= A_0 * p)
+                return put(p, p, from, cp + std::sqrt(cp * (cp - 2 * from)));
         }
     }
     // leaves: V'(e_0) = q = X_0 + X_1 p, e_1 = y_0 + y_1 p, 2 p (e_0 - e_1) = c q^2
@@ -161,17 +161,22 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         if (g > 0) high = std::min(high, x);
         else low = std::max(low, x);
         double next = x - g / slope;
-        const bool small = std::abs(next - x) <= 1e-8 * std::abs(x) && std::abs(g) <= 1e-6 * v.value;
+        const bool small = std::abs(next - x) <= 1e-5 * std::abs(x) && std::abs(g) <= 1e-7 * v.value;
         s.residual = std::abs(g) / std::max(std::abs(v.value), 1e-300);
         s.converged = small || std::abs(g) <= 2e-15 * v.value;
         if (!small && (!(next > low && next < high) || !(slope > 0)))
             next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
         s.converged = s.converged || std::abs(next - x) <= half_bit * std::abs(x);
-        if (small) x = next;
+        if (small) {  // twice more by this slope: down to rounding
+            x = next;
+            look();
+            x -= (p - v.value) / slope;
+        }
         if (s.converged) break;
         x = next;
     }
     look();
+    // p, not DV: where the contact is stiff, DV has the rounding of penetrations
     s.phi_0 = p, s.phi_1 = p - a.force, s.from = x, s.to = to;
     if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) {  // enters: the end from the energy
         for (int i = 0; i < 8; ++i) {
@@ -182,8 +187,6 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
             b = powers(next);
             if (same) break;
         }
-    } else {
-        s.phi_0 = v.value, s.phi_1 = v.value - a.force;
     }
 }
 
@@ -238,8 +241,17 @@ void MomentRule::damped(const MomentMatrix& T, double eta, double b_0, double b_
     one.m00 += 1, one.m11 += 1;
     const MomentMatrix I = inverse(one), less = times(I, T);
     without_loss(less, eta, eta + I.m10 * b_0 + I.m11 * b_1, eta - I.m00 * b_0 - I.m01 * b_1, s);
-    const double r_0 = eta - s.to, r_1 = s.from - eta, d_0 = L.m00 * r_0 + L.m01 * r_1,
-                 d_1 = L.m10 * r_0 + L.m11 * r_1;
+    double r_0 = eta - s.to, r_1 = s.from - eta;
+    const auto push = [&](int i) {
+        return i == 0 ? s.phi_0 - L.m00 * r_0 - L.m01 * r_1 : s.phi_1 - L.m10 * r_0 - L.m11 * r_1;
+    };
+    // A contact that creeps moves by little beside b: what rounding leaves of r = b + T phi is put
+    // right by changes of r that the dampers alone resist.
+    const double off_0 = b_0 + T.m00 * push(0) + T.m01 * push(1) - r_0,
+                 off_1 = b_1 + T.m10 * push(0) + T.m11 * push(1) - r_1;
+    r_0 += I.m00 * off_0 + I.m01 * off_1, r_1 += I.m10 * off_0 + I.m11 * off_1;
+    s.to = eta - r_0, s.from = eta + r_1;
+    const double d_0 = L.m00 * r_0 + L.m01 * r_1, d_1 = L.m10 * r_0 + L.m11 * r_1;
     const Powers from = powers(s.from);
     s.lost = law_.potential(eta) - from.V - from.force * (eta - s.from) + d_0 * r_0 + d_1 * r_1;
     s.phi_0 -= d_0, s.phi_1 -= d_1;

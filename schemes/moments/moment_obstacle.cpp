@@ -511,8 +511,13 @@ bool MomentObstacle::by_constant_forces(const double* b, double* force) noexcept
     for (int a = 0; a < n_; ++a) {
         force[points_ + a] = 0;
         MomentContact one;
+        const ContactLaw& law = rules_[a].law();
         one.phi_0 = force[a], one.from = at_[a].eta, one.to = at_[a].eta - step_[a];
         one.touches = one.to > 0;
+        if (one.touches) {  // by its energy: a stiff contact's depth is far below the rounding of r
+            const double V = law.potential(at_[a].eta) - force[a] * step_[a];
+            one.to = std::pow(std::max(V, 0.0) * (law.alpha + 1) / law.k, 1 / (law.alpha + 1));
+        }
         take(a, one);
     }
     tally_.note(s.iterations, s.residual);
