@@ -44,6 +44,21 @@ int measured_modes(const Scene& scene) {
     return all;
 }
 
+double highest_of(const String& s, int modes) {  // [Hz]
+    return modes_of(s, std::min(modes, modes_measured(s).value_or(modes))).omega0.back() /
+           (2 * std::numbers::pi);
+}
+
+// Rate [Hz] of rows, or of rows that would hold the modes that a reference begins with: a reference
+// of few rows is no cheaper for that.
+double pace(const Scene& scene, double tap_rate) {
+    const int first = modes_to_begin_with(scene, tap_rate, 0);
+    double rate = tap_rate;
+    for (const String& s : scene.strings)
+        if (first > 0) rate = std::max(rate, highest_of(s, first) * rows_of_audio / 20e3);
+    return rate;
+}
+
 bool is_nodes(const std::pair<std::string, std::string>& o) { return o.first == nodes_option.name; }
 }  // namespace
 
@@ -89,13 +104,12 @@ bool within_budget(const Descriptor& reference, const Scene& scene, double tap_r
         contacts = std::max(contacts, string.barriers.size() + string.masses.size());
     const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
     const int size = std::max(s.modes, s.points);  // few measured modes may lie under many points
-    const double unit = tap_rate / rows_of_audio;
+    const double unit = pace(scene, tap_rate) / rows_of_audio;
     double work = 0;
     for (const String& string : scene.strings) {
-        const int modes = std::min(s.modes, modes_measured(string).value_or(s.modes));
-        const double highest = modes_of(string, modes).omega0.back() / (2 * std::numbers::pi);
         work += scene.duration * unit * size *
-                std::max<double>(size, highest / (unit * mode_spacing)) * (1 + 2.5 * coupled);
+                std::max<double>(size, highest_of(string, s.modes) / (unit * mode_spacing)) *
+                (1 + 2.5 * coupled);
     }
     return s.points <= most_points && s.modes <= most_modes_found &&
            work * dearness(reference, scene) <= budget;

@@ -28,8 +28,8 @@ struct Sizes {
 // unasked.
 Sizes sizes_of(const ReferenceChoice&, const Scene&, int modes, int begin);
 
-// Where a run of this size takes about ten to twenty seconds at most. It counts rows, not seconds,
-// so that the unit of time does not matter.
+// Where a run of this size takes about ten to twenty seconds at most. The time that the scene lasts
+// is counted in rows, so that its unit does not matter.
 bool within_budget(const Descriptor& reference, const Scene&, double tap_rate, const Size&);
 
 ReferenceChoice sized(ReferenceChoice, const Size&);

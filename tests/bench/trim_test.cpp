@@ -384,11 +384,14 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     ASSERT_TRUE(t.path.within_tolerance);
     ASSERT_GT(t.independent(), 0);
     ASSERT_EQ(t.verified.size(), static_cast<std::size_t>(trim::starts));
-    EXPECT_TRUE(t.verified[0].judged_by && t.verified[1].judged_by);
+    EXPECT_TRUE(t.verified[0].judged_by && t.verified[2].judged_by);
+    // over 5 ms and with 532 modes the force of a sharp corner is not known well enough
+    EXPECT_FALSE(t.verified[1].decided);
+    EXPECT_GT(t.verified[1].certificate, 0.5 * judge.target().most);
     std::set<std::string> names;
     std::set<double> errors;
     for (const trim::Verified& v : t.verified) {
-        EXPECT_TRUE(v.within && v.decided) << v.name;
+        EXPECT_TRUE((v.within && v.decided) || v.start == 1) << v.name;
         const Scene scene = trim::started(judge.scene(), v.start);
         EXPECT_EQ(v.name, trim::name_of_start(judge.scene(), v.start));
         names.insert(v.name), errors.insert(v.error);
@@ -405,7 +408,7 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
     const std::string toml = trim::trimmed_toml(t, judge);
     for (const trim::Verified& v : t.verified)
         EXPECT_EQ(toml.find(v.name + ", which the search did not know") != std::string::npos,
-                  !v.judged_by)
+                  v.decided && !v.judged_by)
             << toml;
 }
 
