@@ -153,29 +153,25 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         b = powers(to);
         v = quotient(x, to, a, b);
     };
+    double last = std::numeric_limits<double>::infinity();
     s.converged = false;
     for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
         look();
-        const double g = p - v.value, by_x = (1 + T.m11 * a.slope) / A_1,
+        const double g = p - v.value, by_x = (1 + T.m11 * a.slope) / A_1, size = std::abs(g),
                      slope = by_x - v.by_from - v.by_to * (T.m01 * a.slope - A_0 * by_x);
         if (g > 0) high = std::min(high, x);
         else low = std::max(low, x);
         double next = x - g / slope;
-        const bool small = std::abs(next - x) <= 1e-5 * std::abs(x) && std::abs(g) <= 1e-7 * v.value;
-        s.residual = std::abs(g) / std::max(std::abs(v.value), 1e-300);
-        s.converged = small || std::abs(g) <= 2e-15 * v.value;
-        if (!small && (!(next > low && next < high) || !(slope > 0)))
+        s.residual = size / std::max(std::abs(v.value), 1e-300);
+        if (s.residual > 1e-6 && (!(next > low && next < high) || !(slope > 0)))
             next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
-        s.converged = s.converged || std::abs(next - x) <= half_bit * std::abs(x);
-        if (small) {  // twice more by this slope: down to rounding
-            x = next;
-            look();
-            x -= (p - v.value) / slope;
-        }
+        // to rounding, which may be more where the contact is stiff
+        s.converged = s.residual <= 1e-14 || std::abs(next - x) <= half_bit * std::abs(x) ||
+                      (s.residual <= 1e-9 && size >= 0.5 * last);
         if (s.converged) break;
+        last = size;
         x = next;
     }
-    look();
     // p, not DV: where the contact is stiff, DV has the rounding of penetrations
     s.phi_0 = p, s.phi_1 = p - a.force, s.from = x, s.to = to;
     if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) {  // enters: the end from the energy
