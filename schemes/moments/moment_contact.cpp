@@ -167,7 +167,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
             next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
         // to rounding, which may be more where the contact is stiff
         s.converged = s.residual <= 1e-14 || std::abs(next - x) <= half_bit * std::abs(x) ||
-                      (s.residual <= 1e-9 && size >= 0.5 * last);
+                      (s.residual <= 1e-11 && size >= 0.5 * last);
         if (s.converged) break;
         last = size;
         x = next;
@@ -225,8 +225,12 @@ void MomentRule::by_bracket(const MomentMatrix& T, double E_0, double E_1,
 void MomentRule::without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
                               MomentContact& s) const noexcept {
     s.converged = law_.alpha == 1 && by_lines(T, E_0, E_1, s);
-    if (!s.converged && T.m10 + T.m11 > 1e-6 * T.m00) by_newton(T, eta, E_0, E_1, s);
-    if (!s.converged) by_bracket(T, E_0, E_1, s);
+    if (s.converged) return;
+    const double A_1 = T.m10 + T.m11;
+    if (A_1 > 1e-6 * T.m00) by_newton(T, eta, E_0, E_1, s);
+    // where forces move the contact by little, p is the small difference of two penetrations
+    const double digits = A_1 * std::abs(s.phi_0) / (std::abs(s.from) + std::abs(E_0));
+    if (!s.converged || (s.phi_0 != 0 && digits < 1e-3)) by_bracket(T, E_0, E_1, s);
 }
 
 // The step with the dampers l_0, l_1 of (11).

@@ -30,9 +30,12 @@ struct Draw {
 
 // How far the forces are from what the ends of their line say: (6) of docs/two-moments.md.
 double misfit(const ContactLaw& law, const MomentContact& s) {
-    const double mean = s.to == s.from ? law.force(s.from)
-                                       : (law.potential(s.to) - law.potential(s.from)) /
-                                             (s.to - s.from);
+    using Real = long double;  // of ends that are near to each other
+    const auto V = [&law](Real eta) {
+        return eta > 0 ? law.k * std::pow(eta, Real(law.alpha) + 1) / (law.alpha + 1) : Real(0);
+    };
+    const Real d = Real(s.to) - s.from;
+    const double mean = d == 0 ? law.force(s.from) : static_cast<double>((V(s.to) - V(s.from)) / d);
     return std::abs(s.phi_0 - mean) + std::abs(s.phi_0 - s.phi_1 - law.force(s.from));
 }
 
