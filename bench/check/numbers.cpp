@@ -120,8 +120,8 @@ std::vector<Scene> make_scenes_of_numbers() {
         all.back().taps.push_back({"mass" + number, Quantity::bridge_force, 0, 0, mass});
     }
     add("from_modes", [](String& s) {
-        s.start =
-            TableStart{"modes", "", true, {1, 2, 3, 5}, {1e-3, 4e-4, -2e-4, 1e-4}, {1, -0.8, 0.5, 0.2}};
+        s.start = TableStart{
+            "modes", "", true, {1, 2, 3, 5}, {1e-3, 4e-4, -2e-4, 1e-4}, {1, -0.8, 0.5, 0.2}};
     });
     add("from_points", [](String& s) {
         s.start = TableStart{"points",

@@ -11,7 +11,7 @@
 #include "bench/store/encoding.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/system/side_by_side.hpp"
-#include "bench/study/first_run.hpp"
+#include "bench/study/reference.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/scene_file.hpp"
 

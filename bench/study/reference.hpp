@@ -1,6 +1,7 @@
 // Which solution cells are measured against, and its run.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -93,5 +94,8 @@ constexpr double worth_keeping = 0.5;  // [s] of stepping
 // a run kept of less than `least` [s].
 Run kept_run(const std::filesystem::path& folder, const std::string& key,
              const std::function<Run()>& make, double least = worth_keeping);
+
+// Limit of a reference's run whose size nobody asked for: a minute to show that it ends within ten.
+inline TimeLimit first_run(double at_most) { return {std::min(at_most, 600.0), 60}; }
 
 }  // namespace jvari::bench::study

@@ -8,7 +8,7 @@
 #include "bench/store/records.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "bench/study/errors.hpp"
-#include "bench/study/first_run.hpp"
+#include "bench/study/reference.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "reference/profile_points.hpp"

@@ -177,8 +177,7 @@ private:
         const StringPoints& p = points();
         std::vector<double> theta = masses_.yielding(p.theta, levels);
         if constexpr (moments == 2) return {p.contacts, p.threads, theta, p.dt, series()};
-        else
-            return {p.contacts, p.threads, theta, levels * p.dt, levels, make_rule, series()};
+        else return {p.contacts, p.threads, theta, levels * p.dt, levels, make_rule, series()};
     }
 
     void step(bool probed, bool last_of_row) noexcept {

@@ -119,7 +119,6 @@ struct GridString {
     std::vector<GridTap> taps;
     bool on_body = false;  // that moves
     Stencil mu;            // and the inertia of a node against its acceleration [kg]
-
 };
 // Von Neumann relations; m and m4 as in three_point_string.hpp.
 FreeMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);

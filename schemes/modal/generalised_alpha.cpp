@@ -95,7 +95,7 @@ public:
         std::copy(start_.velocity.begin(), start_.velocity.end(), v_.begin());
         std::fill(a_.begin(), a_.end(), 0.0);
         if (!start_.force.empty()) return;  // in equilibrium
-        for (int i = 0; i < count(); ++i)  // a pluck acts from the first step on
+        for (int i = 0; i < count(); ++i)   // a pluck acts from the first step on
             a_[i] = -modes_.omega0[i] * modes_.omega0[i] * q_[i] - 2 * modes_.sigma[i] * v_[i];
     }
     void approach(bool) noexcept {  // next_: v'^{n+1} without the points' forces

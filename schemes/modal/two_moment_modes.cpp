@@ -55,9 +55,9 @@ double ExactMode::p_1() const {
     const double z_2 = z * z;
     double S_1 = 2 * (sine / z - cosine);
     if (z < 0.1)
-        S_1 = 2 * z_2 *
-              (1.0 / 3 -
-               z_2 * (1.0 / 30 - z_2 * (1.0 / 840 - z_2 * (1.0 / 45360 - z_2 / 3991680))));
+        S_1 =
+            2 * z_2 *
+            (1.0 / 3 - z_2 * (1.0 / 30 - z_2 * (1.0 / 840 - z_2 * (1.0 / 45360 - z_2 / 3991680))));
     return -S_1 / kappa;
 }
 
@@ -80,7 +80,8 @@ TwoMomentModes::TwoMomentModes(const Descriptor& descriptor, const Scene& scene,
     p_ = points_of(scene, dt_);
     add_lumped(p_, s);
     const auto measured = modes_measured(s);  // of which none may be cut
-    if (choice_option(settings, compliance_option) == "matched" && !(measured && *measured <= count))
+    if (choice_option(settings, compliance_option) == "matched" &&
+        !(measured && *measured <= count))
         p_.series = modal_missing_matrix(descriptor, scene, modes, 0, own);
     const ModalStart start = start_of(modes, s, yield_of(own, p_.series));
     put_start(p_, s, modes, start);
@@ -143,7 +144,8 @@ void TwoMomentModes::put_points(const Modes& modes, const Scene& scene) {
             p_.theta[p * D + q] = T.m00, p_.theta[p * D + P + q] = T.m01;
             p_.theta[(P + p) * D + q] = T.m10, p_.theta[(P + p) * D + P + q] = T.m11;
         }
-    if (const auto& pluck = scene.strings.front().pluck) put_pluck(modes, *pluck, scene.duration, g);
+    if (const auto& pluck = scene.strings.front().pluck)
+        put_pluck(modes, *pluck, scene.duration, g);
 }
 
 // Sums rounded once: an error in Theta is one in the balance of every step.
@@ -161,8 +163,8 @@ MomentMatrix TwoMomentModes::compliance(const std::vector<double>& g,
             static_cast<double>(odd)};
 }
 
-void TwoMomentModes::put_pluck(const Modes& modes, const Pluck& pluck,
-                               double duration, const std::vector<std::vector<double>>& g) {
+void TwoMomentModes::put_pluck(const Modes& modes, const Pluck& pluck, double duration,
+                               const std::vector<std::vector<double>>& g) {
     const int P = m_.points;
     const auto g_e = footprint_weights(modes, pluck.position, pluck.width);
     for (int i = 0; i < m_.modes; ++i) {
@@ -195,8 +197,7 @@ void TwoMomentModes::put_taps(const Modes& modes, const Scene& scene) {
 
 void TwoMomentModes::begin(int i, double displacement, double velocity) noexcept {
     const ExactMode& e = modes_[i];
-    const double y = e.kappa * displacement,
-                 u = e.kappa * e.by_v * velocity;
+    const double y = e.kappa * displacement, u = e.kappa * e.by_v * velocity;
     a0_[i] = y * e.cosine + u * e.sine;
     b0_[i] = u * e.cosine - y * e.sine;
 }
@@ -240,9 +241,9 @@ void TwoMomentModes::reset() noexcept {
 void TwoMomentModes::approach(bool) noexcept {
     const long k = step_ - pluck_.first_step;
     const bool plucked = k >= 0 && k < pluck_.steps;
-    const PluckMoments F = !plucked                           ? PluckMoments{}
+    const PluckMoments F = !plucked                         ? PluckMoments{}
                            : k < std::ssize(pluck_.moments) ? pluck_.moments[k]
-                                                              : pluck_moments(pluck_.of, step_, dt_);
+                                                            : pluck_moments(pluck_.of, step_, dt_);
     F_0_ = F.mean, F_1_ = F.first;
     const int P = m_.points;
     for (int p = 0; p < 2 * P; ++p) free_[p] = free_sums_[p];
@@ -331,8 +332,8 @@ void TwoMomentModes::fuse(MomentObstacle& obstacle, int steps_per_row) {
     force_.assign(3 * static_cast<std::size_t>(m_.points), 0.0);
     for (std::size_t k = 0; k < taps_.size(); ++k) {
         const TapOfModes& t = taps_[k];
-        const bool modal = !t.on_modes.on_a.empty(), series = p_.series && m_.points > 0 &&
-                                                              !p_.series->taps[k].empty();
+        const bool modal = !t.on_modes.on_a.empty(),
+                   series = p_.series && m_.points > 0 && !p_.series->taps[k].empty();
         fused_taps_.push_back({modal ? t.on_modes.on_a.data() : nullptr, t.on_modes.on_b.data(),
                                modal ? nullptr : t.on_mean.data(),
                                series ? p_.series->taps[k].data() : nullptr});
@@ -345,8 +346,8 @@ FusedRows TwoMomentModes::fused_rows(const Block& out, int row, double* sum) noe
     if (pluck_.steps > 0 && k < pluck_.steps)
         rows = std::min(rows, std::max(-k, 0L) / steps_per_row_);
     if (!rows_ || rows == 0) return {};
-    TwoMomentRows r{fused_taps_.data(), row,           row + static_cast<int>(rows),
-                    steps_per_row_,     sum,           force_.data() + 2 * m_.points,
+    TwoMomentRows r{fused_taps_.data(), row, row + static_cast<int>(rows),
+                    steps_per_row_,     sum, force_.data() + 2 * m_.points,
                     force_.data()};
     const bool stopped = !rows_(m_, *obstacle_, out, r);
     step_ += r.steps;

@@ -26,8 +26,8 @@ struct ExactMode {
     double sine, cosine, z;  // of z = w H/2
     double kappa;            // [sqrt(kg)/s]
     double delta;            // exp(-2 sigma H)
-    double by_v;      // the velocity after the damping at a row, over w, of v [s]
-    double lead = 0;  // phase by which a release at rest leads the true one [rad]
+    double by_v;             // the velocity after the damping at a row, over w, of v [s]
+    double lead = 0;         // phase by which a release at rest leads the true one [rad]
     double p_0() const { return 2 * sine / kappa; }  // of g = 1
     double p_1() const;
 };

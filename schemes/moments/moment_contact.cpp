@@ -73,8 +73,7 @@ bool MomentRule::stays_out(double eta, double b_0, double b_1) const {
     if (!galerkin_) return E_1 <= 0 && eta + b_1 <= 0;
     if (eta > 0 || E_1 > 0) return false;
     const double slope = 3 * b_1 - b_0;  // the parabola may rise above both ends
-    return b_1 <= 0 || slope <= 0 || slope >= 6 * b_1 ||
-           eta + slope * slope / (12 * b_1) <= 0;
+    return b_1 <= 0 || slope <= 0 || slope >= 6 * b_1 || eta + slope * slope / (12 * b_1) <= 0;
 }
 
 // Exponent 1.   (8)
@@ -94,8 +93,8 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
     if (E_1 > 0) {  // enters: no sum below has terms of both signs
-        const double rise = E_1 - E_0, square = c_ * c_ * rise * rise -
-                                                2 * c_ * E_1 * (A_0 * E_0 + A_1 * E_1);
+        const double rise = E_1 - E_0,
+                     square = c_ * c_ * rise * rise - 2 * c_ * E_1 * (A_0 * E_0 + A_1 * E_1);
         if (square >= 0) {
             const double p = E_1 * E_1 / (E_1 * A_0 + c_ * rise + std::sqrt(square)),
                          from = E_0 + A_1 * p, cp = c_ * p;
@@ -134,8 +133,8 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         const Powers l = powers(at);
         const double k = l.slope, F = l.force - k * at;
         const double a = 1 - 0.5 * k * A_1 + k * T.m11, b = -0.5 * k * A_1,
-                     c = 0.5 * k * A_0 - k * T.m01, d = 1 + 0.5 * k * A_0,
-                     R_0 = E_0 + T.m10 * F, R_1 = E_1 - T.m00 * F;
+                     c = 0.5 * k * A_0 - k * T.m01, d = 1 + 0.5 * k * A_0, R_0 = E_0 + T.m10 * F,
+                     R_1 = E_1 - T.m00 * F;
         x = (d * R_0 - b * R_1) / (a * d - b * c);
         if (eta <= 0 && E_0 <= 0) {  // enters
             const double out = E_0 + A_1 * E_1 / A_0;
@@ -186,8 +185,8 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     }
 }
 
-// The same with p as the unknown, between 0 and a force that is too large: slower, for what rounding
-// keeps from by_lines and by_newton.
+// Brackets p, between 0 and a force that is too large: slower, where rounding keeps by_lines and
+// by_newton from an end.
 void MomentRule::by_bracket(const MomentMatrix& T, double E_0, double E_1,
                             MomentContact& s) const noexcept {
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
@@ -276,14 +275,13 @@ void MomentRule::with_loss(const MomentMatrix& T, double eta, double b_0, double
     double low = 0, high = beta_ * elastic, f_low = -high;
     if (high > 0) {
         miss(high);
-        if (elastic > 0)
-            ratio = std::clamp((elastic - powers(s.from).force) / elastic, -1.0, 1.0);
+        if (elastic > 0) ratio = std::clamp((elastic - powers(s.from).force) / elastic, -1.0, 1.0);
         high = std::max(beta_ * elastic, 1e-300);
         double f_high = miss(high);
         for (; f_high < 0 && passes < most_newton; f_high = miss(high))
             low = high, f_low = f_high, high *= 4;
         int side = 0;
-        for (; passes < most_newton && high - low > 1e-14 * high; ) {
+        for (; passes < most_newton && high - low > 1e-14 * high;) {
             double l = (low * f_high - high * f_low) / (f_high - f_low);
             if (!(l > low && l < high)) l = 0.5 * (low + high);
             const double f = miss(l);
@@ -379,9 +377,8 @@ MomentRule::Integrals MomentRule::integrals(double eta, double r_0, double r_1) 
     }
     // Powers are no polynomials: the rest of the energy along r (Gonzalez 1996).
     if (const double size = r_0 * r_0 + 3 * r_1 * r_1; !polynomial && size > 0) {
-        const double rest = (law_.potential(eta) - law_.potential(end) - elastic_0 * r_0 -
-                             elastic_1 * r_1) /
-                            size;
+        const double rest =
+            (law_.potential(eta) - law_.potential(end) - elastic_0 * r_0 - elastic_1 * r_1) / size;
         all.phi_0 += rest * r_0, all.phi_1 += 3 * rest * r_1;
     }
     return all;
@@ -439,8 +436,8 @@ void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, doub
     if (!s.converged) {
         s.from = eta + b_1, s.to = eta - b_0;
         for (double part = 1.0 / 64; part <= 1; part *= 2)
-            s.converged = galerkin_from(
-                {part * T.m00, part * T.m01, part * T.m10, part * T.m11}, eta, b_0, b_1, s);
+            s.converged = galerkin_from({part * T.m00, part * T.m01, part * T.m10, part * T.m11},
+                                        eta, b_0, b_1, s);
     }
     if (s.converged) {
         s.from = eta, s.by_parabola = true;

@@ -11,9 +11,11 @@
 //     c         1/k; a rigid barrier has 1e-10 T_00                                m/N
 //     rho       3 T_11/T_00: 1 of a point that only radiates, 0 of a free mass     1
 //
-// Rule D (rho >= 0.2, and rigid barriers):   phi_0 = DV, phi_1 = DV - V'(e_0), eta -> e_1.   (6)
-//     lost = V(eta_0) - V(e_0) - V'(e_0) (eta_0 - e_0) >= 0                                 (7)
-// Rule G (rho < 0.2, of a contact that is alone): moments of V' over the parabola eta_0 - r_0 s - 3 r_1 (s^2 - s).     (10)
+// Rule D (rho >= 0.2, rigid barriers, several contacts):
+//     phi_0 = DV, phi_1 = DV - V'(e_0), eta -> e_1                                    (6)
+//     lost = V(eta_0) - V(e_0) - V'(e_0) (eta_0 - e_0) >= 0                           (7)
+// Rule G (rho < 0.2, a contact alone): moments of V' over the parabola
+//     eta_0 - r_0 s - 3 r_1 (s^2 - s)                                                (10)
 //
 // Contact loss V'(eta) (1 + beta eta'): rule G integrates it as it stands. In rule D it is a line
 // lambda >= 0 of dampers with the moments l_0, l_1 (11); the step with the compliances
@@ -28,7 +30,7 @@ struct MomentMatrix {  // rows r_0, r_1; columns phi_0, phi_1
     double m00 = 0, m01 = 0, m10 = 0, m11 = 0;
 };
 
-struct MomentContact {  // over a step
+struct MomentContact {            // over a step
     double phi_0 = 0, phi_1 = 0;  // force on the string [N]
     double from = 0, to = 0;      // e_0 and e_1; by rule G eta_0 and e_1 [m]
     double lost = 0;              // [J]

@@ -30,7 +30,8 @@ bool eliminate(double* rows, int n, int columns) noexcept {
         for (int i = 0; i < n; ++i) {
             const double factor = rows[i * columns + k];
             if (i == k || factor == 0) continue;
-            for (int j = k; j < columns; ++j) rows[i * columns + j] -= factor * rows[k * columns + j];
+            for (int j = k; j < columns; ++j)
+                rows[i * columns + j] -= factor * rows[k * columns + j];
         }
     }
     return true;
@@ -115,8 +116,8 @@ void MomentObstacle::put_linear_part() {
                 for (int a = 0; a < n; ++a)
                     for (int l = 0; l < 2; ++l)
                         for (int m = 0; m < 2; ++m)
-                            answer[(2 * i + j) * n + a] -= one[2 * i + l] * K[l][m] *
-                                                           theta[(m * P + c) * D + j * P + a];
+                            answer[(2 * i + j) * n + a] -=
+                                one[2 * i + l] * K[l][m] * theta[(m * P + c) * D + j * P + a];
             }
         }
     }
@@ -221,8 +222,7 @@ void MomentObstacle::take(int a, const MomentContact& s) noexcept {
     moved_[a] = p.eta - s.to;
     p = {s.to, p.eta, s.from, false, s.lost};
     if (s.touches && rules_[a].is_linear()) set_ |= std::uint64_t{1} << a;
-    if (s.phi_0 != 0 || s.phi_1 != 0)
-        tally_.note(s.phi_0, std::max({p.eta_before, p.eta, s.from}));
+    if (s.phi_0 != 0 || s.phi_1 != 0) tally_.note(s.phi_0, std::max({p.eta_before, p.eta, s.from}));
 }
 
 void MomentObstacle::take_out(int a, double moved) noexcept {
@@ -380,9 +380,9 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b,
         double phi = 0;
         for (int y = 0; y < m; ++y) {
             const int d = s->contacts[y / 2];
-            phi += s->inverse[x * m + y] *
-                   ((y % 2 == 0 ? at_[d].eta - b[d] : at_[d].eta + b[P + d]) +
-                    by_own(y, 0) * own.phi_0 + by_own(y, 1) * own.phi_1);
+            phi +=
+                s->inverse[x * m + y] * ((y % 2 == 0 ? at_[d].eta - b[d] : at_[d].eta + b[P + d]) +
+                                         by_own(y, 0) * own.phi_0 + by_own(y, 1) * own.phi_1);
         }
         trial_[x % 2 * P + s->contacts[x / 2]] = phi;
     }
@@ -414,16 +414,15 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b,
     return true;
 }
 
-// Each contact solved for itself under the others' forces: found_. What is left of phi = S(phi): the
-// sum of squares, and the largest against the largest force.
+// Solves each contact for itself under the others' forces, into found_. Returns what is left of
+// phi = S(phi): the sum of squares, and the largest against the largest force.
 MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) noexcept {
     Rest rest;
     double largest = 0;
     for (int a = 0; a < n_; ++a) {
         double b_0, b_1;
         moved_by_others(a, b, force, b_0, b_1);
-        const MomentContact& s = found_[a] =
-            rules_[a].solve(own(a), at_[a].eta, b_0, b_1);
+        const MomentContact& s = found_[a] = rules_[a].solve(own(a), at_[a].eta, b_0, b_1);
         const double d_0 = s.phi_0 - force[a], d_1 = s.phi_1 - force[points_ + a];
         rest.squares += d_0 * d_0 + d_1 * d_1;
         rest.relative = std::max({rest.relative, std::abs(d_0), std::abs(d_1)});
@@ -455,8 +454,7 @@ bool MomentObstacle::newton_step(const double* force) noexcept {
         first[size] = step_[a], second[size] = step_[P + a];
     }
     if (!eliminate(matrix_.data(), size, columns)) return false;
-    for (int i = 0; i < size; ++i)
-        step_[i % 2 * P + active_[i / 2]] = matrix_[i * columns + size];
+    for (int i = 0; i < size; ++i) step_[i % 2 * P + active_[i / 2]] = matrix_[i * columns + size];
     return true;
 }
 
@@ -534,11 +532,10 @@ std::vector<Fact> MomentObstacle::facts() const {
                            {facts::largest_contact_force, tally_.force.most},
                            {facts::deepest_penetration, tally_.deepest}};
     if (contacts_.any_rigid())
-        f.push_back({facts::rigid_stiffness,
-                     std::accumulate(rules_.begin(), rules_.end(), 0.0,
-                                     [](double k, const MomentRule& r) {
-                                         return std::max(k, r.law().k);
-                                     })});
+        f.push_back({facts::rigid_stiffness, std::accumulate(rules_.begin(), rules_.end(), 0.0,
+                                                             [](double k, const MomentRule& r) {
+                                                                 return std::max(k, r.law().k);
+                                                             })});
     const double solves = static_cast<double>(tally_.solves);
     f.push_back({facts::contact_solves, solves});
     f.push_back({facts::contact_iterations_mean,

@@ -63,7 +63,7 @@ public:
 
     double potential(const double*, int = 0) const;  // [J]
     double loss() const;                             // in the last step [W]
-    const double* forces(int) noexcept {  // of the springs in series [N]
+    const double* forces(int) noexcept {             // of the springs in series [N]
         if (ladder_) ladder_->forces(x_.data(), spring_.data());
         return spring_.data();
     }
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    struct Point {  // a contact
+    struct Point {              // a contact
         double eta = 0;         // penetration [m]
         double eta_before = 0;  // at the beginning of the last step
         double from = 0;        // e_0 of the last step,
@@ -92,7 +92,9 @@ private:
     double T(int i, int a, int j, int b) const {  // between contacts, the thread eliminated
         return T_[((i * n_ + a) * 2 + j) * n_ + b];
     }
-    MomentMatrix own(int a) const { return {T(0, a, 0, a), T(0, a, 1, a), T(1, a, 0, a), T(1, a, 1, a)}; }
+    MomentMatrix own(int a) const {
+        return {T(0, a, 0, a), T(0, a, 1, a), T(1, a, 0, a), T(1, a, 1, a)};
+    }
     template <int few>
     [[gnu::always_inline]] bool one(const double* b, double* force) noexcept;
     bool alone(const double* b, double* force) noexcept;
@@ -146,7 +148,7 @@ private:
 template <int known>
 [[gnu::always_inline]] inline void add_product(const double* M, const double* x, int columns,
                                                int rows, double* to) noexcept {
-    for (int c = 0; c < columns; ++c, M += known > 0 ? known : rows)
+    for (int c = 0; c<columns; ++c, M += known> 0 ? known : rows)
         for (int r = 0; r < (known > 0 ? known : rows); ++r) to[r] += M[r] * x[c];
 }
 

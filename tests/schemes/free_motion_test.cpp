@@ -33,8 +33,7 @@ std::vector<ExactClaim> exact_claims() {
     const Scene lossy = c3_free(), quiet = lossless(c3_free());
     const Start wide = TriangleShape{0.2, 2e-3, 0.02};
     const std::string two = "modal_two_point", three = "modal_quadratised levels=3",
-                      newton = "modal_spatial_newton",
-                      moments = "modal_two_moment";
+                      newton = "modal_spatial_newton", moments = "modal_two_moment";
     std::vector<ExactClaim> all{
         {"QuadratisedInTwoLevels", "modal_quadratised", heard(quiet, wide, 0.5), 44100, 100},
         {"QuadratisedInThreeLevels", three, heard(quiet, wide, 0.5), 44100, 100},

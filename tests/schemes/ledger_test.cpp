@@ -24,10 +24,9 @@ Forms and_grids(Forms forms) {
     return forms;
 }
 // at 44.1 kHz modal_spatial_newton is too soft for this
-const Forms matched = with(
-                "compliance=matched",
-                and_grids({"modal_two_moment", "modal_two_point", "modal_two_point_trapezoidal",
-                           "modal_quadratised"})),
+const Forms matched = with("compliance=matched",
+                           and_grids({"modal_two_moment", "modal_two_point",
+                                      "modal_two_point_trapezoidal", "modal_quadratised"})),
             matched_newton{"modal_spatial_newton compliance=matched"},
             matched_profiles =
                 with("compliance=matched points=8", and_grids({"modal_spatial_newton"}));
@@ -214,8 +213,8 @@ std::vector<LedgerClaim> ledger_claims() {
            {.more_than = 0, .least = -1e-16}, true),
         Of("TwoMomentsOnSeveralPointsThatLose", two_moment, losing({bridges[1]}, 5),
            {{128e3}, 0, 80}, {1e-13}, {.more_than = 0, .least = -1e-16}),
-        Of("TwoMomentsThatCreepUnderAStrongLoss", two_moment, creeping(), {{44100}, 0, 10},
-           {1e-13}, {.least = -1e-16}),
+        Of("TwoMomentsThatCreepUnderAStrongLoss", two_moment, creeping(), {{44100}, 0, 10}, {1e-13},
+           {.least = -1e-16}),
         Of("Quadratised", quadratised_and_raw, plucked_and_released(0.04), {{x1, 3 * x1}, x1, 60},
            {1e-13}),
         Of("QuadratisedWithoutLosses", quadratised_and_raw, {lossless(lasting(c3_release(), 0.1))},

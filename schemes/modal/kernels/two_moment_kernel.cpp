@@ -101,7 +101,7 @@ HWY_INLINE void many_points(Stream& m, const double* HWY_RESTRICT phi, bool forc
                 a = hn::MulAdd(load(Stream::weights + points + p), hn::Set(d, phi[points + p]), a);
             }
             const V turn = load(Stream::A12),
-                new_a = hn::MulAdd(load(Stream::A11), a, hn::Mul(turn, b)),
+                    new_a = hn::MulAdd(load(Stream::A11), a, hn::Mul(turn, b)),
                     new_b = hn::NegMulAdd(turn, a, hn::Mul(load(Stream::A22), b));
             hn::Store(new_a, d, q + Stream::a * Stream::line);
             hn::Store(new_b, d, q + Stream::b * Stream::line);
@@ -185,12 +185,14 @@ bool rows_with(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r
 }  // namespace
 
 // [thread][points]: up to five, then any number
-#define JVARI_BY_POINTS(function)                                                             \
-    {                                                                                         \
-        {function<0, false>, function<1, false>, function<2, false>, function<3, false>,      \
-         function<4, false>, function<5, false>, function<any_number, false>},                \
-        {function<any_number, true>, function<1, true>, function<2, true>, function<3, true>, \
-         function<4, true>, function<5, true>, function<any_number, true>}                    \
+#define JVARI_BY_POINTS(function)                                                                \
+    {                                                                                            \
+        {function<0, false>, function<1, false>, function<2, false>,         function<3, false>, \
+         function<4, false>, function<5, false>, function<any_number, false>},                   \
+        {                                                                                        \
+            function<any_number, true>, function<1, true>, function<2, true>, function<3, true>, \
+                function<4, true>, function<5, true>, function<any_number, true>                 \
+        }                                                                                        \
     }
 TwoMomentPass choose_moment_pass(int points, bool thread) {
     static constexpr TwoMomentPass table[2][7] = JVARI_BY_POINTS(pass_of);
