@@ -1,8 +1,8 @@
 // The force of the level that the step is centred on, known before it: F_a = V_a'(eta_a). A
 // conditionally stable control, which balances no energy. In two-point steps that level is the
 // middle of the step, from where the string would move by itself: position Verlet, of second order.
-// (The force of the older level would act half a step late and gain energy at any rate.) With losses
-// F_a = V_a'(eta_a) (1 - kappa_a r_a), which is linear in the step.
+// (The force of the older level would act half a step late and gain energy at any rate.) With
+// losses F_a = V_a'(eta_a) (1 - kappa_a r_a), which is linear in the step.
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"

@@ -13,8 +13,9 @@
 //     sum_a F_a r_a/levels = P(older) - P(newer),
 //     P = sum_a potential(a, eta_a), levels = 1 in two-point steps, 2 in three-point ones
 //
-// less `lost()` [J] of the step, of a rule that has it or of contacts that do (StepLoss). Of this the energy balance of every scheme
-// is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al. 2016, eqs 20-21).
+// less `lost()` [J] of the step, of a rule that has it or of contacts that do (StepLoss). Of this
+// the energy balance of every scheme is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et
+// al. 2016, eqs 20-21).
 #pragma once
 
 #include <algorithm>
@@ -97,7 +98,8 @@ using MakeRule = std::function<std::shared_ptr<ObstacleRule>(
 struct RuleChoice {  // by which the contacts of a string act
     MakeRule make;
     MakeRule rigid = {};  // where the barriers do not give way
-    // whether an equilibrium on contacts of an exponent other than 1 is one of the steps, and stable
+    // whether an equilibrium on contacts of an exponent other than 1 is one of the steps, and
+    // stable
     bool rests_in_powers = true;
 };
 

@@ -14,8 +14,9 @@
 //
 // and the forces are the minimum of a convex function: Newton steps with a line search, F > 0
 // throughout. With losses F is 1 - kappa r times that, falls with r likewise, and is above -c kappa
-// psi^2; the raw form has kappa r times the F of r = 0 in place of the product. Whatever gamma is, F r is c (psi^2 - psi+^2) contact by contact, so the energy is
-// balanced exactly, with losses less kappa r of it. In three-point steps psi lives at half steps, and from rest F^0 = 2 gamma
+// psi^2; the raw form has kappa r times the F of r = 0 in place of the product. Whatever gamma is,
+// F r is c (psi^2 - psi+^2) contact by contact, so the energy is balanced exactly, with losses less
+// kappa r of it. In three-point steps psi lives at half steps, and from rest F^0 = 2 gamma
 // psi^{1/2}, psi^{1/2} = psi^0 - gamma (y^1 - y^0).
 #pragma once
 

@@ -1,8 +1,9 @@
-// A string in its modes, exact in a step under forces that are lines in it: F = phi_0 + phi_1 P_1(s)
-// (docs/two-moments.md, sections 2 and 3). Between the ends of a step a mode moves without losses,
-// at the frequency w; at its ends the velocity is damped by delta = exp(-2 sigma H), half before and
-// half after the row. With z = w H/2, kappa = sqrt(m) omega_0 and the state (a, b) at the centre of
-// the step, of the motion without the step's forces, y = (a cos w tau + b sin w tau)/kappa:
+// A string in its modes, exact in a step under forces that are lines in it: F = phi_0 + phi_1
+// P_1(s) (docs/two-moments.md, sections 2 and 3). Between the ends of a step a mode moves without
+// losses, at the frequency w; at its ends the velocity is damped by delta = exp(-2 sigma H), half
+// before and half after the row. With z = w H/2, kappa = sqrt(m) omega_0 and the state (a, b) at
+// the centre of the step, of the motion without the step's forces, y = (a cos w tau + b sin w
+// tau)/kappa:
 //
 //     S_0 = 2 sin z,  S_1 = 2 (sin z/z - cos z),  p_0 = g S_0/kappa,  p_1 = -g S_1/kappa
 //     r_0 = sum of p_0 b,  r_1 = sum of p_1 a: the moments of a point's motion without forces   (1)

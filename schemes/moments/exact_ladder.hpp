@@ -6,8 +6,8 @@
 //
 //     R_k (d_k' - v_k) = M_k v_k' = u_k - d_k/c_k,       D = sum of w_k d_k                     (4)
 //
-// Each is stepped by the exponential of its matrix; what the points read of it is w_k r_k, with the
-// moments r_k0 = d(H) - d(0) and r_k1 of d'. Stored: d^2/2c + M v^2/2. Lost: int (u - d/c)^2/R dt, a
+// Each is stepped by the exponential of its matrix. The points read w_k r_k of it, with the moments
+// r_k0 = d(H) - d(0) and r_k1 of d'. Stored: d^2/2c + M v^2/2. Lost: int (u - d/c)^2/R dt, a
 // quadratic form of d, v and u.
 #pragma once
 

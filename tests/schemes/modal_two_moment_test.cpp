@@ -106,11 +106,12 @@ TEST(MomentContacts, OfPowerLawsEndWhereTheirForcesAreThoseOfTheirEnds) {
             ASSERT_TRUE(s.converged) << exponent << " " << n;
             const double reach = std::abs(eta) + std::abs(b_0) + std::abs(b_1) +
                                  T.m00 * (std::abs(s.phi_0) + std::abs(s.phi_1)),
-                         rounding = 1e-14 * reach * law.slope(std::max(s.from, s.to)) +
-                                    1e-12 * law.force(reach);
-            ASSERT_LE(misfit(law, s),
-                      1e-9 * (std::abs(s.phi_0) + std::abs(s.phi_1)) + rounding + 1e-300)
-                << exponent << " " << n;
+                         rounding = 1e-14 * reach * law.slope(std::max(s.from, s.to));
+            // forces far below the law's have fewer digits
+            if (std::abs(s.phi_0) > 1e-10 * law.force(reach)) {
+                ASSERT_LE(misfit(law, s), 1e-9 * (std::abs(s.phi_0) + std::abs(s.phi_1)) + rounding)
+                    << exponent << " " << n;
+            }
             ASSERT_NEAR(eta - b_0 - T.m00 * s.phi_0 - T.m01 * s.phi_1, s.to, 1e-11 * reach) << n;
             ASSERT_NEAR(eta + b_1 + T.m10 * s.phi_0 + T.m11 * s.phi_1, s.from, 1e-11 * reach) << n;
         }
@@ -139,8 +140,10 @@ TEST(MomentContacts, ThatLoseArePassive) {
                 ASSERT_NEAR(law.potential(s.to) - law.potential(eta), -work - s.lost,
                             1e-9 * size + rounding)
                     << n;
-                if (loss == LossLaw::clipped) {  // the quadrature of a power leaves a millionth
-                    ASSERT_GE(T.m00 * s.phi_0, -1e-6 * (std::abs(b_0) + std::abs(eta))) << n;
+                // rule G has the force of a power by quadrature
+                const double least = light ? -1e-4 : -1e-9;
+                if (loss == LossLaw::clipped) {
+                    ASSERT_GE(T.m00 * s.phi_0, least * (std::abs(b_0) + std::abs(eta))) << n;
                 }
             }
 }
