@@ -210,8 +210,9 @@ Verdict plays_later_as_at_once(const Case& c) {
     const Descriptor& d = c.scheme;
     const bool steps = d.clock == Clock::stepped;
     const long later = steps ? later_stepped : later_continuous;
-    const Scene now = plucked_at(d, 0),
-                then = plucked_at(d, static_cast<double>(later) / contract_tap_rate);
+    constexpr double soon = 4 / contract_tap_rate;  // [s]: steps that end before it are empty
+    const Scene now = plucked_at(d, soon),
+                then = plucked_at(d, soon + static_cast<double>(later) / contract_tap_rate);
     Settings settings = settings_for(d, now);
     settings.sample_rate = contract_tap_rate;
     if (!is_as_the_scene_says(d, now)) return not_asked("it represents no pluck");
