@@ -33,6 +33,9 @@ Json references_json(const Point& p) {
         references.push_back({{"name", c.name()}, {"settings", settings_json(c.settings)}});
     return references;
 }
+
+// Its modes are found by doubling from a number of their own.
+bool begins(const Point& p) { return p.truth_modes == 0 && p.begin > 0; }
 }  // namespace
 
 void address(Plan& plan, const std::string& of_program) {
@@ -47,7 +50,7 @@ void address(Plan& plan, const std::string& of_program) {
         Json modeless = references;
         for (Json& r : modeless) r["settings"].erase("modes");
         p.truth_key = std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) +
-                      limit + (p.begin > 0 ? " " + std::to_string(p.begin) : "");
+                      limit + (begins(p) ? " " + std::to_string(p.begin) : "");
     }
     std::set<std::string> seen;
     std::vector<Job> once;
@@ -62,7 +65,7 @@ void address(Plan& plan, const std::string& of_program) {
                       {"measured", job.measured}};
         if (job.judged) identity["references"] = references_json(p);
         if (job.judged && p.truth_modes) identity["reference_modes"] = *p.truth_modes;
-        if (job.judged && p.begin > 0) identity["reference_begins"] = p.begin;
+        if (job.judged && begins(p)) identity["reference_begins"] = p.begin;
         if (!job.errors.empty()) identity["errors"] = job.errors;
         if (p.whole) identity["part_of"] = p.true_hash;
         if (!p.in_model) identity["in_model"] = false;
