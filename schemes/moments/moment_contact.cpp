@@ -303,8 +303,8 @@ void MomentRule::with_loss(const MomentMatrix& T, double eta, double b_0, double
 }
 
 // A clipped loss: less of the dampers until the contact does not pull in the mean.
-double MomentRule::shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0,
-                          double l_1, MomentContact& s) const noexcept {
+void MomentRule::shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0,
+                        double l_1, MomentContact& s) const noexcept {
     double low = 0, high = 1;
     for (int i = 0; i < 50; ++i) {
         const double part = 0.5 * (low + high);
@@ -312,7 +312,6 @@ double MomentRule::shrink(const MomentMatrix& T, double eta, double b_0, double 
         (s.phi_0 < 0 ? high : low) = part;
     }
     damped(T, eta, b_0, b_1, low * l_0, low * l_1, s);
-    return low;
 }
 
 namespace {

@@ -89,8 +89,8 @@ private:
                    MomentContact&) const noexcept;
     void damped(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0, double l_1,
                 MomentContact&) const noexcept;
-    double shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0, double l_1,
-                  MomentContact&) const noexcept;
+    void shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0, double l_1,
+                MomentContact&) const noexcept;
 
     struct Integrals {  // of the force over the parabola, and their derivatives by r
         double phi_0 = 0, phi_1 = 0, lost = 0;
