@@ -184,7 +184,7 @@ Results best_of(const Results& r, std::size_t cells) {
     }
     for (const auto& [who, of] : best) first[of.second] = true;
     study::Rows order = study::all_rows(r.cells);
-    std::ranges::stable_partition(order, [&](std::size_t i) { return first[i]; });
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return first[i]; });
     order.resize(std::min(cells, order.size()));
     std::ranges::sort(order);
     Results some = r;
