@@ -91,7 +91,7 @@ struct Rescale : Pass<Rescale> {
         p.start *= in.second, p.duration *= in.second, p.peak *= in.newton();
     }
     void one_of(const char*, auto& variant, auto&&...) {
-        std::visit([this](auto& alternative) { enter(alternative); }, variant);
+        std::visit([this](auto& alternative) { this->enter(alternative); }, variant);
     }
     void enter(auto& part) {
         if constexpr (requires { part.exponent; }) exponent = part.exponent;
