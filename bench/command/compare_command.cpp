@@ -178,7 +178,7 @@ Act compare_verb(CLI::App& program) {
     v.scene(v.r.scene);
     v.set(v.r.set);
     v.option("--modes", v.r.modes, {"N,...", counting.check},
-             "modes of each string; absent: those below 20 kHz, and 1.35, 2, 3 and 4 times as many "
+             "modes of each string; absent: those below 20 kHz, and 1.5, 2, 3 and 4 times as many "
              "where they lie below rate/2. Where schemes, rates and compliance are all named, "
              "those below 20 kHz alone")
         ->delimiter(',');

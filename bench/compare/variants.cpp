@@ -17,7 +17,7 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double multiples[] = {1.35, 2, 3, 4};  // of the modes that a scheme takes unasked
+constexpr double multiples[] = {1.5, 2, 3, 4};  // of the modes that a scheme takes unasked
 
 std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene,
                                       const Settings& settings) {

@@ -16,7 +16,23 @@
 
 namespace jvari {
 
+namespace {
+// p half of a whole number n, s^2 = 1 + z: without a difference,
+//     Q = (1 + s + ... + s^(n-1))/(1 + s),
+//     Q' = (1 + 2 s + ... + (n-2) s^(n-3) + (n-2) s^(n-2)/2)/(1 + s)^2
+PowerQuotient quotient_by_halves(int n, double z) {
+    const double s = std::sqrt(1 + z), by = 1 / (1 + s);
+    double sum = 0, weighted = 0, s_i = 1;  // s^i
+    for (int i = 0; i < n - 2; ++i, s_i *= s) sum += s_i, weighted += (i + 1) * s_i;
+    sum += s_i * (1 + s);
+    weighted += 0.5 * (n - 2) * s_i;
+    return {sum * by, weighted * by * by};
+}
+}  // namespace
+
 PowerQuotient power_quotient(double p, double z) {
+    const int halves = p <= 6 ? static_cast<int>(2 * p) : 0;
+    if (halves == 2 * p) return quotient_by_halves(halves, z);
     if (std::abs(z) < 1e-3) {
         const double c1 = p, c2 = c1 * (p - 1) / 2, c3 = c2 * (p - 2) / 3, c4 = c3 * (p - 3) / 4,
                      c5 = c4 * (p - 4) / 5, c6 = c5 * (p - 5) / 6;
@@ -76,7 +92,7 @@ ContactSolution enter(double k, double p, double gap, double free, double theta)
     double x = std::min(free, std::exp(std::max(near, deep)));
     for (s.iterations = 1; s.iterations <= newton_steps; ++s.iterations) {
         // theta V(x)/(e + x)
-        const double reach = gap + x, load = T * std::pow(x, p - 1) * (x / reach);
+        const double reach = gap + x, load = T * power(x, p - 1) * (x / reach);
         const double residual = x + load - free;
         const double slope = load * (p / x - 1 / reach);
         const double step = residual / (1 + slope);
@@ -102,7 +118,7 @@ double depth_in_series(const ContactLaw& law, double zeta, double S) {
     // both are above the root, and the function is convex
     double eta = std::min(zeta, std::pow(zeta / (S * law.k), 1 / law.alpha));
     for (int i = 0; i < newton_steps; ++i) {
-        const double load = S * law.k * std::pow(eta, law.alpha);
+        const double load = S * law.k * power(eta, law.alpha);
         const double step = (eta + load - zeta) / (1 + law.alpha * load / eta);
         eta -= step;
         if (!(std::abs(step) > 1e-9 * eta)) break;
@@ -116,7 +132,7 @@ ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b,
     if (eta <= 0) return enter(law.k, p, -eta, eta + b, theta);
     // a penetration below the rounding of the step is none
     if (b * epsilon > eta) return enter(law.k, p, 0.0, b, theta);
-    const double B = b / eta, scale = law.k / p * std::pow(eta, law.alpha), S = theta * scale / eta;
+    const double B = b / eta, scale = law.k / p * power(eta, law.alpha), S = theta * scale / eta;
     if (S >= 1 + B) {  // leaves: rho = r/eta >= 1 solves rho^2 + B rho - S = 0
         const double root = std::sqrt(B * B + 4 * S);
         const double rho = B > 0 ? 2 * S / (B + root) : 0.5 * (root - B);

@@ -17,6 +17,16 @@
 
 namespace jvari {
 
+// x^a, x >= 0. The exponents that are halves of whole numbers, among them those of Hertz, take a
+// root and products.
+inline double power(double x, double a) {
+    const int halves = a <= 6 ? static_cast<int>(2 * a) : 0;
+    if (halves <= 0 || halves != 2 * a) return std::pow(x, a);
+    double product = halves % 2 == 1 ? std::sqrt(x) : 1;
+    for (int i = halves / 2; i > 0; --i) product *= x;
+    return product;
+}
+
 struct ContactLaw {
     double k = 0;      // [N/m^alpha]
     double alpha = 1;  // exponent
@@ -24,15 +34,15 @@ struct ContactLaw {
     bool rigid() const { return std::isinf(k); }  // the barrier does not give way
     double potential(double eta) const {          // V [J]
         if (eta <= 0) return 0;
-        return alpha == 1 ? 0.5 * k * eta * eta : k * std::pow(eta, alpha + 1) / (alpha + 1);
+        return alpha == 1 ? 0.5 * k * eta * eta : k * power(eta, alpha + 1) / (alpha + 1);
     }
     double force(double eta) const {  // V' [N]
         if (eta <= 0) return 0;
-        return alpha == 1 ? k * eta : k * std::pow(eta, alpha);
+        return alpha == 1 ? k * eta : k * power(eta, alpha);
     }
     double slope(double eta) const {  // V'' [N/m]
         if (eta <= 0) return 0;
-        return alpha == 1 ? k : alpha * k * std::pow(eta, alpha - 1);
+        return alpha == 1 ? k : alpha * k * power(eta, alpha - 1);
     }
 };
 

@@ -53,8 +53,14 @@ ContactGram::ContactGram(std::span<const ContactLaw> laws, std::span<const doubl
     for (auto* w : {&depth_, &mean_, &spring_, &slope_, &defect_, &dr_, &df_, &root_})
         w->assign(n, 0.0);
     active_.assign(n, 0);
+    for (const ContactLaw& law : laws_) half_root_.push_back(std::sqrt(0.5 * law.k));
+    for (const ContactLaw& law : laws_) give_.push_back(2 / law.k);
     for (const Group& g : groups_) largest_ = std::max(largest_, g.count);
     system_ = ScaledSystem(largest_);
+    closed_.resize(closed_sets * groups_.size());
+    for (std::size_t i = 0; i < closed_.size(); ++i)
+        if (const int size = groups_[i / closed_sets].count; size > 1 && !of_the_ends_)
+            closed_[i].system = ScaledSystem(size);
 }
 
 [[gnu::always_inline]] inline ContactSolution ContactGram::alone(int a, double eta,
@@ -81,7 +87,8 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
                                 bool elastic) noexcept {
     GramSolution worst;
     losing_ = !loss_.empty() && !elastic;
-    for (const Group& g : groups_) {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        const Group& g = groups_[i];
         const int a = order_[g.first];
         GramSolution s;
         if (g.count == 1) {
@@ -94,7 +101,7 @@ GramSolution ContactGram::solve(const double* eta, const double* b, double* r, d
             r[a] = one.r;
             force[a] = one.force;
             s = {one.iterations, one.residual, one.converged};
-        } else {
+        } else if (!solve_by_set(i, eta, b, r, force, s)) {
             s = solve_group(g, eta, b, r, force);
         }
         worst.iterations = std::max(worst.iterations, s.iterations);
@@ -133,6 +140,107 @@ bool ContactGram::newton_step(const int* set, int n) noexcept {
         if (-slope_[active_[i]] * theta_[active_[i] * stride + active_[i]] > 1)
             dr_[active_[i]] = w[i] / root_[active_[i]];
     return true;
+}
+
+const ContactGram::Closed& ContactGram::closed(std::size_t group, std::uint64_t set) noexcept {
+    const std::size_t slot = (set ^ (set >> 3) ^ (set >> 11) ^ (set >> 29)) % closed_sets;
+    Closed& kept = closed_[group * closed_sets + slot];
+    if (kept.set == set) return kept;
+    kept.set = set;
+    const int* all = order_.data() + groups_[group].first;
+    int n = 0;
+    for (int i = 0; i < groups_[group].count; ++i)
+        if (set >> i & 1) active_[n++] = all[i];
+    if (!kept.system.factor(theta_.data(), count(), active_.data(), n, half_root_.data()))
+        kept.set = 0;
+    return kept;
+}
+
+// Forces where the contacts of a set stay in contact, another, `one` or -1, does what its own
+// equation says, and the rest stays out. With D = k/2 of the set,
+//
+//     (1/D + Theta) F = 2 eta + b - Theta_s1 F_1,    b_1' = b_1 - Theta_1s F_0,
+//     Theta_11' = Theta_11 - Theta_1s (1/D + Theta)^-1 Theta_s1
+ContactGram::Fit ContactGram::fit(std::size_t group, std::uint64_t set, int one, const double* eta,
+                                  const double* b, double* r, double* force,
+                                  GramSolution& s) noexcept {
+    const int stride = count(), n = groups_[group].count;
+    const int* all = order_.data() + groups_[group].first;
+    const Fit failed{n + 1, -1};
+    s = {};
+    const Closed* kept = set ? &closed(group, set) : nullptr;
+    if (kept && kept->set != set) return failed;
+    int m = 0;
+    for (int i = 0; i < n; ++i) {
+        const int a = all[i];
+        force[a] = 0;
+        if (!(set >> i & 1)) continue;
+        active_[m] = a;
+        df_[m++] = half_root_[a] * (2 * eta[a] + b[a]);
+    }
+    if (kept) kept->system.solve(df_.data());
+    if (one >= 0) {
+        const int o = all[one];
+        const double* to = theta_.data() + o * stride;
+        double b_one = b[o], theta = to[o];
+        for (int i = 0; i < m; ++i) dr_[i] = half_root_[active_[i]] * to[active_[i]];
+        if (kept) kept->system.solve(dr_.data());
+        for (int i = 0; i < m; ++i) {
+            const double by = half_root_[active_[i]] * to[active_[i]];
+            b_one -= by * df_[i], theta -= by * dr_[i];
+        }
+        const ContactSolution own = solve_contact(laws_[o], eta[o], b_one, theta);
+        if (!own.converged) return failed;
+        s.iterations = own.iterations;
+        force[o] = own.force;
+        depth_[o] = eta[o] - own.r;
+        for (int i = 0; i < m; ++i) df_[i] -= dr_[i] * own.force;
+        active_[m] = o;
+    }
+    for (int i = 0; i < m; ++i) force[active_[i]] = half_root_[active_[i]] * df_[i];
+    const int acting = m + (one >= 0);
+    Fit fit;
+    for (int i = 0; i < n; ++i) {
+        const int a = all[i];
+        const double* to = theta_.data() + a * stride;
+        double moved = -b[a], terms = std::abs(b[a]) + std::abs(eta[a]);
+        for (int j = 0; j < acting; ++j) {
+            const double by = to[active_[j]] * force[active_[j]];
+            moved += by, terms += std::abs(by);
+        }
+        r[a] = moved;
+        if (i != one && !(set >> i & 1)) {
+            if (!(eta[a] <= 0 && eta[a] - moved <= 0)) ++fit.misfits, fit.misfit = i;
+            continue;
+        }
+        if (i != one) depth_[a] = give_[a] * force[a] - eta[a];
+        const double defect = std::abs(eta[a] - depth_[a] - moved) / terms;
+        if (!(defect <= 4 * rounding)) return failed;
+        s.residual = std::max(s.residual, defect);
+        if (i != one && !(depth_[a] > 0)) ++fit.misfits, fit.misfit = i;
+    }
+    return fit;
+}
+
+bool ContactGram::solve_by_set(std::size_t group, const double* eta, const double* b, double* r,
+                               double* force, GramSolution& s) noexcept {
+    const Group& g = groups_[group];
+    if (of_the_ends_ || losing_ || g.count > 64) return false;
+    std::uint64_t set = 0;
+    int one = -1;  // a contact of another exponent than 1
+    for (int i = 0; i < g.count; ++i) {
+        const int a = order_[g.first + i];
+        if (!(eta[a] > 0)) continue;
+        if (laws_[a].alpha == 1) set |= std::uint64_t{1} << i;
+        else if (one >= 0) return false;
+        else one = i;
+    }
+    Fit f = fit(group, set, one, eta, b, r, force, s);
+    if (f.misfits == 1 && one < 0) {
+        one = f.misfit;
+        f = fit(group, set & ~(std::uint64_t{1} << one), one, eta, b, r, force, s);
+    }
+    return f.misfits == 0;
 }
 
 GramSolution ContactGram::solve_group(const Group& group, const double* eta, const double* b,

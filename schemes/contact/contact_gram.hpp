@@ -7,15 +7,19 @@
 // is the one minimum of the convex merit f' Theta f/2 - sum_a int F_a dr_a. With Force::of_the_ends
 // F_a is V_a'(eta_a - r_a) instead, of the new depths alone: what a contact with Theta in series
 // gives. Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta
-// is diagonal); the coupled ones take Newton steps on the active set, each with a line search on
-// the merit's slope. With losses F_a is that of StepLoss (contact.hpp), which falls with r_a as
-// well. It ends where a Newton step leads through
-// forces k Theta times as large as the solution's, whose difference has no digits left: with
-// strings from k Theta of 1e18 on, with random singular Theta of both signs,
-// which strings have not, from 1e11 on in a few draws of a hundred.
+// is diagonal). Of the coupled ones those that touch at the beginning of the step are taken to stay
+// in contact and the others out of it. Where all of them or all but one do so, and all but this one
+// are linear without losses, the forces follow from one factored matrix, which is kept. Else Newton steps on the
+// active set, each with a line search on the merit's slope. With losses F_a is that of StepLoss
+// (contact.hpp), which falls with r_a as well.
+//
+// Newton ends where a step leads through forces k Theta times as large as the solution's, whose
+// difference has no digits left: with strings from k Theta of 1e18 on, with random singular Theta
+// of both signs, which strings have not, from 1e11 on in a few draws of a hundred.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -58,6 +62,7 @@ public:
     // Other compliances, coupled where the first ones were. Allocates nothing.
     void set(std::span<const double> theta) noexcept {
         std::copy(theta.begin(), theta.end(), theta_.begin());
+        for (Closed& kept : closed_) kept.set = 0;
     }
 
     // eta [m] and b [m] in, r [m] and the mean forces [N] out; n of each. Allocates nothing.
@@ -71,8 +76,20 @@ private:
     struct Group {  // contacts coupled to each other: order_[first ... first + count)
         int first, count;
     };
+    struct Closed {             // linear contacts in full contact, F = k (eta - r/2)
+        std::uint64_t set = 0;  // by position in the group
+        ScaledSystem system;    // I + (k/2)^1/2 Theta (k/2)^1/2 of them
+    };
+    bool solve_by_set(std::size_t group, const double* eta, const double* b, double* r,
+                      double* force, GramSolution&) noexcept;
     GramSolution solve_group(const Group&, const double* eta, const double* b, double* r,
                              double* force) noexcept;
+    struct Fit {
+        int misfits = 0, misfit = -1;  // contacts not as assumed; one of them, in the group
+    };
+    Fit fit(std::size_t group, std::uint64_t closed, int one, const double* eta, const double* b,
+            double* r, double* force, GramSolution&) noexcept;
+    const Closed& closed(std::size_t group, std::uint64_t set) noexcept;
     bool newton_step(const int* set, int n) noexcept;
     ContactSolution alone(int a, double eta, double b) const noexcept;
     ContactSolution spring_alone(int a, double eta, double b, double theta) const noexcept;
@@ -94,6 +111,9 @@ private:
     std::vector<double> depth_, mean_, spring_, slope_, defect_, dr_, df_, root_;  // workspaces
     ScaledSystem system_;
     std::vector<int> active_;
+    static constexpr std::size_t closed_sets = 8;  // of each group
+    std::vector<Closed> closed_;
+    std::vector<double> half_root_, give_;  // of each contact: (k/2)^1/2, 2/k
 };
 
 [[gnu::always_inline]] inline ContactSolution ContactGram::spring_alone(

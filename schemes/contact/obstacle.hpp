@@ -93,10 +93,12 @@ public:
     const double* forces(int level) const { return series_->force(level); }  // in series [N]
     std::vector<Fact> facts() const;
 
-    // For a string whose kernel makes whole steps (modal/two_point_modes.hpp): what it solves for,
-    // nullptr where that is more than one contact by the discrete gradient and a thread.
+    // For a string whose kernel makes whole steps (modal/two_point_modes.hpp): nullptr where they
+    // solve for more than one contact by the discrete gradient and a thread.
     ContactAndThread* one() { return fused_ ? &one_ : nullptr; }
+    const ContactAndThread* one() const { return fused_ ? &one_ : nullptr; }
     Residual* series() { return series_ ? &*series_ : nullptr; }
+    bool has_series() const { return series_.has_value(); }
 
 private:
     Obstacle(const Contacts&, std::vector<Thread>, std::span<const double> theta, double span,

@@ -41,10 +41,10 @@ struct QuadratisedLaw {
     }
     double psi(double eta) const {  // sqrt(2 V(eta))
         if (eta <= 0) return 0;
-        return law.alpha == 1 ? root_2V * eta : root_2V * std::pow(eta, 0.5 * (law.alpha + 1));
+        return law.alpha == 1 ? root_2V * eta : root_2V * power(eta, 0.5 * (law.alpha + 1));
     }
     double gamma(double eta) const {  // eta > 0
-        return law.alpha == 1 ? slope : slope * std::pow(eta, 0.5 * (law.alpha - 1));
+        return law.alpha == 1 ? slope : slope * power(eta, 0.5 * (law.alpha - 1));
     }
 };
 

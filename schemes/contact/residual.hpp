@@ -73,7 +73,14 @@ public:
         for (int level = 0; level < 2; ++level) take(state_[level], before.state_[level]);
     }
     void step(const double* F) noexcept {
-        points_ == 1 ? step<1>(F) : points_ == 2 ? step<2>(F) : step<0>(F);
+        switch (points_) {
+            case 1: return step<1>(F);
+            case 2: return step<2>(F);
+            case 3: return step<3>(F);
+            case 4: return step<4>(F);
+            case 5: return step<5>(F);
+            default: return step<0>(F);
+        }
     }
     template <int few>
     [[gnu::always_inline]] void step(const double* F) noexcept {

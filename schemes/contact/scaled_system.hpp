@@ -28,8 +28,8 @@ public:
         for (int j = 0; j < n; ++j) {
             double* L = column(j);
             if (!(L[j] > 0) || !std::isfinite(L[j])) return false;
-            L[j] = std::sqrt(L[j]);
-            for (int i = j + 1; i < n; ++i) L[i] /= L[j];
+            L[j] = 1 / std::sqrt(L[j]);  // its reciprocal: no division in solve
+            for (int i = j + 1; i < n; ++i) L[i] *= L[j];
             for (int k = j + 1; k < n; ++k)
                 for (int i = k; i < n; ++i) column(k)[i] -= L[k] * L[i];
         }
@@ -38,7 +38,7 @@ public:
     void forward(double* x) const noexcept {  // L^-1 x in place, by position in the set
         for (int j = 0; j < size_; ++j) {
             const double* L = column(j);
-            x[j] /= L[j];
+            x[j] *= L[j];
             for (int i = j + 1; i < size_; ++i) x[i] -= L[i] * x[j];
         }
     }
@@ -47,7 +47,7 @@ public:
         for (int j = size_ - 1; j >= 0; --j) {
             const double* L = column(j);
             for (int i = j + 1; i < size_; ++i) x[j] -= L[i] * x[i];
-            x[j] /= L[j];
+            x[j] *= L[j];
         }
     }
 

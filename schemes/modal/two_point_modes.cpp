@@ -57,7 +57,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     std::vector<double> A, B, own;
     std::vector<double>& scale = scale_;
     AlignedVector c(m_.size), loss(m_.size);
-    for (AlignedVector* a : {&J_, &y0_, &u0_, &push_}) a->assign(m_.size, 0.0);
+    for (AlignedVector* a : {&J_, &y0_, &u0_}) a->assign(m_.size, 0.0);
     for (int i = 0; i < count; ++i) {
         const auto [Ai, Bi] = law(modes.omega0[i], modes.sigma[i], dt_);
         const double J = J_[i] = 1 + Ai + Bi;
@@ -74,10 +74,6 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         free_modes_.push_back(two_point_mode(Ai, Bi, dt_));
         offset_ = std::max(offset_, lead_at_start(modes.omega0[i], modes.sigma[i], Ai, Bi));
     }
-    stream_.assign(static_cast<std::size_t>(m_.size) * two_point_columns, 0.0);
-    m_.stream = stream_.data();
-    put(Column::c, c);
-    put(Column::loss, loss);
     const auto scaled = [&](const std::vector<double>& weights) {
         AlignedVector w(weights.begin(), weights.end());
         for (int i = 0; i < count; ++i) w[i] /= scale[i];
@@ -90,13 +86,28 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     if (matched) p_.series = modal_missing_matrix(descriptor, scene, modes, dt_, own);
     const ModalStart start = start_of(modes, s, yield_of(own, p_.series));
     put_start(p_, s, modes, start);
-    for (int i = 0; i < count; ++i) begin(i, start.displacement[i], start.velocity[i]);
     for (const Footprint& f : sites_of(scene).forces)
         if (g_.size() < p_.positions.size())
             g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
+    const bool on_body = needed_by(scene).has(Feature::moving_body);
+    if (on_body) {
+        const AlignedVector mu = scaled(end_inertia(modes, s));
+        body_ = {mu, mu, mu};
+        for (int i = 0; i < count; ++i) {  // s - 2q = -(A + B) u - 2 A y
+            body_.on_y[i] *= -2 * A[i];
+            body_.on_u[i] *= -(A[i] + B[i]);
+        }
+        g_.push_back(mu);
+    }
+    const int points = m_.points = static_cast<int>(g_.size());
+    stream_.assign(static_cast<std::size_t>(m_.size) * m_.columns(), 0.0);
+    m_.stream = stream_.data();
+    put(Column::c, c);
+    put(Column::loss, loss);
+    for (int p = 0; p < points; ++p) put(Column::g, g_[p], p);
+    for (int i = 0; i < count; ++i) begin(i, start.displacement[i], start.velocity[i]);
     if (s.pluck) {
         g_e_ = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        m_.g_e = g_e_.data();
         for (const AlignedVector& g : g_) pluck_.theta.push_back(gram(g, g_e_));
         const PluckSteps steps = pluck_steps(*s.pluck, dt_, scene.duration);
         pluck_.of = *s.pluck;
@@ -105,20 +116,8 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
             pluck_.mean.push_back(mean_in_step(pluck_.of, n, dt_));
     }
-    std::vector<const AlignedVector*> all;
-    for (const AlignedVector& g : g_) all.push_back(&g);
-    const bool on_body = needed_by(scene).has(Feature::moving_body);
-    if (on_body) {
-        const AlignedVector mu = scaled(end_inertia(modes, s));
-        body_ = {mu, mu, mu, s.pluck ? gram(mu, g_e_) : 0};
-        for (int i = 0; i < count; ++i) {  // s - 2q = -(A + B) u - 2 A y
-            body_.on_y[i] *= -2 * A[i];
-            body_.on_u[i] *= -(A[i] + B[i]);
-        }
-        all.push_back(&body_.mu);
-    }
-    for (const AlignedVector* a : all)  // theta of (43), (44)
-        for (const AlignedVector* b : all) p_.theta.push_back(gram(*a, *b));
+    for (const AlignedVector& g : g_)  // theta of (43), (44)
+        for (const AlignedVector& h : g_) p_.theta.push_back(gram(g, h));
 
     for (const Tap& tap : scene.taps) {
         TapOfModes t;
@@ -139,22 +138,10 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     }
     if (!matched && p_.contacts.count() == 1 && !on_body)
         compliance_ = relative_compliance(modes, s, own);
-    for (auto* v : {&older_, &free_}) v->assign(g_.size(), 0.0);
-    if (p_.contacts.count() <= 1 && !on_body) {
-        const bool barrier = p_.contacts.count() == 1, thread = !p_.threads.empty();
-        if (barrier) put(Column::g_b, g_.front());
-        if (thread) put(Column::g_c, g_.back());
-        const auto theta = [&](std::size_t a, std::size_t b) {
-            return p_.theta[a * g_.size() + b];
-        };
-        const auto of_pluck = [&](std::size_t a) { return s.pluck ? pluck_.theta[a] : 0; };
-        const std::size_t last = g_.size() - 1;
-        if (barrier) m_.theta_bb = theta(0, 0), m_.theta_be = of_pluck(0);
-        if (thread) m_.theta_cc = theta(last, last), m_.theta_ce = of_pluck(last);
-        if (barrier && thread) m_.theta_bc = theta(0, last);
-        unplucked_ = two_point_pass(barrier, thread, false);
-        plucked_ = two_point_pass(barrier, thread, true);
-    }
+    for (auto* v : {&y_, &u_, &free_, &force_}) v->assign(2 * g_.size(), 0.0);
+    sums_.assign(2 * g_.size() * TwoPointStream::line, 0.0);
+    m_.y = y_.data(), m_.u = u_.data(), m_.theta = p_.theta.data(), m_.sums = sums_.data();
+    pass_ = two_point_pass(points);
     reset();
 }
 
@@ -173,8 +160,8 @@ bool TwoPointModes::start_from(const TwoPointModes& before) noexcept {
     return true;
 }
 
-void TwoPointModes::put(Column column, const AlignedVector& values) {
-    for (int i = 0; i < m_.size; ++i) stream_[two_point_at(column, i)] = values[i];
+void TwoPointModes::put(Column column, const AlignedVector& values, int point) {
+    for (int i = 0; i < m_.size; ++i) stream_[m_.at(column, i, point)] = values[i];
 }
 
 void TwoPointModes::reset() noexcept {
@@ -182,11 +169,8 @@ void TwoPointModes::reset() noexcept {
     put(Column::u, u0_);
     m_.step = 0;
     sum_ = 0;
-    m_.y_b = m_.u_b = m_.y_c = m_.u_c = 0;
-    if (!unplucked_) return;
-    if (p_.contacts.count() == 1)
-        m_.y_b = modal_dot(g_.front(), y0_), m_.u_b = modal_dot(g_.front(), u0_);
-    if (!p_.threads.empty()) m_.y_c = modal_dot(g_.back(), y0_), m_.u_c = modal_dot(g_.back(), u0_);
+    for (std::size_t p = 0; p < g_.size(); ++p)
+        y_[p] = modal_dot(g_[p], y0_), u_[p] = modal_dot(g_[p], u0_);
 }
 
 void TwoPointModes::approach(bool) noexcept {
@@ -195,78 +179,52 @@ void TwoPointModes::approach(bool) noexcept {
            : k < std::ssize(pluck_.mean) ? pluck_.mean[k]
                                          : mean_in_step(pluck_.of, m_.step, dt_);
     sum_ = 0;
-    const std::size_t contacts = p_.contacts.laws.size();
-    for (std::size_t a = 0; a < g_.size(); ++a) {
-        if (unplucked_) {
-            older_[a] = a < contacts ? m_.y_b : m_.y_c;
-            free_[a] = a < contacts ? m_.u_b : m_.u_c;
-        } else {
-            older_[a] = dot_(g_[a].data(), m_, Column::y);
-            free_[a] = dot_(g_[a].data(), m_, Column::u);
-        }
-        sum_ += older_[a];
-        if (F_e_ != 0) free_[a] += pluck_.theta[a] * F_e_;
+    for (std::size_t p = 0; p < g_.size(); ++p) {
+        free_[p] = u_[p];
+        sum_ += y_[p];
+        if (F_e_ != 0) free_[p] += pluck_.theta[p] * F_e_;
     }
 }
 
-void TwoPointModes::push(const double* force, double a) noexcept {  // sum of g F
-    std::fill(push_.begin(), push_.end(), 0.0);
-    const auto add = [this](const AlignedVector& g, double F) {
-        for (std::size_t i = 0; i < push_.size(); ++i) push_[i] += g[i] * F;
-    };
-    for (std::size_t p = 0; p < g_.size(); ++p)
-        if (force[p] != 0) add(g_[p], force[p]);
-    if (F_e_ != 0) add(g_e_, F_e_);
-    if (!body_.mu.empty()) add(body_.mu, -a);
+void TwoPointModes::pluck_modes() noexcept {
+    for (int i = 0; i < m_.modes; ++i) stream_[m_.at(Column::u, i)] += g_e_[i] * F_e_;
+    for (std::size_t p = 0; p < g_.size(); ++p) u_[p] += pluck_.theta[p] * F_e_;
 }
 
+// The pluck adds to u before and after the pass, as f does in s = u + f and u <- s + f - ...
 Spent TwoPointModes::pass(const double* force, double a, bool probed) noexcept {
-    if (probed || !unplucked_) push(force, a);
+    const double* F = force;
+    if (!body_.mu.empty()) {
+        std::copy_n(force, g_.size() - 1, force_.begin());
+        force_[g_.size() - 1] = -a;
+        F = force_.data();
+    }
     Spent spent;
     for (int i = 0; probed && i < m_.modes; ++i) {  // (51), (52)
-        const double s = at(Column::u, i) + push_[i];
+        double s = at(Column::u, i) + (F_e_ != 0 ? g_e_[i] * F_e_ : 0);
+        for (std::size_t p = 0; p < g_.size(); ++p) s += g_[p][i] * F[p];
         spent.dissipated += 0.5 * at(Column::loss, i) * s * s;
         if (F_e_ != 0) spent.supplied += F_e_ * g_e_[i] * s;
     }
-    if (unplucked_) {
-        const std::size_t c = p_.contacts.laws.size();
-        (F_e_ != 0 ? plucked_ : unplucked_)(m_, c == 1 ? force[0] : 0,
-                                            p_.threads.empty() ? 0 : force[c], F_e_);
-        return spent;
-    }
-    ++m_.step;
-    for (int from = 0; from < m_.modes; from += two_point_line) {
-        double *y = m_.stream + two_point_at(Column::y, from),
-               *u = m_.stream + two_point_at(Column::u, from);
-        const double *c = m_.stream + two_point_at(Column::c, from),
-                     *loss = m_.stream + two_point_at(Column::loss, from);
-        const double* f = push_.data() + from;
-        for (int k = 0; k < two_point_line; ++k) {
-            const double s = u[k] + f[k];                 // (41)
-            y[k] += s;                                    // (40)
-            u[k] = s + f[k] - loss[k] * s - c[k] * y[k];  // (42) of the next step
-        }
-    }
+    if (F_e_ != 0) pluck_modes();
+    pass_(m_, F);
+    if (F_e_ != 0) pluck_modes();
     return spent;
 }
 
 void TwoPointModes::fuse(Obstacle& obstacle, int steps_per_row) {
-    ContactAndThread* touching = obstacle.one();
-    Residual* series = obstacle.series();
-    if (!unplucked_ || !touching) return;
-    fused_ = two_point_kernel(touching->contact, touching->thread, series && p_.count() > 0);
-    touching_ = touching;
-    in_series_ = series;
+    if (!body_.mu.empty()) return;
+    rows_ = two_point_kernel(m_.points, obstacle);
+    obstacle_ = &obstacle;
     steps_per_row_ = steps_per_row;
     m_.summed_again = two_point_summed_again;
     for (std::size_t k = 0; k < taps_.size(); ++k) {
         const TapOfModes& of = taps_[k];
-        TwoPointTap t{of.on_y.empty() ? nullptr : of.on_y.data(),
-                      of.on_u.empty() ? nullptr : of.on_u.data()};
-        std::copy(of.on_mean.begin(), of.on_mean.end(), t.on_mean);
-        if (p_.series && !p_.series->taps[k].empty())
-            std::copy_n(p_.series->taps[k].begin(), p_.count(), t.on_P);
-        fused_taps_.push_back(t);
+        const bool series = p_.series && m_.points > 0 && !p_.series->taps[k].empty();
+        fused_taps_.push_back({of.on_y.empty() ? nullptr : of.on_y.data(),
+                               of.on_u.empty() ? nullptr : of.on_u.data(),
+                               of.on_mean.empty() ? nullptr : of.on_mean.data(),
+                               series ? p_.series->taps[k].data() : nullptr});
     }
 }
 
@@ -275,15 +233,18 @@ FusedRows TwoPointModes::fused_rows(const Block& out, int row, double* sum) noex
     long rows = out.rows - row;
     if (pluck_.steps > 0 && k < pluck_.steps)
         rows = std::min(rows, std::max(-k, 0L) / steps_per_row_);
-    if (!fused_ || rows == 0) return {};
-    TwoPointRows r{fused_taps_.data(), row, row + static_cast<int>(rows), steps_per_row_, sum};
-    const bool stopped = !fused_(m_, *touching_, in_series_, out, r);
-    sum_ = m_.y_b + m_.y_c;
+    if (!rows_ || rows == 0) return {};
+    TwoPointRows r{fused_taps_.data(), row, row + static_cast<int>(rows),
+                   steps_per_row_,     sum, force_.data() + m_.points,
+                   force_.data()};
+    const bool stopped = !rows_(m_, *obstacle_, out, r);
+    sum_ = 0;
+    for (int p = 0; p < m_.points; ++p) sum_ += y_[p];
     return {r.end - row, r.steps, r.converged, stopped};
 }
 
 void TwoPointModes::reading(int, double* out) const noexcept {
-    for (std::size_t p = 0; p < g_.size(); ++p) out[p] = dot_(g_[p].data(), m_, Column::y);
+    for (int p = 0; p < p_.count(); ++p) out[p] = dot_(g_[p].data(), m_, Column::y);
 }
 
 double TwoPointModes::stored() const noexcept {
@@ -298,7 +259,7 @@ double TwoPointModes::stored() const noexcept {
 double TwoPointModes::inertia() const {
     const double a =
         dot_(body_.on_y.data(), m_, Column::y) + dot_(body_.on_u.data(), m_, Column::u);
-    return 2 / (dt_ * dt_) * (a + body_.theta_e * F_e_);
+    return 2 / (dt_ * dt_) * (a + (F_e_ != 0 ? pluck_.theta.back() * F_e_ : 0));
 }
 
 double TwoPointModes::momentum() const {  // v = 2q/dt

@@ -35,7 +35,7 @@ public:
     void reset() noexcept;
     bool start_from(const TwoPointModes& before) noexcept;
     void approach(bool) noexcept;
-    ReadingsBeforeStep readings() const { return {older_.data(), older_.data(), free_.data()}; }
+    ReadingsBeforeStep readings() const { return {y_.data(), y_.data(), free_.data()}; }
     Spent pass(const double* force, double a, bool probed) noexcept;
     void reading(int, double* out) const noexcept;
     double stored() const noexcept;  // (49)
@@ -68,22 +68,21 @@ private:
     struct PluckForce {
         Pluck of;
         std::vector<double> mean;   // in the step first + n, as far as the scene lasts [N]
-        std::vector<double> theta;  // of each point [m/N]
+        std::vector<double> theta;  // of each point [m/N], and of a moving body [s^2]
         long first = 0, steps = 0;
     };
     // what a body that moves reads of the string, and pushes: empty without one
     struct AtBody {
         // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
         AlignedVector mu, on_y, on_u;
-        double theta_e = 0;  // of the pluck [s^2]
     };
-    void put(TwoPointColumn, const AlignedVector&);
-    void push(const double* force, double a) noexcept;
+    void put(TwoPointColumn, const AlignedVector&, int point = 0);
+    void pluck_modes() noexcept;
     double momentum_of(int i) const {  // q_i/J_i
         return 0.5 * at(TwoPointColumn::u, i) +
                0.25 * at(TwoPointColumn::c, i) * at(TwoPointColumn::y, i);
     }
-    double at(TwoPointColumn column, int i) const { return stream_[two_point_at(column, i)]; }
+    double at(TwoPointColumn column, int i) const { return stream_[m_.at(column, i)]; }
     double displacement(int i) const { return at(TwoPointColumn::y, i) / scale_[i]; }  // [m]
     double velocity(int i) const {  // 2q/dt [m/s]
         return 2 * J_[i] * momentum_of(i) / (dt_ * scale_[i]);
@@ -96,23 +95,22 @@ private:
     double dt_ = 0;
     StringPoints p_;
     TwoPointStream m_;
-    AlignedVector stream_, J_, y0_, u0_, push_;
+    AlignedVector stream_, J_, y0_, u0_, sums_;
     std::vector<double> scale_;     // sqrt(J/xi)
-    std::vector<AlignedVector> g_;  // scaled; the contacts in order, then the thread
+    std::vector<AlignedVector> g_;  // scaled; the contacts in order, the thread, a moving body
     AlignedVector g_e_;             // the pluck's
     PluckForce pluck_;
     AtBody body_;
-    // fused, of one contact and a thread at most, on no body
     const TwoPointDot dot_ = two_point_dot();
-    TwoPointPass unplucked_ = nullptr, plucked_ = nullptr;
-    TwoPointKernel fused_ = nullptr;  // with the obstacle's steps
+    TwoPointPass pass_ = nullptr;
+    // whole rows, on no body
+    TwoPointKernel rows_ = nullptr;
     std::vector<TwoPointTap> fused_taps_;
+    Obstacle* obstacle_ = nullptr;
     long steps_per_row_ = 1;
-    ContactAndThread* touching_ = nullptr;
-    Residual* in_series_ = nullptr;
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;
-    std::vector<double> older_, free_;
+    std::vector<double> y_, u_, free_, force_;  // of the points; free_: u_ with the pluck
     // of one contact under a steady force, relative to the true one of the same modes; else 0
     double compliance_ = 0;
     double offset_ = 0;  // of the phase of a start from rest [rad]

@@ -12,8 +12,9 @@ namespace jvari {
 
 namespace {
 constexpr double half_bit = std::numeric_limits<double>::epsilon();
-constexpr double radiates = 0.2;  // rho from which on rule D takes the contact
-constexpr double stiff = 1e10;    // of a rigid barrier, k T_00
+constexpr double radiates = 0.2;            // rho from which on rule D takes the contact
+constexpr double stiff = 1e10;              // of a rigid barrier, k T_00
+constexpr double rounding_squared = 1e-22;  // of r, by rule G
 constexpr int most_newton = 100, most_halvings = 25;
 
 MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
@@ -32,24 +33,16 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
       beta_(beta),
       span_(span),
       c_(1 / law_.k),
+      share_(1 / (law_.alpha + 1)),
       clipped_(loss == LossLaw::clipped),
       galerkin_(alone && !law.rigid() && 3 * T.m11 < radiates * T.m00),
-      linear_(!galerkin_ && beta == 0 && law_.alpha == 1) {
-    const double twice = 2 * law_.alpha;
-    if (twice == std::floor(twice) && twice <= 8) twice_ = static_cast<int>(twice);
-}
+      linear_(!galerkin_ && beta == 0 && law_.alpha == 1) {}
 
 MomentRule::Powers MomentRule::powers(double eta) const noexcept {
     if (!(eta > 0)) return {0, 0, 0};
-    double power = 1;
-    if (twice_ > 0) {
-        for (int i = 2; i <= twice_; i += 2) power *= eta;
-        if (twice_ % 2 == 1) power *= std::sqrt(eta);
-    } else {
-        power = std::pow(eta, law_.alpha);
-    }
-    const double force = law_.k * power;
-    return {force * eta / (law_.alpha + 1), force, law_.alpha * force / eta};
+    const double by = law_.alpha == 1 ? law_.k : law_.k * power(eta, law_.alpha - 1),
+                 force = by * eta;
+    return {force * eta * share_, force, law_.alpha * by};
 }
 
 MomentRule::Quotient MomentRule::quotient(double from, double to, const Powers& a,
@@ -59,13 +52,13 @@ MomentRule::Quotient MomentRule::quotient(double from, double to, const Powers& 
         return {0.5 * (a.force + b.force), 0.5 * law_.k, 0.5 * law_.k};
     const double d = to - from;
     if (from > 0 && std::abs(d) < 0.05 * from) {  // without the difference of V
-        const auto [value, slope] = power_quotient(law_.alpha + 1, d / from);
-        const double mean = a.force / (law_.alpha + 1) * value,
-                     by_to = a.force / (law_.alpha + 1) * slope / from;
-        return {mean, (law_.alpha * mean - to * by_to) / from, by_to};  // DV is homogeneous
+        const double by = 1 / from;
+        const auto [value, slope] = power_quotient(law_.alpha + 1, d * by);
+        const double mean = a.force * share_ * value, by_to = a.force * share_ * slope * by;
+        return {mean, (law_.alpha * mean - to * by_to) * by, by_to};  // DV is homogeneous
     }
-    const double value = (b.V - a.V) / d;
-    return {value, (value - a.force) / d, (b.force - value) / d};
+    const double by = 1 / d, value = (b.V - a.V) * by;
+    return {value, (value - a.force) * by, (b.force - value) * by};
 }
 
 bool MomentRule::stays_out(double eta, double b_0, double b_1) const {
@@ -126,7 +119,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         s.phi_0 = s.phi_1 = 0, s.from = E_0, s.to = E_1;
         return;
     }
-    const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
+    const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, by_A_1 = 1 / A_1;
     double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(), x = 0;
     {  // first guess: the law's tangent at the present penetration, in full contact
         const double at = eta > 0 ? eta : 0.5 * std::max(E_0, E_1);
@@ -147,7 +140,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     Quotient v{};
     const auto look = [&] {
         a = powers(x);
-        p = (x + T.m11 * a.force - E_0) / A_1;
+        p = (x + T.m11 * a.force - E_0) * by_A_1;
         to = E_1 - A_0 * p + T.m01 * a.force;
         b = powers(to);
         v = quotient(x, to, a, b);
@@ -156,7 +149,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     s.converged = false;
     for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
         look();
-        const double g = p - v.value, by_x = (1 + T.m11 * a.slope) / A_1, size = std::abs(g),
+        const double g = p - v.value, by_x = (1 + T.m11 * a.slope) * by_A_1, size = std::abs(g),
                      slope = by_x - v.by_from - v.by_to * (T.m01 * a.slope - A_0 * by_x);
         if (g > 0) high = std::min(high, x);
         else low = std::max(low, x);
@@ -400,37 +393,51 @@ bool MomentRule::galerkin_from(const MomentMatrix& T, double eta, double b_0, do
     };
     const double scale = b_0 * b_0 + b_1 * b_1 + eta * eta + 1e-60;
     Point now = look(r_0, r_1);
-    int halved = 0;
-    for (int i = 0; i < most_newton && now.size > 1e-29 * scale && halved < most_halvings; ++i) {
+    for (int i = 0; i < most_newton && now.size > 1e-29 * scale; ++i) {
         ++s.iterations;
         MomentMatrix J = times(T, now.at.slope);
         J = inverse({1 - J.m00, -J.m01, -J.m10, 1 - J.m11});
         const double d_0 = -(J.m00 * now.e_0 + J.m01 * now.e_1),
                      d_1 = -(J.m10 * now.e_0 + J.m11 * now.e_1);
-        halved = 0;
-        for (double part = 1; halved < most_halvings; ++halved, part *= 0.5) {
+        int halved = 0;
+        const int most = now.size <= rounding_squared * scale ? 1 : most_halvings;
+        for (double part = 1; halved < most; ++halved, part *= 0.5) {
             const Point next = look(r_0 + part * d_0, r_1 + part * d_1);
             if (!(next.size < now.size)) continue;
             r_0 += part * d_0, r_1 += part * d_1;
             now = next;
             break;
         }
+        if (halved == most) break;
     }
     s.residual = std::sqrt(now.size / scale);
     s.phi_0 = now.at.phi_0, s.phi_1 = now.at.phi_1, s.slope = now.at.slope;
     s.from = eta + r_1, s.to = eta - r_0, s.lost = now.at.lost;
-    return now.size <= 1e-22 * scale;  // down to rounding
+    return now.size <= rounding_squared * scale;
 }
 
-// First from rule D's step, else by a path from no compliances to all; a step that has neither is
-// rule D's, which loses what is lost there.
+// Exponent 1 without loss, in contact over the whole step: phi = k (eta - (r_0 - r_1)/2, -r_0/2).
+bool MomentRule::guess_in_full(const MomentMatrix& T, double eta, double b_0, double b_1,
+                               MomentContact& s) const noexcept {
+    if (law_.alpha != 1 || beta_ > 0 || !(eta > 0)) return false;
+    const double half = 0.5 * law_.k;
+    const MomentMatrix I = inverse(
+        {1 + half * (T.m00 + T.m01), -half * T.m00, half * (T.m10 + T.m11), 1 - half * T.m10});
+    const double R_0 = b_0 + T.m00 * law_.k * eta, R_1 = b_1 + T.m10 * law_.k * eta,
+                 r_0 = I.m00 * R_0 + I.m01 * R_1, r_1 = I.m10 * R_0 + I.m11 * R_1;
+    s.to = eta - r_0, s.from = eta + r_1;
+    return s.to > 0 && eta - 0.5 * r_0 + 0.75 * std::min(r_1, 0.0) > 0;
+}
+
+// First from the line or rule D's step, else by a path from no compliances to all; a step that has
+// neither is rule D's, which loses what is lost there.
 void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, double b_1,
                              MomentContact& s) const noexcept {
     if (stays_out(eta, b_0, b_1)) {
         s.from = eta, s.to = eta - b_0;
         return;
     }
-    without_loss(T, eta, eta + b_1, eta - b_0, s);
+    if (!guess_in_full(T, eta, b_0, b_1, s)) without_loss(T, eta, eta + b_1, eta - b_0, s);
     s.converged = galerkin_from(T, eta, b_0, b_1, s);
     if (!s.converged) {
         s.from = eta + b_1, s.to = eta - b_0;

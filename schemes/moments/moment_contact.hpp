@@ -97,6 +97,8 @@ private:
         MomentMatrix slope;
     };
     Integrals integrals(double eta, double r_0, double r_1) const noexcept;
+    bool guess_in_full(const MomentMatrix& T, double eta, double b_0, double b_1,
+                       MomentContact&) const noexcept;
     bool galerkin_from(const MomentMatrix& T, double eta, double b_0, double b_1,
                        MomentContact&) const noexcept;
     void by_rule_d(const MomentMatrix& T, double eta, double b_0, double b_1,
@@ -105,9 +107,8 @@ private:
                      MomentContact&) const noexcept;
 
     ContactLaw law_;
-    double beta_ = 0, span_ = 1, c_ = 0;
+    double beta_ = 0, span_ = 1, c_ = 0, share_ = 0.5;  // share_: 1/(alpha + 1)
     bool clipped_ = false, galerkin_ = false, linear_ = true;
-    int twice_ = 0;  // 2 alpha where that is a small whole number: no pow
 };
 
 }  // namespace jvari

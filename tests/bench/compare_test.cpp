@@ -782,10 +782,10 @@ TEST(Search, MoreModesWhereTheyLieBelowHalfTheRateAndBothFormsOfCompliance) {
         names_of(sought(request_for({"modal_two_point"}, {44100, 88200, 176400}))),
         (std::vector<std::string>{
             "compliance=own 133 44100", "compliance=own 133 88200", "compliance=own 133 176400",
-            "compliance=own 180 88200", "compliance=own 180 176400", "compliance=own 266 176400",
+            "compliance=own 200 88200", "compliance=own 200 176400", "compliance=own 266 176400",
             "compliance=matched 133 44100", "compliance=matched 133 88200",
-            "compliance=matched 133 176400", "compliance=matched 180 88200",
-            "compliance=matched 180 176400", "compliance=matched 266 176400"}));
+            "compliance=matched 133 176400", "compliance=matched 200 88200",
+            "compliance=matched 200 176400", "compliance=matched 266 176400"}));
     // a grid takes its nodes from the rate
     EXPECT_EQ(
         names_of(sought(request_for({"finite_difference_explicit"}, {176400}))),

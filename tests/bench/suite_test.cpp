@@ -100,9 +100,9 @@ TEST(SuiteFile, WhatASetDoesNotNameIsSoughtUnlessItSaysNot) {
     };
     using Cells = std::vector<std::string>;
     const Cells unasked{" 133", " 133"};
-    EXPECT_EQ(cells(""), (Cells{"compliance=own 133", "compliance=own 133", "compliance=own 180",
+    EXPECT_EQ(cells(""), (Cells{"compliance=own 133", "compliance=own 133", "compliance=own 200",
                                 "compliance=matched 133", "compliance=matched 133",
-                                "compliance=matched 180"}));
+                                "compliance=matched 200"}));
     EXPECT_EQ(cells("search = false\n"), unasked);
     EXPECT_EQ(cells("reference_modes = \"cell\"\n"), unasked);
     // what is not measured cannot be sought

@@ -7,7 +7,7 @@ jvari=$1 host=$2 prefix=$3
 fail() { echo "check.sh: $*" >&2; exit 1; }
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
-"$jvari" run tanpura_c3_release --scheme modal_two_point --rate 48000 --tap-rate 48000 \
+"$jvari" run tanpura_c3_release --scheme modal_two_moment --rate 48000 --tap-rate 48000 \
     --modes 133 --option compliance=matched --duration 0.2 --out "$dir/trace.csv" --quiet
 "$host" "$dir/string.wav"
 od -A n -t d2 -v -w2 -j 44 "$dir/string.wav" > "$dir/samples"

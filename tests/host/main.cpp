@@ -1,4 +1,4 @@
-// A string in somebody else's audio program: modal_two_point at 48 kHz in blocks of 64 rows. host
+// A string in somebody else's audio program: modal_two_moment at 48 kHz in blocks of 64 rows. host
 // FILE.wav plays 0.2 s, plucks the ringing string again, tuned up by a semitone, and plays 0.2 s.
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
 
     const auto all = schemes();
     const auto found = std::find_if(all.begin(), all.end(), [](const Descriptor& d) {
-        return d.name == std::string("modal_two_point");
+        return d.name == std::string("modal_two_moment");
     });
     const Settings settings{.sample_rate = rate,
                             .tap_rate = rate,

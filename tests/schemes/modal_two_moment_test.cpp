@@ -295,8 +295,7 @@ std::vector<Scene> bridges() {
     for (const double k : {1e2, 1e5, 4.39e8, 1e12, 1e16, HUGE_VAL})
         for (const int barriers : {1, 4}) {
             Scene scene = lasting(c3_release(), 0.01);
-            // own, at 176.4 kHz, a row of four barriers of 1e16 N/m is open by 1e-10
-            barrier(scene).stiffness.k = barriers > 1 && k == 1e16 ? 1e14 : k;
+            barrier(scene).stiffness.k = k;
             for (int b = 1; b < barriers; ++b) {
                 scene.strings[0].barriers.push_back(scene.strings[0].barriers[0]);
                 barrier(scene, b).position += 3e-3 * b;

@@ -1,6 +1,7 @@
-// The pass of the modal two-point string, and its fused steps for one contact (van Walstijn et al.
-// 2016, eqs 41-48), compiled once per instruction set by Highway. What a scene lacks is absent by a
-// template argument, and so is what stands in series with the points.
+// The pass of the modal two-point string, and its fused rows (van Walstijn et al. 2016, eqs 41-48),
+// compiled once per instruction set by Highway. The number of points up to five, and of one contact
+// and a thread what stands in series with them, are template arguments: what a scene lacks costs
+// nothing.
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,54 +17,52 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The pass of a step, which sums g_z.y now and then only.
-template <bool barrier, bool thread, bool pluck>
-HWY_INLINE void end_step(TwoPointStream& m, long summed_again, double F_b, double F_c, double F_e) {
+template <int points>
+HWY_INLINE void end_step(TwoPointStream& m, long summed_again, const double* force) {
     if (m.step++ % summed_again == 0) {
-        pass<barrier, thread, pluck>(m, F_b, F_c, F_e);
+        pass<points, true>(m, force);
         return;
     }
-    if constexpr (barrier)  // (43)
-        m.y_b += m.u_b + m.theta_bb * F_b + (thread ? m.theta_bc * F_c : 0) +
-                 (pluck ? m.theta_be * F_e : 0);
-    if constexpr (thread)  // (44)
-        m.y_c += m.u_c + m.theta_cc * F_c + (barrier ? m.theta_bc * F_b : 0) +
-                 (pluck ? m.theta_ce * F_e : 0);
-    pass<barrier, thread, pluck, false>(m, F_b, F_c, F_e);
+    const int n = points == any_number ? m.points : points;
+    for (int p = 0; p < n; ++p) {  // (43), (44)
+        const double* theta = m.theta + p * n;
+        double moved = m.u[p] + theta[p] * force[p];
+        for (int q = 0; q < n; ++q)
+            if (q != p) moved += theta[q] * force[q];
+        m.y[p] += moved;
+    }
+    pass<points, false>(m, force);
 }
-template <bool barrier, bool thread, bool pluck>
-void pass_of(TwoPointStream& m, double F_b, double F_c, double F_e) {
-    end_step<barrier, thread, pluck>(m, m.summed_again, F_b, F_c, F_e);
+template <int points>
+void pass_of(TwoPointStream& m, const double* force) {
+    end_step<points>(m, m.summed_again, force);
 }
 
-// A step with the obstacle's. False: it did not converge.
+// The forces of a step, of one contact and a thread. False: it did not converge.
 template <bool barrier, bool thread, bool in_series>
-HWY_INLINE bool step(TwoPointStream& m, ContactAndThread& at, Residual* series, double* sum) {
+HWY_INLINE bool solve_one(const TwoPointStream& m, Obstacle& obstacle, double* F) {
     constexpr int c = barrier;  // of the thread among the points
-    double y_b = m.y_b, y_c = m.y_c, u_b = m.u_b, u_c = m.u_c, F_b, F_c;
+    ContactAndThread& at = *obstacle.one();
+    double y_b = barrier ? m.y[0] : 0, y_c = thread ? m.y[c] : 0, u_b = barrier ? m.u[0] : 0,
+           u_c = thread ? m.u[c] : 0, F_b, F_c;
     if constexpr (in_series) {
-        const double *yields = series->yields(0), *pulled = series->pulled();
+        const Residual& series = *obstacle.series();
+        const double *yields = series.yields(0), *pulled = series.pulled();
         if constexpr (barrier) y_b += yields[0], u_b -= pulled[0];
         if constexpr (thread) y_c += yields[c], u_c -= pulled[c];
     }
     const bool converged = at.solve<barrier, thread>(y_b, y_b, u_b, y_c, u_c, F_b, F_c);
-    if constexpr (barrier) sum[0] += F_b;
-    if constexpr (thread) sum[c] += F_c;
-    if constexpr (in_series) {
-        const double F[2] = {barrier ? F_b : F_c, F_c};
-        series->step<barrier + thread>(F);
-    }
-    end_step<barrier, thread, false>(m, two_point_summed_again, F_b, F_c, 0);
+    if constexpr (barrier) F[0] = F_b;
+    if constexpr (thread) F[c] = F_c;
+    if constexpr (in_series) obstacle.series()->step<barrier + thread>(F);
     return converged;
 }
 
-template <bool barrier, bool thread, bool in_series>
 HWY_INLINE void write(const TwoPointStream& m, const Residual* series, const Block& out, int row,
                       TwoPointRows& r) {
-    constexpr int points = barrier + thread;
-    double mean[2] = {};
-    const double* P = in_series ? series->force(0) : nullptr;
-    for (int p = 0; p < points; ++p) {
-        mean[p] = r.sum[p] / static_cast<double>(r.steps_per_row);
+    const double* P = series ? series->force(0) : nullptr;
+    for (int p = 0; p < m.points; ++p) {
+        r.mean[p] = r.sum[p] / static_cast<double>(r.steps_per_row);
         r.sum[p] = 0;
     }
     for (int k = 0; k < out.taps; ++k) {
@@ -71,20 +70,26 @@ HWY_INLINE void write(const TwoPointStream& m, const Residual* series, const Blo
         double x = 0, of_P = 0;
         if (t.on_y) x += dot(t.on_y, m, Column::y);
         if (t.on_u) x += dot(t.on_u, m, Column::u);
-        for (int p = 0; p < points; ++p) x += t.on_mean[p] * mean[p];
-        for (int p = 0; in_series && p < points; ++p) of_P += t.on_P[p] * P[p];
-        out.tap[k * out.stride + row] = in_series ? x + of_P : x;
+        for (int p = 0; t.on_mean && p < m.points; ++p) x += t.on_mean[p] * r.mean[p];
+        for (int p = 0; t.on_series && p < m.points; ++p) of_P += t.on_series[p] * P[p];
+        out.tap[k * out.stride + row] = t.on_series ? x + of_P : x;
     }
 }
 
-template <bool barrier, bool thread, bool in_series>
-bool rows_of(TwoPointStream& m, ContactAndThread& at, Residual* series, const Block& out,
-             TwoPointRows& r) {
+template <int points, class Solve>
+HWY_INLINE bool rows_of(TwoPointStream& m, Obstacle& obstacle, const Block& out, TwoPointRows& r,
+                        const Solve& solve) {
+    const int n = points == any_number ? m.points : points;
+    double few[points > 0 ? points : 1];
+    double* force = points == any_number ? r.force : few;
     for (int row = r.first; row < r.end; ++row) {
-        write<barrier, thread, in_series>(m, series, out, row, r);
+        write(m, obstacle.series(), out, row, r);
         for (long i = 0; i < r.steps_per_row; ++i) {
             ++r.steps;
-            if (!step<barrier, thread, in_series>(m, at, series, r.sum)) {
+            const bool converged = solve(force);
+            for (int p = 0; p < n; ++p) r.sum[p] += force[p];
+            end_step<points>(m, two_point_summed_again, force);
+            if (!converged) {
                 r.converged = false;
                 r.end = row + 1;
                 return true;
@@ -94,27 +99,42 @@ bool rows_of(TwoPointStream& m, ContactAndThread& at, Residual* series, const Bl
     }
     return true;
 }
+template <bool barrier, bool thread, bool in_series>
+bool rows_of_one(TwoPointStream& m, Obstacle& at, const Block& out, TwoPointRows& r) {
+    return rows_of<barrier + thread>(m, at, out, r, [&](double* force) HWY_ATTR {
+        if constexpr (barrier || thread) return solve_one<barrier, thread, in_series>(m, at, force);
+        else return true;
+    });
+}
+template <int points>
+bool rows_of_several(TwoPointStream& m, Obstacle& at, const Block& out, TwoPointRows& r) {
+    const ReadingsBeforeStep readings{m.y, m.y, m.u};
+    return rows_of<points>(m, at, out, r, [&](double* force) { return at.solve(readings, force); });
+}
 
 template <bool barrier, bool thread>
 TwoPointKernel choose_by_series(bool in_series) {
     if constexpr (barrier || thread)
-        if (in_series) return rows_of<barrier, thread, true>;
-    return rows_of<barrier, thread, false>;
+        if (in_series) return rows_of_one<barrier, thread, true>;
+    return rows_of_one<barrier, thread, false>;
 }
-TwoPointKernel choose_kernel(bool barrier, bool thread, bool in_series) {
+TwoPointKernel choose_kernel(int points, bool one, bool barrier, bool thread, bool in_series) {
+    static constexpr TwoPointKernel several[7] = {rows_of_several<any_number>, rows_of_several<1>,
+                                                  rows_of_several<2>,          rows_of_several<3>,
+                                                  rows_of_several<4>,          rows_of_several<5>,
+                                                  rows_of_several<any_number>};
+    if (!one) return several[points <= 5 ? points : 6];
     return barrier ? (thread ? choose_by_series<true, true>(in_series)
                              : choose_by_series<true, false>(in_series))
                    : (thread ? choose_by_series<false, true>(in_series)
                              : choose_by_series<false, false>(in_series));
 }
 
-TwoPointPass choose_pass(bool barrier, bool thread, bool pluck) {
-    static constexpr TwoPointPass table[2][2][2] = {
-        {{pass_of<false, false, false>, pass_of<false, false, true>},
-         {pass_of<false, true, false>, pass_of<false, true, true>}},
-        {{pass_of<true, false, false>, pass_of<true, false, true>},
-         {pass_of<true, true, false>, pass_of<true, true, true>}}};
-    return table[barrier][thread][pluck];
+TwoPointPass choose_pass(int points) {
+    static constexpr TwoPointPass table[7] = {pass_of<0>,         pass_of<1>, pass_of<2>,
+                                              pass_of<3>,         pass_of<4>, pass_of<5>,
+                                              pass_of<any_number>};
+    return table[points <= 5 ? points : 6];
 }
 
 double dot_of_column(const double* w, const TwoPointStream& m, TwoPointColumn x) {
@@ -134,12 +154,12 @@ HWY_EXPORT(choose_pass);
 HWY_EXPORT(choose_dot);
 HWY_EXPORT(plain_dot);
 
-TwoPointKernel two_point_kernel(bool barrier, bool thread, bool in_series) {
-    return HWY_DYNAMIC_DISPATCH(choose_kernel)(barrier, thread, in_series);
+TwoPointKernel two_point_kernel(int points, const Obstacle& at) {
+    const ContactAndThread* one = at.one();
+    return HWY_DYNAMIC_DISPATCH(choose_kernel)(points, one, one && one->contact, one && one->thread,
+                                               at.has_series());
 }
-TwoPointPass two_point_pass(bool barrier, bool thread, bool pluck) {
-    return HWY_DYNAMIC_DISPATCH(choose_pass)(barrier, thread, pluck);
-}
+TwoPointPass two_point_pass(int points) { return HWY_DYNAMIC_DISPATCH(choose_pass)(points); }
 TwoPointDot two_point_dot() { return HWY_DYNAMIC_DISPATCH(choose_dot)(); }
 double modal_dot(const AlignedVector& w, const AlignedVector& x) {
     return HWY_DYNAMIC_DISPATCH(plain_dot)(w.data(), x.data(), static_cast<int>(x.size()));

@@ -12,65 +12,61 @@
 // numbers c = 1 - 2 R Omega + R^2 and loss = 1 - R^2 carry frequency and decay to full relative
 // precision at any rate.
 //
-// A scheme calls the pass. Where one contact by the discrete gradient and a thread are all that it
-// touches, a kernel makes whole steps of it: those of obstacle.hpp with what is in series, and the
-// pass.
+// A scheme calls the pass, with any number of points. A kernel makes whole rows of it and of the
+// obstacle's steps.
 #pragma once
 
 #include <cstddef>
 
-#include "schemes/contact/eliminated_thread.hpp"
-#include "schemes/contact/residual.hpp"
+#include "schemes/contact/obstacle.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
 
-// The pass goes once through memory: a line of eight modes of each column, then the next eight.
-// Lines of absent parts are never touched.
-enum class TwoPointColumn { y, u, c, loss, g_b, g_c };
-constexpr int two_point_line = 8, two_point_columns = 6;
-constexpr std::ptrdiff_t two_point_at(TwoPointColumn column, std::ptrdiff_t mode) {
-    return (mode / two_point_line * two_point_columns + static_cast<int>(column)) * two_point_line +
-           mode % two_point_line;
-}
-
+// A line of eight modes of each column, then the next eight: y, u, c, loss, then g of each point.
+enum class TwoPointColumn { y, u, c, loss, g };
 struct TwoPointStream {
+    static constexpr int line = 8;
     int modes = 0;
     // modes padded with zeros to a multiple of modal_padding
     int size = 0;
-    // what a pass reads and writes, in its order: two_point_at
+    int points = 0;
     double* stream = nullptr;
-    const double* g_e = nullptr;                // pluck; nullptr where the scene has none
-    double y_b = 0, y_c = 0, u_b = 0, u_c = 0;  // dots of the present state
-    // theta_zw = g_z.g_w
-    double theta_bb = 0, theta_bc = 0, theta_cc = 0, theta_be = 0, theta_ce = 0;
+    double *y = nullptr, *u = nullptr;  // dots of the present state with g of each point
+    const double* theta = nullptr;      // g_z.g_w, row-major over the points
+    double* sums = nullptr;             // workspace of many points: 2 x points x line
     long step = 0;
     long summed_again = 1;  // steps from one sum of g_z.y to the next
+
+    int columns() const { return static_cast<int>(TwoPointColumn::g) + points; }
+    std::ptrdiff_t at(TwoPointColumn column, std::ptrdiff_t mode, int point = 0) const {
+        return (mode / line * columns() + static_cast<int>(column) + point) * line + mode % line;
+    }
 };
 constexpr long two_point_summed_again = 16;  // in whole steps
 
-using TwoPointPass = void (*)(TwoPointStream&, double F_b, double F_c, double F_e);
-TwoPointPass two_point_pass(bool barrier, bool thread, bool pluck);
+using TwoPointPass = void (*)(TwoPointStream&, const double* force);
+TwoPointPass two_point_pass(int points);
 
 struct TwoPointTap {                                // what a tap hears of a row:
     const double *on_y = nullptr, *on_u = nullptr;  // weights on the modes; nullptr: none
-    // of the means of the forces of contact and thread, as far as there are any, and of the springs
-    // in series with them
-    double on_mean[2] = {}, on_P[2] = {};
+    // of the points' mean forces, and of the springs in series with them; nullptr: none
+    const double *on_mean = nullptr, *on_series = nullptr;
 };
 struct TwoPointRows {
     const TwoPointTap* taps;
     int first, end;  // rows of the block
     long steps_per_row;
-    double* sum;            // of the points' forces since the last row [N]
+    double* sum;   // of the points' forces since the last row [N]
+    double* mean;  // workspaces: these over the steps, and the points' forces
+    double* force;
     long steps = 0;         // made
     bool converged = true;  // the last of them
 };
-// Rows without a pluck, in the widest vector instructions of this machine, from the dots y_b ..
-// u_c. False: the caller wants no more.
-using TwoPointKernel = bool (*)(TwoPointStream&, ContactAndThread&, Residual*, const Block&,
-                                TwoPointRows&);
-TwoPointKernel two_point_kernel(bool barrier, bool thread, bool in_series);
+// Rows without a pluck, in the widest vector instructions of this machine. False: the caller wants
+// no more.
+using TwoPointKernel = bool (*)(TwoPointStream&, Obstacle&, const Block&, TwoPointRows&);
+TwoPointKernel two_point_kernel(int points, const Obstacle&);
 
 // Sum of w and a column, over the padded modes.
 using TwoPointDot = double (*)(const double* w, const TwoPointStream&, TwoPointColumn);

@@ -18,10 +18,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Column = TwoPointColumn;
-
-HWY_INLINE double* column(const TwoPointStream& m, Column of, std::ptrdiff_t mode) {
-    return m.stream + two_point_at(of, mode);
-}
+constexpr int any_number = -1;  // of points, at run time
 
 // dot() with a column of the modes.
 HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Column x) {
@@ -29,54 +26,56 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Col
     const int N = static_cast<int>(hn::Lanes(d));
     V even = hn::Zero(d), odd = hn::Zero(d);
     for (int i = 0; i < m.size; i += 2 * N) {
-        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, column(m, x, i)), even);
-        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, column(m, x, i + N)), odd);
+        even = hn::MulAdd(hn::Load(d, w + i), hn::Load(d, m.stream + m.at(x, i)), even);
+        odd = hn::MulAdd(hn::Load(d, w + i + N), hn::Load(d, m.stream + m.at(x, i + N)), odd);
     }
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
-// One pass: the update and the next dots. Presence of contact, thread and pluck is a template
-// argument: an absent part costs nothing. Two accumulators per dot hide the latency of adding.
-template <bool barrier, bool thread, bool pluck, bool dots_of_y = true>
-HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
+struct NewMode {
+    V y, u;
+};
+// One vector of modes under the points' forces.
+HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
+    const D d;
+    const auto of = [&](Column q) HWY_ATTR __attribute__((always_inline)) {
+        return line + static_cast<int>(q) * TwoPointStream::line;
+    };
+    const V s = hn::Add(hn::Load(d, of(Column::u)), forced);  // (41)
+    const V y = hn::Add(hn::Load(d, of(Column::y)), s);       // (40)
+    const V u = hn::NegMulAdd(hn::Load(d, of(Column::c)), y,
+                              hn::NegMulAdd(hn::Load(d, of(Column::loss)), s, hn::Add(s, forced)));
+    hn::Store(u, d, of(Column::u));
+    hn::Store(y, d, of(Column::y));
+    return {y, u};
+}
+
+// One pass: the update and the next dots. The number of points is a template argument: an absent
+// point costs nothing. Two accumulators per dot hide the latency of adding.
+template <int points, bool dots_of_y>
+HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
-    const V fb = hn::Set(d, F_b), fc = hn::Set(d, F_c), fe = hn::Set(d, F_e);
+    constexpr int some = points > 0 ? points : 1, columns = static_cast<int>(Column::g) + points;
+    V F[some], y[some][2], u[some][2];
+    for (int p = 0; p < some; ++p) {
+        F[p] = hn::Set(d, points > 0 ? force[p] : 0);
+        for (int k = 0; k < 2; ++k) y[p][k] = u[p][k] = hn::Zero(d);
+    }
     double* HWY_RESTRICT stream = m.stream;
-    const double* HWY_RESTRICT ge = m.g_e;
-    V yb[2], yc[2], ub[2], uc[2];
-    for (int k = 0; k < 2; ++k) yb[k] = yc[k] = ub[k] = uc[k] = hn::Zero(d);
     const auto at = [&](int j, int k) HWY_ATTR __attribute__((always_inline)) {
         double* HWY_RESTRICT line =
-            stream + (N == two_point_line ? j * two_point_columns : two_point_at(Column::y, j));
-        const auto of = [&](Column q) HWY_ATTR __attribute__((always_inline)) {
-            return line + static_cast<int>(q) * two_point_line;
-        };
-        const V y0 = hn::Load(d, of(Column::y)), u0 = hn::Load(d, of(Column::u));
-        V forced = hn::Zero(d), g_b{}, g_c{};
-        if constexpr (pluck) forced = hn::Mul(hn::Load(d, ge + j), fe);
-        if constexpr (thread) {
-            g_c = in_register(hn::Load(d, of(Column::g_c)));
-            forced = pluck ? hn::MulAdd(g_c, fc, forced) : hn::Mul(g_c, fc);
+            stream + (N == TwoPointStream::line ? j * columns : m.at(Column::y, j));
+        V g[some], forced = hn::Zero(d);
+        for (int p = points - 1; p >= 0; --p) {
+            g[p] = in_register(
+                hn::Load(d, line + (static_cast<int>(Column::g) + p) * TwoPointStream::line));
+            forced = p == points - 1 ? hn::Mul(g[p], F[p]) : hn::MulAdd(g[p], F[p], forced);
         }
-        if constexpr (barrier) {
-            g_b = in_register(hn::Load(d, of(Column::g_b)));
-            forced = hn::MulAdd(g_b, fb, forced);
-        }
-        const V s = hn::Add(u0, forced);  // (41)
-        const V y1 = hn::Add(y0, s);      // (40)
-        const V u1 =
-            hn::NegMulAdd(hn::Load(d, of(Column::c)), y1,
-                          hn::NegMulAdd(hn::Load(d, of(Column::loss)), s, hn::Add(s, forced)));
-        hn::Store(u1, d, of(Column::u));
-        hn::Store(y1, d, of(Column::y));
-        if constexpr (barrier) {
-            if constexpr (dots_of_y) yb[k] = hn::MulAdd(g_b, y1, yb[k]);
-            ub[k] = hn::MulAdd(g_b, u1, ub[k]);
-        }
-        if constexpr (thread) {
-            if constexpr (dots_of_y) yc[k] = hn::MulAdd(g_c, y1, yc[k]);
-            uc[k] = hn::MulAdd(g_c, u1, uc[k]);
+        const NewMode next = step_of(line, forced);
+        for (int p = 0; p < points; ++p) {
+            if constexpr (dots_of_y) y[p][k] = hn::MulAdd(g[p], next.y, y[p][k]);
+            u[p][k] = hn::MulAdd(g[p], next.u, u[p][k]);
         }
     };
     int i = 0;
@@ -86,11 +85,53 @@ HWY_INLINE void pass(TwoPointStream& m, double F_b, double F_c, double F_e) {
     }
     if (i < m.modes) at(i, 0);
     const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
-    alignas(64) double sum[4];
-    sums(both(yb), both(ub), both(yc), both(uc), sum);
-    if constexpr (dots_of_y) m.y_b = sum[0], m.y_c = sum[2];
-    m.u_b = sum[1];
-    m.u_c = sum[3];
+    for (int p = 0; p < points; p += 2) {
+        const int next = p + 1 < points ? p + 1 : p;
+        alignas(64) double sum[4];
+        sums(both(y[p]), both(u[p]), both(y[next]), both(u[next]), sum);
+        if constexpr (dots_of_y) m.y[p] = sum[0], m.y[next] = sum[2];
+        m.u[p] = sum[1], m.u[next] = sum[3];
+    }
+}
+
+// As many points as there are: the sums pass through memory, a line at a time.
+template <bool dots_of_y>
+HWY_INLINE void many_points(TwoPointStream& m, const double* HWY_RESTRICT force) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d)), points = m.points;
+    constexpr int line_size = TwoPointStream::line;
+    double *HWY_RESTRICT of_u = m.sums, *HWY_RESTRICT of_y = m.sums + points * line_size;
+    for (int j = 0; j < 2 * points * line_size; ++j) m.sums[j] = 0;
+    for (int i = 0; i < m.modes; i += N) {
+        double *HWY_RESTRICT line = m.stream + m.at(Column::y, i),
+                             *HWY_RESTRICT g = m.stream + m.at(Column::g, i);
+        const int k = i % line_size;
+        V forced = hn::Zero(d);
+        for (int p = 0; p < points; ++p)
+            forced = hn::MulAdd(hn::Load(d, g + p * line_size), hn::Set(d, force[p]), forced);
+        const NewMode next = step_of(line, forced);
+        for (int p = 0; p < points; ++p) {
+            const V weight = hn::Load(d, g + p * line_size);
+            double *u = of_u + p * line_size + k, *y = of_y + p * line_size + k;
+            hn::Store(hn::MulAdd(weight, next.u, hn::Load(d, u)), d, u);
+            if constexpr (dots_of_y) hn::Store(hn::MulAdd(weight, next.y, hn::Load(d, y)), d, y);
+        }
+    }
+    const auto sum = [&](const double* of) HWY_ATTR {
+        V all = hn::Zero(d);
+        for (int k = 0; k < line_size; k += N) all = hn::Add(all, hn::Load(d, of + k));
+        return hn::GetLane(hn::SumOfLanes(d, all));
+    };
+    for (int p = 0; p < points; ++p) {
+        m.u[p] = sum(of_u + p * line_size);
+        if constexpr (dots_of_y) m.y[p] = sum(of_y + p * line_size);
+    }
+}
+
+template <int points, bool dots_of_y>
+HWY_INLINE void pass(TwoPointStream& m, const double* force) {
+    if constexpr (points == any_number) many_points<dots_of_y>(m, force);
+    else few_points<points, dots_of_y>(m, force);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -3,6 +3,8 @@
 // nothing.
 #include "schemes/modal/kernels/two_moment_kernel.hpp"
 
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/modal/kernels/two_moment_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
@@ -18,21 +20,26 @@ namespace {
 using Stream = TwoMomentStream;
 constexpr int any_number = -1;  // of points, at run time
 
-// Sum of on_a a + on_b b.
-HWY_INLINE double sum_of(const double* HWY_RESTRICT on_a, const double* HWY_RESTRICT on_b,
-                         const Stream& m) {
+// Sums of on_a a + on_b b, of several weights in one pass.
+template <int count>
+HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, const Stream& m,
+                        double* to) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d)), step = m.columns() * Stream::line;
-    V of_a = hn::Zero(d), of_b = hn::Zero(d);
+    V of_a[count], of_b[count];
+    for (int t = 0; t < count; ++t) of_a[t] = of_b[t] = hn::Zero(d);
     const double* HWY_RESTRICT line = m.stream;
     for (int i = 0; i < m.modes; i += Stream::line, line += step)
         for (int k = 0; k < Stream::line; k += N) {
-            of_a = hn::MulAdd(hn::Load(d, on_a + i + k),
-                              hn::Load(d, line + Stream::a * Stream::line + k), of_a);
-            of_b = hn::MulAdd(hn::Load(d, on_b + i + k),
-                              hn::Load(d, line + Stream::b * Stream::line + k), of_b);
+            const V a = in_register(hn::Load(d, line + Stream::a * Stream::line + k)),
+                    b = in_register(hn::Load(d, line + Stream::b * Stream::line + k));
+            for (int t = 0; t < count; ++t) {
+                of_a[t] = hn::MulAdd(hn::Load(d, on_a[t] + i + k), a, of_a[t]);
+                of_b[t] = hn::MulAdd(hn::Load(d, on_b[t] + i + k), b, of_b[t]);
+            }
         }
-    return hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a, of_b)));
+    for (int t = 0; t < count; ++t)
+        to[t] = hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a[t], of_b[t])));
 }
 
 // forced: whether contacts push; a thread always does.
@@ -145,10 +152,23 @@ HWY_INLINE void write(const Stream& m, MomentObstacle& at, const Block& out, int
         r.sum[p] = 0;
     }
     const double* spring = at.forces(0);
+    double of_modes[2] = {};  // of this tap that reads modes and the next: one pass for both
+    bool waits = false;       // the second
+    const auto sum = [&](int k) HWY_ATTR {
+        if (std::exchange(waits, false)) return of_modes[1];
+        const double *on_a[2], *on_b[2];
+        int count = 0;
+        for (; k < out.taps && count < 2; ++k)
+            if (const TwoMomentTap& t = r.taps[k]; t.on_a)
+                on_a[count] = t.on_a, on_b[count++] = t.on_b;
+        waits = count == 2;
+        if (waits) sums_of<2>(on_a, on_b, m, of_modes);
+        else sums_of<1>(on_a, on_b, m, of_modes);
+        return of_modes[0];
+    };
     for (int k = 0; k < out.taps; ++k) {
         const TwoMomentTap& t = r.taps[k];
-        double x = 0, of_springs = 0;
-        if (t.on_a) x += sum_of(t.on_a, t.on_b, m);
+        double x = t.on_a ? sum(k) : 0, of_springs = 0;
         for (int p = 0; t.on_mean && p < m.points; ++p) x += t.on_mean[p] * mean[p];
         for (int p = 0; t.on_series && p < m.points; ++p) of_springs += t.on_series[p] * spring[p];
         out.tap[k * out.stride + row] = t.on_series ? x + of_springs : x;
@@ -205,7 +225,9 @@ TwoMomentRowsKernel choose_moment_rows(int points, bool thread, bool series) {
 }
 #undef JVARI_BY_POINTS
 double sum_of_columns(const double* on_a, const double* on_b, const TwoMomentStream& m) {
-    return sum_of(on_a, on_b, m);
+    double sum;
+    sums_of<1>(&on_a, &on_b, m, &sum);
+    return sum;
 }
 TwoMomentSum choose_moment_sum() { return sum_of_columns; }
 
