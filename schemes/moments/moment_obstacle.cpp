@@ -59,7 +59,7 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
                             n == 1);
         if (rules_[a].is_linear()) linear_ |= std::uint64_t{1} << a;
     }
-    if (n > 1) {
+    if (n > 0) {
         std::vector<ContactLaw> laws;
         std::vector<double> means;
         for (int a = 0; a < n; ++a) {
@@ -246,10 +246,11 @@ bool MomentObstacle::alone(const double* b, double* force) noexcept {
         return true;
     }
     const MomentContact s = rules_[0].solve(own(0), at_[0].eta, b[0], b[points_]);
+    if (!s.converged) return by_constant_forces(b, force);
     force[0] = s.phi_0, force[points_] = s.phi_1;
     take(0, s);
     tally_.note(s.iterations, s.residual);
-    return s.converged;
+    return true;
 }
 
 // Of the linear contacts in full contact: c (phi_0 + phi_1) + (T phi)_0 = E_1 and c (phi_0 - phi_1)

@@ -13,8 +13,9 @@
 //   1. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
 //   2. where one contact does not agree, its own equation with the others eliminated;
-//   3. else Newton's steps on all of them, each contact solved for itself; where they do not end,
-//      forces that are constant in the step (contact_gram.hpp), which are always found.
+//   3. else Newton's steps on all of them, each contact solved for itself.
+// Where a solution is not found, one contact alone included, forces are constant in the step
+// (contact_gram.hpp).
 #pragma once
 
 #include <cstdint>
