@@ -52,7 +52,8 @@ double available_energy(const Scene&, int modes);
 
 // The largest value of each tap that this energy allows to a string of so many modes, sqrt(2 E sum
 // of w_i^2/(m omega_i^2)), where the tap is the sum of w_i y_i, and sqrt(2 E sum of w_i^2/m), where
-// it is that of the velocities. Infinite where it is unknown, as of contact forces.
+// it is that of the velocities. Infinite where it is unknown, as of contact forces. A scheme whose
+// modes alias goes beyond it.
 std::vector<double> tap_bounds(const Scene&, int modes);
 
 }  // namespace jvari

@@ -152,6 +152,15 @@ TEST(RunLoop, ATapBeyondWhatTenfoldEnergyOfTheSceneAllowsHasDivergedWhateverTheS
     }
 }
 
+// Its nut force goes 3.2 times beyond what the string's own modes could make of the energy.
+TEST(RunLoop, ARunWhoseModesAliasIsNotHeldAgainstTheStringsTaps) {
+    const Scene scene = read_scene("flat_bridge_ideal",
+                                   {"string.0.barrier.0.stiffness_density=1e6", "duration=0.02"});
+    const auto r = play("modal_spatial_newton", scene, {44100, 44100, 0, {}});
+    EXPECT_GT(fact_of(r.facts, facts::modes_above_nyquist), 0);
+    EXPECT_EQ(r.status.outcome, Outcome::ok);
+}
+
 TEST(RunLoop, ARunThatFailsKeepsTheRowsUpToTheFailingStep) {
     for (const bool energy : {false, true})
         for (const int block : {1, 7, 64}) {
