@@ -1,5 +1,4 @@
-// gsl_fit_wlinear takes weights as inverse variances; here all are 1, and its covariance is scaled
-// by the scatter it found, chi^2/(n - 2).
+// Least squares of log error against log rate (gsl_fit_linear).
 #include "analysis/convergence.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -34,13 +33,12 @@ Order observed_order(std::span<const double> rate, std::span<const double> error
     const std::size_t n = x.size();
     const auto [first, last] = std::minmax_element(x.begin(), x.end());
     if (n < 2 || *first == *last) return {nan, nan, static_cast<int>(n)};
-    const std::vector<double> weight(n, 1.0);
-    double intercept, slope, cov00, cov01, cov11, chisq;
-    gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00,
-                    &cov01, &cov11, &chisq);
+    double intercept, slope, cov00, cov01, cov11, squares;
+    gsl_fit_linear(x.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00, &cov01, &cov11,
+                   &squares);
     const double half_width =
         n > 2 ? gsl_cdf_tdist_Pinv(0.5 * (1 + confidence), static_cast<double>(n) - 2) *
-                    std::sqrt(cov11 * chisq / (static_cast<double>(n) - 2))
+                    std::sqrt(cov11)
               : inf;
     return {-slope, half_width, static_cast<int>(n)};
 }

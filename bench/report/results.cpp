@@ -196,7 +196,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "references"};
-constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".pdf", ".html", ".toml", ".part"};
+constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".toml", ".part"};
 
 std::string what_is_in(const fs::path& folder) {  // "" where that is unknown
     try {
