@@ -138,7 +138,7 @@ TEST(Truth, IsKnownToNoLessThanTheRemedyThatItPrintsChanges) {
     }
 }
 
-// `--reference-modes N`, a `smoothing` of a sharp corner, a shorter `--duration`: what each leads to
+// `--reference-modes N`, `smoothing` of a sharp corner, a shorter `--duration`: what each leads to
 // is known to no less than four times the modes, and twice the points, change it by.
 TEST(Truth, IsKnownToNoLessThanFourTimesTheModesChangeWhateverRemedyIsFollowed) {
     const auto c3 = [](double duration, double smoothing) {
