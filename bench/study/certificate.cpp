@@ -1,8 +1,10 @@
 #include "bench/study/certificate.hpp"
 
+#include <fmt/core.h>
 #include <algorithm>
 
 #include "bench/store/records.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/reference.hpp"
 #include "reference/oversampled.hpp"
@@ -137,13 +139,17 @@ Certificate certificate_plan(const Scene& scene, const CertifySettings& settings
 
 Certificate certify(const Scene& scene, Certificate c, const store::Listener& listener,
                     const std::filesystem::path& runs) {
+    const TimeLimit limit = first_run(HUGE_VAL);  // of each run
     const std::size_t count = c.entries.size();
     std::vector<std::optional<Trace>> traces(count);
     const auto work = [&](std::size_t i, store::Done& done) {
         RunOptions options;
-        options.progress = [&done](long rows, long of) {
-            done = static_cast<double>(rows) / static_cast<double>(of);
-        };
+        options.progress = store::within(
+            limit.seconds,
+            [&done](long rows, long of) {
+                done = static_cast<double>(rows) / static_cast<double>(of);
+            },
+            limit.judged_after);
         if (i == count) {  // the noise floor
             const auto ran = std::ranges::find_if(traces, [](const auto& t) { return !!t; });
             if (ran == traces.end())
@@ -163,6 +169,8 @@ Certificate certify(const Scene& scene, Certificate c, const store::Listener& li
             traces[i] = run_entry(e, c, scene, options, runs);
         } catch (const Refusal& refusal) {
             e.reason = refusal.what();
+        } catch (const store::PastItsLimit&) {
+            e.reason = fmt::format("it takes longer than {:g} s", limit.seconds);
         } catch (const BadScene& bad) {
             if (e.doubled.empty()) throw;
             e.reason = bad.what();  // it has no more modes than that: those that were measured

@@ -2,6 +2,7 @@
 // points is asked for.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <regex>
 
@@ -134,6 +135,43 @@ TEST(Truth, IsKnownToNoLessThanTheRemedyThatItPrintsChanges) {
                 EXPECT_FALSE(known < changed) << scene.taps[tap].name << ", " << t.description;
             }
         }
+    }
+}
+
+// `--reference-modes N`, `smoothing` of a sharp corner, a shorter `--duration`: what each leads to
+// is known to no less than four times the modes, and twice the points, change it by.
+TEST(Truth, IsKnownToNoLessThanFourTimesTheModesChangeWhateverRemedyIsFollowed) {
+    const auto c3 = [](double duration, double smoothing) {
+        Scene scene = bench::compare::load_scene("tanpura_c3_release", {}, duration);
+        scene.strings.front().start = TriangleShape{0.4, 1e-3, smoothing};
+        return scene;
+    };
+    struct Remedy {
+        const char* text;
+        Scene scene;
+        int modes;
+        int points = 0;
+    };
+    for (const Remedy& r : {Remedy{"--reference-modes 40", c3(5e-3, 0.1), 40},
+                            {"--reference-modes 80", c3(5e-3, 0.1), 80},
+                            {"smoothing", c3(5e-3, 0.02), 80},
+                            {"none, a sharp corner", c3(5e-3, 0), 80},
+                            {"a shorter --duration", c3(2e-3, 0.1), 40},
+                            {"a shorter --duration of a profile",
+                             bench::compare::load_scene("sitar_parabola", {}, 2e-3), 40, 16}}) {
+        const Truth t = truth_of(r.scene, 44100, r.modes, 0, {});
+        OptionValues options = *matched(exact_contact, r.scene, {});
+        if (r.points > 0) options.emplace_back("nodes", std::to_string(2 * r.points));
+        const Trace finer = run(exact_contact, r.scene, {0, 44100, 4 * r.modes, options}).trace;
+        int known_taps = 0;
+        for (std::size_t tap = 0; tap < r.scene.taps.size(); ++tap) {
+            const double known = t.reference.trust.of_scene(tap, 2),
+                         changed = bench::study::change(finer, t.reference.run.trace,
+                                                        static_cast<int>(tap), 0, HUGE_VAL);
+            known_taps += std::isfinite(known);
+            EXPECT_FALSE(known < changed) << r.text << ": " << r.scene.taps[tap].name;
+        }
+        EXPECT_GT(known_taps, 0) << r.text;
     }
 }
 
