@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/store/records.hpp"
 #include "bench/store/system/listener.hpp"
 #include "bench/store/usage.hpp"
 #include "reference/references.hpp"
@@ -122,6 +123,12 @@ std::string arguments_of(const Descriptor& d, const Settings& s) {
     if (s.tap_rate != 44100) text += fmt::format(" --tap-rate {}", s.tap_rate);
     for (const auto& [name, value] : s.options) text += fmt::format(" --option {}={}", name, value);
     return text;
+}
+
+std::string settings_text(const Descriptor& d, const Settings& s) {
+    std::string text = store::variant_name(d.name, store::options_text(s.options));
+    if (s.modes > 0) text += fmt::format(", {} modes", s.modes);
+    return text + fmt::format(", {:g} Hz", s.sample_rate);
 }
 
 std::optional<int> dofs_with(int modes, const Descriptor& d, const Scene& scene,

@@ -83,6 +83,8 @@ Settings settings_of_run(const Descriptor&, double rate, std::optional<double> t
                          const std::vector<SchemeOption>&);
 // the same as typed: "--scheme modal_two_point --rate 44100 --modes 40"
 std::string arguments_of(const Descriptor&, const Settings&);
+// "modal_two_point compliance=matched, 80 modes, 44100 Hz"
+std::string settings_text(const Descriptor&, const Settings&);
 bool whole_multiple(double rate, double of);  // rate = n x of, n = 1, 2, ...
 
 // Doubles of state with that many modes; nothing where it cannot be made. A grid has as many

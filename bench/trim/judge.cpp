@@ -47,12 +47,6 @@ double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, 
 }
 }  // namespace
 
-std::string Model::settings_text() const {
-    std::string text = store::variant_name(scheme->name, store::options_text(settings.options));
-    if (settings.modes > 0) text += fmt::format(", {} modes", settings.modes);
-    return text + fmt::format(", {:g} Hz", settings.sample_rate);
-}
-
 Model toggled(Model m, int part) {
     const auto at = std::ranges::lower_bound(m.left_out, part);
     if (at != m.left_out.end() && *at == part) m.left_out.erase(at);
@@ -82,7 +76,7 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
       catalogue_(catalogue),
       listener_(listener),
       cost_of_(std::move(cost_of)),
-      target_(target_of(request.measure, request.within)),
+      target_(compare::target_of(request.measure, request.within)),
       scene_(compare::load_scene(request.scene, request.set, {})),
       own_duration_(scene_.duration),
       program_(store::program_identity(request.plugins)),

@@ -17,26 +17,12 @@
 
 #include "analysis/statistics.hpp"
 #include "bench/compare/catalogue.hpp"
+#include "bench/compare/target.hpp"
 #include "bench/study/judgement.hpp"
 #include "bench/study/run.hpp"
 #include "scenes/reduction.hpp"
 
 namespace jvari::bench::trim {
-
-// ---- What a trimmed model has to keep, and how far: a measure of one tap and a tolerance.
-
-struct Target {
-    std::size_t measure;  // its place among study::measures()
-    double most;          // the tolerance: 0.01 for 1 %; dB as they are
-    // "l2_50ms"; the measure's title without its unit; "%"
-    std::string name, title, unit;
-    // "1.3 %", "0.8 dB"; `unknown` for NaN
-    std::string text(double error, const char* unknown = "-") const;
-};
-std::vector<Target> targets();  // of every measure that less is better of, without a tolerance
-// "1%", "0.01", "1dB". Throws UsageError for a measure that there is not, for a tolerance in
-// another unit than the measure's, and for one above 0.5 that says no unit.
-Target target_of(const std::string& measure, const std::string& within);
 
 // ---- The scene's start and others of another family: higher modes, a sharp triangle near an end,
 // a pluck or a hammer elsewhere. A model that is trimmed by one start is verified by the others, so
@@ -49,6 +35,8 @@ Scene started(Scene, int start);
 std::string name_of_start(const Scene& own, int start);  // of the first string that it moves
 
 // ---- Models and their judge.
+
+using compare::Target;
 
 inline constexpr double worth = 0.95;  // what is cheaper costs less than this of the other
 
@@ -70,7 +58,7 @@ struct Model {
     std::vector<int> left_out;  // of Judge::reductions, ascending
     const Descriptor* scheme;
     Settings settings;
-    std::string settings_text() const;  // "modal_two_point compliance=matched, 80 modes, 44100 Hz"
+    std::string settings_text() const { return compare::settings_text(*scheme, settings); }
 };
 
 Model toggled(Model, int part);  // without it, or with it once more

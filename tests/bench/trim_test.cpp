@@ -45,16 +45,16 @@ trim::Request request(const std::string& scene, const std::string& within) {
 }
 
 TEST(Target, IsReadWithTheUnitOfItsMeasureAlone) {
-    EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "1%").most, 0.01);
-    EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "0.01").most, 0.01);
-    EXPECT_DOUBLE_EQ(trim::target_of("third_octave_db", "1 dB").most, 1);
-    EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "0.5").most, 0.5);
-    EXPECT_DOUBLE_EQ(trim::target_of("l2_50ms", "100%").most, 1);
-    EXPECT_DOUBLE_EQ(trim::target_of("third_octave_db", "1").most, 1);
+    EXPECT_DOUBLE_EQ(compare::target_of("l2_50ms", "1%").most, 0.01);
+    EXPECT_DOUBLE_EQ(compare::target_of("l2_50ms", "0.01").most, 0.01);
+    EXPECT_DOUBLE_EQ(compare::target_of("third_octave_db", "1 dB").most, 1);
+    EXPECT_DOUBLE_EQ(compare::target_of("l2_50ms", "0.5").most, 0.5);
+    EXPECT_DOUBLE_EQ(compare::target_of("l2_50ms", "100%").most, 1);
+    EXPECT_DOUBLE_EQ(compare::target_of("third_octave_db", "1").most, 1);
     for (const char* wrong : {"1dB", "", "%", "-1%", "0%", "nan%", "1%%", "1", "0.51"})
-        EXPECT_THROW(trim::target_of("l2_50ms", wrong), store::UsageError) << wrong;
-    EXPECT_THROW(trim::target_of("decay", "1%"), store::UsageError);
-    EXPECT_THROW(trim::target_of("l2", "1%"), store::UsageError);
+        EXPECT_THROW(compare::target_of("l2_50ms", wrong), store::UsageError) << wrong;
+    EXPECT_THROW(compare::target_of("decay", "1%"), store::UsageError);
+    EXPECT_THROW(compare::target_of("l2", "1%"), store::UsageError);
 }
 
 TEST(Measures, AreZeroForTheTruthItselfAndGrowWithWhatIsChanged) {
@@ -66,7 +66,7 @@ TEST(Measures, AreZeroForTheTruthItselfAndGrowWithWhatIsChanged) {
         little.push_back(x * std::exp(-1 * t));
         much.push_back(std::exp(-60 * t) * std::sin(2800 * t));
     }
-    for (const trim::Target& t : trim::targets()) {
+    for (const compare::Target& t : compare::targets()) {
         const auto error = [&](const std::vector<double>& x) {
             return study::error_of(t.measure, x, truth, 44100);
         };
@@ -76,8 +76,8 @@ TEST(Measures, AreZeroForTheTruthItselfAndGrowWithWhatIsChanged) {
     }
     // exp(-2 t) more of the energy is gone after t: the curves part by 8.7 dB a second, and a
     // little less at the end
-    EXPECT_NEAR(study::error_of(trim::target_of("decay", "1dB").measure, little, truth, 44100), 1.0,
-                0.4);
+    EXPECT_NEAR(study::error_of(compare::target_of("decay", "1dB").measure, little, truth, 44100),
+                1.0, 0.4);
 }
 
 TEST(Starts, OthersAreScenesWithAnotherShape) {
