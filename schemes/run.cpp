@@ -109,7 +109,8 @@ public:
           bounds_(tap_bounds(scene, modes)),
           beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {
         // a mode that aliases yields otherwise than the string's
-        const double aliased = fact_of(scheme.facts(), facts::modes_above_nyquist) > 0 ? inf : 1;
+        const auto facts = with_context("tells its facts", [&] { return scheme.facts(); });
+        const double aliased = fact_of(facts, facts::modes_above_nyquist) > 0 ? inf : 1;
         for (double& b : bounds_)
             b = std::min(std::sqrt(energy_budget) * b * aliased,
                          std::numeric_limits<double>::max());

@@ -9,9 +9,9 @@
 // gives. Contacts that Theta does not couple fall apart into scalar solves (all of them where Theta
 // is diagonal). Of the coupled ones those that touch at the beginning of the step are taken to stay
 // in contact and the others out of it. Where all of them or all but one do so, and all but this one
-// are linear without losses, the forces follow from one factored matrix, which is kept. Else Newton steps on the
-// active set, each with a line search on the merit's slope. With losses F_a is that of StepLoss
-// (contact.hpp), which falls with r_a as well.
+// are linear without losses, the forces follow from one factored matrix, which is kept. Else Newton
+// steps on the active set, each with a line search on the merit's slope. With losses F_a is that of
+// StepLoss (contact.hpp), which falls with r_a as well.
 //
 // Newton ends where a step leads through forces k Theta times as large as the solution's, whose
 // difference has no digits left: with strings from k Theta of 1e18 on, with random singular Theta
