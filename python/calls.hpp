@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "bench/compare/advice.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare.hpp"
 #include "bench/compare/record/findings.hpp"
@@ -81,20 +82,36 @@ inline Job job_of(const std::string& scheme, double rate, std::optional<double> 
                                          options_of(options))};
 }
 
+// With `within`, or without a scheme, the settings are those of compare::advise.
 inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme,
                                          double rate, int modes, std::optional<double> duration,
                                          std::optional<double> tap_rate, bool energy,
-                                         const py::dict& options) {
+                                         const py::dict& options, const std::string& within,
+                                         const std::string& measure, const std::string& tap) {
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
     compare::note_scene(scene, PythonListener());
-    const Job job = job_of(scheme, rate, tap_rate, modes, options);
+    std::string advice;
+    Job job;
+    if (within.empty() && !scheme.empty()) {
+        job = job_of(scheme, rate, tap_rate, modes, options);
+    } else {
+        if (modes != 0) throw store::UsageError("within: chooses rate and modes; leave out modes");
+        const compare::Catalogue catalogue(plugins());
+        const compare::AdviceRequest request{within, measure,  tap,
+                                             scheme, tap_rate, options_of(options)};
+        const compare::Advice a = unlocked(
+            [&] { return compare::advise(scene, request, catalogue, PythonListener()).back(); });
+        if (!a.within) throw Refusal(compare::text_of(a));
+        job = {a.scheme, a.settings};
+        advice = store::indented(compare::json_of(a));
+    }
     compare::note_modes(*job.scheme, scene, job.settings, PythonListener());
     return unlocked([&] {
         RunOptions o;
         o.energy = energy;
         o.progress = [](long, long) { look_for_signals(); };
-        return std::make_shared<TakenRun>(run(*job.scheme, scene, job.settings, o), scene);
+        return std::make_shared<TakenRun>(run(*job.scheme, scene, job.settings, o), scene, advice);
     });
 }
 

@@ -63,6 +63,8 @@ class Run:
     def steps(self) -> int: ...
     @property
     def wall_seconds(self) -> float: ...  # s
+    @property
+    def advice(self) -> _Row | None: ...  # how the settings were chosen
     def to_xarray(self) -> Any: ...  # xarray.Dataset
 
 class Trimmed:
@@ -79,9 +81,9 @@ class Trimmed:
 
 def scene(name: _Path) -> Scene: ...
 def run(
-    scene: Scene | _Path, scheme: str, rate: float = 44100, modes: int = 0,
+    scene: Scene | _Path, scheme: str = "", rate: float = 44100, modes: int = 0,
     duration: float | None = None, tap_rate: float | None = None, energy: bool = False,
-    options: Mapping[str, _Value] = {},
+    options: Mapping[str, _Value] = {}, *, within: str = "", of: str = "", tap: str = "",
 ) -> Run: ...
 def run_many(
     scenes: Sequence[Scene | _Path], scheme: str, rate: float = 44100, modes: int = 0,

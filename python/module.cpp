@@ -137,15 +137,25 @@ void add_run(py::module_& m) {
         .def_property_readonly(
             "wall_seconds", [](const TakenRun& r) { return r.run.wall_seconds; },
             "Of the stepping alone [s].")
+        .def_property_readonly(
+            "advice",
+            [](const TakenRun& r) -> py::object {
+                if (r.advice.empty()) return py::none();
+                return python::parsed(r.advice);
+            },
+            "How scheme, rate and modes were chosen, a dict; None where they were named.")
         .def("to_xarray", &python::to_xarray,
              "xarray.Dataset: a variable per column over `time` [s], each with its units, and the "
              "facts as attributes. Needs xarray.");
-    m.def("run", &python::run_one, py::arg("scene"), py::arg("scheme"), py::arg("rate") = 44100.0,
-          py::arg("modes") = 0, py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(),
-          py::arg("energy") = false, py::arg("options") = py::dict(),
+    m.def("run", &python::run_one, py::arg("scene"), py::arg("scheme") = "",
+          py::arg("rate") = 44100.0, py::arg("modes") = 0, py::arg("duration") = py::none(),
+          py::arg("tap_rate") = py::none(), py::arg("energy") = false,
+          py::arg("options") = py::dict(), py::kw_only(), py::arg("within") = "",
+          py::arg("of") = "", py::arg("tap") = "",
           "One scheme on one scene. rate, tap_rate [Hz]; duration [s]; energy=True adds the energy "
-          "columns; options {\"compliance\": \"matched\"}. Raises Refusal, SceneError or "
-          "UsageError.");
+          "columns; options {\"compliance\": \"matched\"}. within=\"1%\" chooses scheme, rate and "
+          "modes as `jvari run --within`, by the measure `of` of `tap`; so does a run without a "
+          "scheme. Raises Refusal, SceneError or UsageError.");
     m.def("run_many", &python::run_many, py::arg("scenes"), py::arg("scheme"),
           py::arg("rate") = 44100.0, py::arg("modes") = 0, py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("jobs") = 0,

@@ -10,6 +10,7 @@
 #include "bench/command/console.hpp"
 #include "bench/command/player.hpp"
 #include "bench/command/verbs.hpp"
+#include "bench/compare/advice.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "bench/report/report.hpp"
@@ -30,7 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct RunRequest : Running {
-    std::string scene, scheme;
+    std::string scene, scheme, within, measure, tap;
     std::optional<double> rate;  // [Hz]
     int modes = 0;
     std::optional<double> duration;  // [s]
@@ -210,11 +211,29 @@ void draw(const std::string& file, const Descriptor& d, const Scene& scene, cons
     store::write_fresh(file, drawn.svgs.front().second);
 }
 
+// Scheme, rate and modes where they are to be chosen, by the last of these.
+std::vector<compare::Advice> advised(const RunRequest& r, const Scene& scene,
+                                     const compare::Catalogue& catalogue, const Console& console) {
+    if (r.within.empty() && !(r.measure.empty() && r.tap.empty()))
+        throw store::UsageError("--of and --tap go with --within ERROR");
+    if (r.within.empty() && !r.scheme.empty()) return {};
+    if (r.rate || r.modes > 0)
+        throw store::UsageError(
+            r.within.empty() ? "--rate and --modes go with --scheme NAME"
+                             : "--within chooses rate and modes: expected no --rate, no --modes");
+    const auto all = compare::advise(
+        scene, {r.within, r.measure, r.tap, r.scheme, r.tap_rate, scheme_options(r.options)},
+        catalogue, console);
+    for (const compare::Advice& advice : all)
+        if (advice.within) console.print(compare::text_of(advice));
+        else console.note(compare::text_of(advice));
+    return all;
+}
+
 int run_command(RunRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    const Descriptor& d = catalogue.find(r.scheme);
     // The picture shows the scene's own taps, the sound is made of others: a run of both has the
     // former first.
     const bool played = is_audio(r.out);
@@ -228,8 +247,17 @@ int run_command(RunRequest r) {
     scene.taps.insert(scene.taps.begin(), own.taps.begin(),
                       own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
-    const Settings settings = compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
-                                                       r.modes, scheme_options(r.options));
+    const auto advice = advised(r, own, catalogue, console);
+    if (!advice.empty() && !advice.back().within) {
+        console.print_json(
+            store::indented({{"status", "none"}, {"advice", compare::json_of(advice.back())}}));
+        return exit_code::run_failed;
+    }
+    const Descriptor& d = advice.empty() ? catalogue.find(r.scheme) : *advice.back().scheme;
+    const Settings settings = advice.empty()
+                                  ? compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
+                                                             r.modes, scheme_options(r.options))
+                                  : advice.back().settings;
     compare::note_force_files(scene, settings.sample_rate, console);
     compare::note_modes(d, scene, settings, console);
     const std::optional<report::Vega> vega = vega_for(r);
@@ -270,6 +298,7 @@ int run_command(RunRequest r) {
     }
     const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
+    if (!advice.empty()) json["advice"] = compare::json_of(advice.back());
     std::string text = text_for(r, d, scene, summary);
     if (!r.out.empty()) {
         std::string level;
@@ -319,7 +348,16 @@ Act run_verb(CLI::App& program) {
     v.set(v.r.set);
     v.modes(v.r.modes);
     v.options(v.r.options);
-    v.option("--scheme", v.r.scheme, {"NAME"}, "a scheme or a reference")->required();
+    v.option("--scheme", v.r.scheme, {"NAME"},
+             "a scheme or a reference; absent: the one of --within, 1% where that is absent too");
+    v.option("--within", v.r.within, {"ERROR"},
+             "chooses scheme, rate and modes by their estimated error, 1%, or 3dB with --of "
+             "third_octave_db: two runs tell what doubling rate and modes changes");
+    v.option("--of", v.r.measure, {"MEASURE"},
+             "of --within: the waveform over 8 periods of the string (absent), l2_10ms, l2_50ms, "
+             "l2_whole or third_octave_db");
+    v.option("--tap", v.r.tap, {"NAME"},
+             "of --within: what is listened to; absent: the first nut force, else the first tap");
     v.option("--rate", v.r.rate, hertz, "sample rate; 44100 where absent");
     v.duration(v.r.duration);
     v.option("--tap-rate", v.r.tap_rate, hertz,
@@ -341,7 +379,8 @@ Act run_verb(CLI::App& program) {
              "draws the run, .svg or .html: taps, spectrum, spectrogram, energy ledger, contact "
              "times (turns --energy on)");
     return v.does(run_command,
-                  "Example: jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration "
+                  "Example: jvari run tanpura_c3 --within 1% --out c3.wav\n"
+                  "         jvari run tanpura_c3 --scheme modal_two_point --rate 176400 --duration "
                   "0.2 --out c3.csv");
 }
 

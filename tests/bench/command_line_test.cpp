@@ -32,7 +32,11 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
     const std::pair<const char*, const char*> cases[] = {
         {"rum", "did you mean \"run\""},
         {"run", "scene"},
-        {"run free_string", "--scheme"},
+        {"run free_string --rate 44100", "--rate and --modes go with --scheme"},
+        {"run free_string --within 1% --modes 10", "chooses rate and modes"},
+        {"run free_string --scheme modal_two_point --tap nut", "go with --within"},
+        {"run free_string --within 1dB", "add --of third_octave_db"},
+        {"run free_string --within 1dB --of decay", "expected a waveform"},
         {"run free_string --scheme modal_two_pont", "did you mean \"modal_two_point\""},
         {"run free_strin --scheme modal_two_point", "did you mean \"free_string\""},
         {"run nowhere/at_all.toml --scheme modal_two_point", "nowhere/at_all.toml"},
@@ -231,6 +235,37 @@ TEST(CommandLine, RunSaysWhatSpeaksAgainstItAsCompareDoes) {
     const Ended honest =
         jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --energy");
     EXPECT_FALSE(says(honest.out, "! "));
+}
+
+TEST(CommandLine, RunWithinATolerancePrintsItsChoiceFirstAndRunsIt) {
+    const Scratch scratch;
+    const std::string scene = "run tanpura_c3_release --duration 0.1 --within ";
+    const Ended o = jvari(scratch, scene + "1%");
+    EXPECT_EQ(o.code, 0) << o.err;
+    const std::string first = o.out.substr(0, o.out.find('\n'));
+    EXPECT_TRUE(says(first, "estimated error 0."));
+    EXPECT_TRUE(says(first, "8 periods, 61.1 ms"));
+    EXPECT_TRUE(says(first, "2.5 times that is within 1 %"));
+    const auto json = json_from(scratch, scene + "1%"), &advice = json["advice"];
+    EXPECT_EQ(advice["scheme"], json["scheme"]);
+    EXPECT_EQ(advice["rate"], json["rate"]);
+    EXPECT_EQ(advice["modes"], json["modes"]);
+    EXPECT_EQ(advice["text"], first);
+    EXPECT_LE(advice["margin"].get<double>() * advice["estimate"].get<double>(), 0.01);
+}
+
+TEST(CommandLine, WhereNoSettingIsWithinTheToleranceNothingIsRunAndTheNearestIsNamed) {
+    const Scratch scratch;
+    const Ended o = jvari(scratch, "run tanpura_c3_release --duration 0.02 --within 1e-9% --out " +
+                                       scratch / "a.csv");
+    EXPECT_EQ(o.code, 4);
+    EXPECT_EQ(o.out, "");
+    EXPECT_TRUE(says(o.err, "nothing is known to be within 1e-09 %"));
+    EXPECT_TRUE(says(o.err, "nearest: modal_two_"));
+    EXPECT_TRUE(says(o.err, "try --within 0.0"));
+    EXPECT_EQ(scratch.files(), 0);
+    EXPECT_EQ(jvari(scratch, "run tanpura_c3 --within 1% --scheme finite_difference_theta").code,
+              3);
 }
 
 TEST(CommandLine, RunReportsEveryKeyOfTheContract) {

@@ -1,0 +1,159 @@
+// The estimate of jvari run --within: its six rules, each on a string of tests/bench/fool that was
+// made or drawn to break it, and its answers against the exact solution.
+#include "bench/compare/advice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/store/usage.hpp"
+#include "reference/agreement.hpp"
+#include "scenes/excitation.hpp"
+#include "scenes/scene_file.hpp"
+#include "schemes/run.hpp"
+#include "tests/c3.hpp"
+#include "tests/says.hpp"
+
+namespace jvari {
+extern const Descriptor exact_contact;
+namespace {
+using namespace bench;
+using compare::Advice;
+
+const store::Listener silent;
+const compare::Catalogue& catalogue() {
+    static const compare::Catalogue all;
+    return all;
+}
+
+Scene fooling(const std::string& name) {
+    return read_scene(JVARI_SOURCE "/tests/bench/fool/" + name + ".toml");
+}
+
+Advice advised(const Scene& scene, const std::string& within, const std::string& tap,
+               const std::string& scheme = "", std::vector<compare::SchemeOption> options = {}) {
+    return compare::advise(
+               scene,
+               {.within = within, .tap = tap, .scheme = scheme, .options = std::move(options)},
+               catalogue(), silent)
+        .back();
+}
+
+std::string compliance_of(const Advice& a) {
+    for (const auto& [name, value] : a.settings.options)
+        if (name == "compliance") return value;
+    return "";
+}
+
+// As long as the advice looks: 8 periods, after the pluck.
+Trace judged(const Advice& a, Scene scene, const Descriptor& d, const Settings& settings) {
+    scene.duration = free_from(scene) + a.window;
+    return run(d, scene, settings).trace;
+}
+double apart(const Scene& scene, const Trace& a, const Trace& b, const std::string& tap) {
+    const auto k = static_cast<int>(std::ranges::find(b.names, tap) - b.names.begin());
+    const double from = free_from(scene);
+    return relative_difference(rows_from(a.column(k), from, 44100),
+                               rows_from(b.column(k), from, 44100));
+}
+
+TEST(Advice, EstimatesByTheDifferenceOfTwoRunsThatAnyoneCanMake) {
+    const Scene c3 = c3_release();
+    const Advice a = advised(c3, "1%", "nut");
+    ASSERT_TRUE(a.within);
+    EXPECT_GE(a.finer.modes, 1.5 * a.settings.modes);
+    EXPECT_EQ(a.finer.sample_rate, 2 * a.settings.sample_rate);
+    EXPECT_LE(a.margin * a.counted, 0.01);
+    const Trace coarse = judged(a, c3, *a.scheme, a.settings),
+                fine = judged(a, c3, *a.scheme, a.finer),
+                truth = judged(a, c3, exact_contact, {0, 44100, 532, {{"compliance", "matched"}}});
+    EXPECT_NEAR(a.difference, apart(c3, coarse, fine, "nut"), 1e-12);
+    const double error = apart(c3, coarse, truth, "nut");
+    EXPECT_GT(a.difference, 0.5 * error);
+    EXPECT_LT(a.difference, 2 * error);
+    EXPECT_NEAR(a.window * 130.9, 8, 0.05);  // periods of C3
+    // at this rate the string's stiffness leaves 1.45 times the modes to twice the rate
+    const Advice dear = advised(c3, "0.1%", "nut");
+    EXPECT_EQ(dear.settings.sample_rate, 4 * 44100);
+    EXPECT_GE(dear.finer.modes, 1.5 * dear.settings.modes);
+}
+
+TEST(Advice, IsTrueOnStringsThatWereMadeToFoolIt) {
+    // modes of the exact solution; half of them change no tap by more than 2e-4
+    const std::pair<const char*, int> strings[] = {
+        {"graze5", 768}, {"nohit1", 1536}, {"wide0", 348}, {"wide2", 784}, {"drawn_s021", 864}};
+    int answers = 0;
+    for (const auto& [name, modes] : strings) {
+        const Scene scene = fooling(name);
+        const Trace truth = judged(advised(scene, "10%", "nut"), scene, exact_contact,
+                                   {0, 44100, modes, {{"compliance", "matched"}}});
+        for (const char* scheme : {"modal_two_moment", "modal_two_point"})
+            for (const char* tap : {"nut", "y03"})
+                for (const double most : {0.3, 0.1, 0.03, 0.01}) {
+                    const Advice a = advised(scene, std::to_string(most), tap, scheme);
+                    if (!a.within) continue;
+                    ++answers;
+                    EXPECT_LE(apart(scene, judged(a, scene, *a.scheme, a.settings), truth, tap),
+                              most)
+                        << name << " " << tap << ": " << compare::text_of(a);
+                }
+    }
+    EXPECT_GT(answers, 40);
+}
+
+TEST(Advice, ADifferenceCountsAsAThirdOfThatAtTheRateBeforeAtLeast) {
+    // 0.28 % at 88.2 kHz, 1.4 % at 44.1 kHz
+    const Advice a = advised(c3_release(), "1.2%", "nut", "modal_two_point");
+    ASSERT_TRUE(a.within);
+    EXPECT_GT(a.counted, 1.2 * a.difference);
+    EXPECT_TRUE(says(compare::text_of(a), "a third of what the rate below moved by"));
+}
+
+TEST(Advice, ASilentTapIsNoAnswerAndTheRateAfterItCountsAsAThirdOfAWhole) {
+    // up to 176.4 kHz the string passes above its barrier; at 352.8 kHz two runs differ by 32 %
+    const Advice a = advised(fooling("nohit3"), "82%", "bridge", "modal_two_point");
+    ASSERT_TRUE(a.within);
+    EXPECT_EQ(a.settings.sample_rate, 16 * 44100);
+}
+
+TEST(Advice, IsMatchedWhereMostModesCanBeMatchedAndOwnElsewhere) {
+    EXPECT_EQ(compliance_of(advised(c3_release(), "1%", "nut")), "matched");
+    // all but a few modes of a wide footprint are refused: their errors agree, and are large
+    const Advice wide = advised(fooling("wide2"), "10%", "nut", "modal_two_point");
+    EXPECT_EQ(compliance_of(wide), "own");
+}
+
+TEST(Advice, OfAProfileDoublesItsPointsToo) {
+    Scene scene = fooling("drawn_s019");
+    scene.strings.front().tension *= 100;  // 300 Hz: fewer modes
+    const Advice a = advised(scene, "100%", "y03");
+    ASSERT_TRUE(a.within);
+    EXPECT_EQ(a.finer.options.back(), std::pair(std::string("points"), std::string("32")));
+    EXPECT_TRUE(says(compare::text_of(a), "and 32 points"));
+}
+
+TEST(Advice, IsRefusedOfSchemesWhoseErrorTwoRunsCannotSee) {
+    const Scene c3 = c3_release();
+    for (const char* scheme : {"finite_difference_theta", "modal_explicit_penalty"})
+        EXPECT_THROW(advised(c3, "10%", "nut", scheme), Refusal) << scheme;
+    EXPECT_THROW(advised(c3, "10%", "nut", "modal_spatial_newton", {{"", "compliance", "own"}}),
+                 Refusal);
+    EXPECT_TRUE(advised(c3, "10%", "nut", "modal_spatial_newton").within);
+    EXPECT_THROW(compare::advise(c3, {.within = "1dB", .measure = "decay"}, catalogue(), silent),
+                 store::UsageError);
+}
+
+TEST(Advice, AsksForThirdOctavesOfTheWholeRunWhereTheWaveformCannotBeHad) {
+    Scene guitar = read_scene("guitar_over_fret");
+    guitar.duration = 0.5;
+    const auto all = compare::advise(guitar, {}, catalogue(), silent);
+    ASSERT_EQ(all.size(), 2);
+    EXPECT_FALSE(all[0].within);
+    EXPECT_TRUE(says(compare::text_of(all[0]), "nothing is known to be within 1 %"));
+    EXPECT_TRUE(all[1].within);
+    EXPECT_EQ(all[1].window, 0.5);
+    EXPECT_TRUE(says(compare::text_of(all[1]), "third-octave difference"));
+}
+}  // namespace
+}  // namespace jvari
