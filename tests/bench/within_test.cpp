@@ -73,6 +73,10 @@ TEST(Advice, EstimatesByTheDifferenceOfTwoRunsThatAnyoneCanMake) {
     EXPECT_GT(a.difference, 0.5 * error);
     EXPECT_LT(a.difference, 2 * error);
     EXPECT_NEAR(a.window * 130.9, 8, 0.05);  // periods of C3
+    // at this rate the string's stiffness leaves 1.45 times the modes to twice the rate
+    const Advice dear = advised(c3, "0.1%", "nut");
+    EXPECT_EQ(dear.settings.sample_rate, 4 * 44100);
+    EXPECT_GE(dear.finer.modes, 1.5 * dear.settings.modes);
 }
 
 TEST(Advice, IsTrueOnStringsThatWereMadeToFoolIt) {
