@@ -160,7 +160,7 @@ TEST(Truth, IsKnownToNoLessThanFourTimesTheModesChangeWhateverRemedyIsFollowed) 
                             {"a shorter --duration of a profile",
                              bench::compare::load_scene("sitar_parabola", {}, 2e-3), 40, 16}}) {
         const Truth t = truth_of(r.scene, 44100, r.modes, 0, {});
-        OptionValues options = *matched(exact_contact, r.scene, {});
+        OptionValues options = matched(exact_contact, r.scene, {}).value_or(OptionValues{});
         if (r.points > 0) options.emplace_back("nodes", std::to_string(2 * r.points));
         const Trace finer = run(exact_contact, r.scene, {0, 44100, 4 * r.modes, options}).trace;
         int known_taps = 0;
