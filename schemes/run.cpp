@@ -93,6 +93,10 @@ void check(const Status& status, long first, const Block& block, double steps) {
                         std::to_string(std::lround(last)));
 }
 
+std::vector<Fact> facts_of(const Scheme& scheme) {
+    return with_context("tells its facts", [&] { return scheme.facts(); });
+}
+
 // Makes the rows of a trace, and knows which of them are sound: their taps are within what
 // `energy_budget` times the scene's energy could make of them, and they store no more than
 // `energy_budget` times the energy that was there at the start and has been supplied since.
@@ -109,11 +113,9 @@ public:
           bounds_(tap_bounds(scene, modes)),
           beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {
         // a mode that aliases yields otherwise than the string's
-        const auto facts = with_context("tells its facts", [&] { return scheme.facts(); });
-        const double aliased = fact_of(facts, facts::modes_above_nyquist) > 0 ? inf : 1;
-        for (double& b : bounds_)
-            b = std::min(std::sqrt(energy_budget) * b * aliased,
-                         std::numeric_limits<double>::max());
+        const bool aliases = fact_of(facts_of(scheme), facts::modes_above_nyquist) > 0;
+        constexpr double most = std::numeric_limits<double>::max();
+        for (double& b : bounds_) b = aliases ? most : std::min(std::sqrt(energy_budget) * b, most);
     }
 
     // The next rows, as many at most: their energy is looked at, or it is that of none of them.
@@ -305,8 +307,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
         if (options.slow && !reported && stepping > std::chrono::duration<double>(long_run) &&
             trace.rows < trace.stride) {
             reported = true;
-            options.slow(trace.rows, trace.stride,
-                         with_context("tells its facts", [&] { return scheme.facts(); }));
+            options.slow(trace.rows, trace.stride, facts_of(scheme));
         }
     }
     for (std::size_t k = 0; k < scene.taps.size() && trace.rows > 0; ++k)
@@ -314,7 +315,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
             trace.tap[k * static_cast<std::size_t>(trace.stride)] = *force;
     if (!continuous) result.steps = std::lround(steps_per_row * static_cast<double>(trace.rows));
     result.wall_seconds = std::chrono::duration<double>(stepping).count();
-    result.facts = with_context("tells its facts", [&] { return scheme.facts(); });
+    result.facts = facts_of(scheme);
     return result;
 }
 

@@ -31,8 +31,7 @@ PowerQuotient quotient_by_halves(int n, double z) {
 }  // namespace
 
 PowerQuotient power_quotient(double p, double z) {
-    const int halves = p <= 6 ? static_cast<int>(2 * p) : 0;
-    if (halves == 2 * p) return quotient_by_halves(halves, z);
+    if (const int halves = halves_in(p); halves > 0) return quotient_by_halves(halves, z);
     if (std::abs(z) < 1e-3) {
         const double c1 = p, c2 = c1 * (p - 1) / 2, c3 = c2 * (p - 2) / 3, c4 = c3 * (p - 3) / 4,
                      c5 = c4 * (p - 4) / 5, c6 = c5 * (p - 5) / 6;

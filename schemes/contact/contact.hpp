@@ -17,11 +17,15 @@
 
 namespace jvari {
 
-// x^a, x >= 0. The exponents that are halves of whole numbers, among them those of Hertz, take a
-// root and products.
-inline double power(double x, double a) {
+// 2 a where that is a whole number and small, else 0.
+inline int halves_in(double a) {
     const int halves = a <= 6 ? static_cast<int>(2 * a) : 0;
-    if (halves <= 0 || halves != 2 * a) return std::pow(x, a);
+    return halves == 2 * a ? halves : 0;
+}
+// x^a, x >= 0. Halves of whole numbers, the exponent of Hertz among them, take a root and products.
+inline double power(double x, double a) {
+    const int halves = halves_in(a);
+    if (halves <= 0) return std::pow(x, a);
     double product = halves % 2 == 1 ? std::sqrt(x) : 1;
     for (int i = halves / 2; i > 0; --i) product *= x;
     return product;

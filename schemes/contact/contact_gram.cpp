@@ -161,15 +161,14 @@ const ContactGram::Closed& ContactGram::closed(std::size_t group, std::uint64_t 
 //
 //     (1/D + Theta) F = 2 eta + b - Theta_s1 F_1,    b_1' = b_1 - Theta_1s F_0,
 //     Theta_11' = Theta_11 - Theta_1s (1/D + Theta)^-1 Theta_s1
-ContactGram::Fit ContactGram::fit(std::size_t group, std::uint64_t set, int one, const double* eta,
-                                  const double* b, double* r, double* force,
-                                  GramSolution& s) noexcept {
+std::optional<ContactGram::Fit> ContactGram::fit(std::size_t group, std::uint64_t set, int one,
+                                                 const double* eta, const double* b, double* r,
+                                                 double* force, GramSolution& s) noexcept {
     const int stride = count(), n = groups_[group].count;
     const int* all = order_.data() + groups_[group].first;
-    const Fit failed{n + 1, -1};
     s = {};
     const Closed* kept = set ? &closed(group, set) : nullptr;
-    if (kept && kept->set != set) return failed;
+    if (kept && kept->set != set) return std::nullopt;
     int m = 0;
     for (int i = 0; i < n; ++i) {
         const int a = all[i];
@@ -190,7 +189,7 @@ ContactGram::Fit ContactGram::fit(std::size_t group, std::uint64_t set, int one,
             b_one -= by * df_[i], theta -= by * dr_[i];
         }
         const ContactSolution own = solve_contact(laws_[o], eta[o], b_one, theta);
-        if (!own.converged) return failed;
+        if (!own.converged) return std::nullopt;
         s.iterations = own.iterations;
         force[o] = own.force;
         depth_[o] = eta[o] - own.r;
@@ -215,7 +214,7 @@ ContactGram::Fit ContactGram::fit(std::size_t group, std::uint64_t set, int one,
         }
         if (i != one) depth_[a] = give_[a] * force[a] - eta[a];
         const double defect = std::abs(eta[a] - depth_[a] - moved) / terms;
-        if (!(defect <= 4 * rounding)) return failed;
+        if (!(defect <= 4 * rounding)) return std::nullopt;
         s.residual = std::max(s.residual, defect);
         if (i != one && !(depth_[a] > 0)) ++fit.misfits, fit.misfit = i;
     }
@@ -235,12 +234,12 @@ bool ContactGram::solve_by_set(std::size_t group, const double* eta, const doubl
         else if (one >= 0) return false;
         else one = i;
     }
-    Fit f = fit(group, set, one, eta, b, r, force, s);
-    if (f.misfits == 1 && one < 0) {
-        one = f.misfit;
+    std::optional<Fit> f = fit(group, set, one, eta, b, r, force, s);
+    if (f && f->misfits == 1 && one < 0) {
+        one = f->misfit;
         f = fit(group, set & ~(std::uint64_t{1} << one), one, eta, b, r, force, s);
     }
-    return f.misfits == 0;
+    return f && f->misfits == 0;
 }
 
 GramSolution ContactGram::solve_group(const Group& group, const double* eta, const double* b,

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -87,8 +88,9 @@ private:
     struct Fit {
         int misfits = 0, misfit = -1;  // contacts not as assumed; one of them, in the group
     };
-    Fit fit(std::size_t group, std::uint64_t closed, int one, const double* eta, const double* b,
-            double* r, double* force, GramSolution&) noexcept;
+    // nothing where its equations are not solved to rounding
+    std::optional<Fit> fit(std::size_t group, std::uint64_t closed, int one, const double* eta,
+                           const double* b, double* r, double* force, GramSolution&) noexcept;
     const Closed& closed(std::size_t group, std::uint64_t set) noexcept;
     bool newton_step(const int* set, int n) noexcept;
     ContactSolution alone(int a, double eta, double b) const noexcept;

@@ -2,6 +2,7 @@
 // to whole vectors.
 #pragma once
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct PluckSteps {
     long first, count, tabulated;
 };
 PluckSteps pluck_steps(const Pluck&, double dt, double duration);
+// Whole rows, of `rows`, in whose steps a pluck does not act; k: the next step, counted from the
+// pluck's first.
+inline long rows_without_pluck(long rows, long k, long pluck_steps, long steps_per_row) {
+    const bool comes = pluck_steps > 0 && k < pluck_steps;
+    return comes ? std::min(rows, std::max(-k, 0L) / steps_per_row) : rows;
+}
 
 // What a tap of displacement, velocity or nut force reads of the modes' displacements or
 // velocities; none of contact forces.

@@ -341,14 +341,12 @@ void TwoMomentModes::fuse(MomentObstacle& obstacle, int steps_per_row) {
 }
 
 FusedRows TwoMomentModes::fused_rows(const Block& out, int row, double* sum) noexcept {
-    const long k = step_ - pluck_.first_step;  // the pluck's steps are 0 .. steps - 1
-    long rows = out.rows - row;
-    if (pluck_.steps > 0 && k < pluck_.steps)
-        rows = std::min(rows, std::max(-k, 0L) / steps_per_row_);
+    const long rows =
+        rows_without_pluck(out.rows - row, step_ - pluck_.first_step, pluck_.steps, steps_per_row_);
     if (!rows_ || rows == 0) return {};
-    TwoMomentRows r{fused_taps_.data(), row, row + static_cast<int>(rows),
-                    steps_per_row_,     sum, force_.data() + 2 * m_.points,
-                    force_.data()};
+    RowsInHand r{fused_taps_.data(), row, row + static_cast<int>(rows),
+                 steps_per_row_,     sum, force_.data() + 2 * m_.points,
+                 force_.data()};
     const bool stopped = !rows_(m_, *obstacle_, out, r);
     step_ += r.steps;
     sum_ = 0;

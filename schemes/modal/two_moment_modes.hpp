@@ -118,7 +118,7 @@ private:
     long step_ = 0;
     // whole rows
     TwoMomentRowsKernel rows_ = nullptr;
-    std::vector<TwoMomentTap> fused_taps_;
+    std::vector<FusedTap> fused_taps_;
     MomentObstacle* obstacle_ = nullptr;
     long steps_per_row_ = 1;
     std::vector<double> force_;

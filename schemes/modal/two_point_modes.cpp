@@ -229,14 +229,12 @@ void TwoPointModes::fuse(Obstacle& obstacle, int steps_per_row) {
 }
 
 FusedRows TwoPointModes::fused_rows(const Block& out, int row, double* sum) noexcept {
-    const long k = m_.step - pluck_.first;  // the pluck's steps are 0 .. steps - 1
-    long rows = out.rows - row;
-    if (pluck_.steps > 0 && k < pluck_.steps)
-        rows = std::min(rows, std::max(-k, 0L) / steps_per_row_);
+    const long rows =
+        rows_without_pluck(out.rows - row, m_.step - pluck_.first, pluck_.steps, steps_per_row_);
     if (!rows_ || rows == 0) return {};
-    TwoPointRows r{fused_taps_.data(), row, row + static_cast<int>(rows),
-                   steps_per_row_,     sum, force_.data() + m_.points,
-                   force_.data()};
+    RowsInHand r{fused_taps_.data(), row, row + static_cast<int>(rows),
+                 steps_per_row_,     sum, force_.data() + m_.points,
+                 force_.data()};
     const bool stopped = !rows_(m_, *obstacle_, out, r);
     sum_ = 0;
     for (int p = 0; p < m_.points; ++p) sum_ += y_[p];

@@ -105,7 +105,7 @@ private:
     TwoPointPass pass_ = nullptr;
     // whole rows, on no body
     TwoPointKernel rows_ = nullptr;
-    std::vector<TwoPointTap> fused_taps_;
+    std::vector<FusedTap> fused_taps_;
     Obstacle* obstacle_ = nullptr;
     long steps_per_row_ = 1;
     std::vector<TapOfModes> taps_;

@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "schemes/modal/kernels/modal_two_point_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
+#include "schemes/modal/kernels/fused_rows-inl.hpp"
 #include "schemes/modal/kernels/modal_two_point_pass-inl.hpp"
 #include "schemes/modal/modal_string.hpp"
 
@@ -58,56 +59,30 @@ HWY_INLINE bool solve_one(const TwoPointStream& m, Obstacle& obstacle, double* F
     return converged;
 }
 
-HWY_INLINE void write(const TwoPointStream& m, const Residual* series, const Block& out, int row,
-                      TwoPointRows& r) {
-    const double* P = series ? series->force(0) : nullptr;
-    for (int p = 0; p < m.points; ++p) {
-        r.mean[p] = r.sum[p] / static_cast<double>(r.steps_per_row);
-        r.sum[p] = 0;
-    }
-    for (int k = 0; k < out.taps; ++k) {
-        const TwoPointTap& t = r.taps[k];
-        double x = 0, of_P = 0;
-        if (t.on_y) x += dot(t.on_y, m, Column::y);
-        if (t.on_u) x += dot(t.on_u, m, Column::u);
-        for (int p = 0; t.on_mean && p < m.points; ++p) x += t.on_mean[p] * r.mean[p];
-        for (int p = 0; t.on_series && p < m.points; ++p) of_P += t.on_series[p] * P[p];
-        out.tap[k * out.stride + row] = t.on_series ? x + of_P : x;
-    }
-}
-
 template <int points, class Solve>
-HWY_INLINE bool rows_of(TwoPointStream& m, Obstacle& obstacle, const Block& out, TwoPointRows& r,
+HWY_INLINE bool rows_of(TwoPointStream& m, Obstacle& obstacle, const Block& out, RowsInHand& r,
                         const Solve& solve) {
-    const int n = points == any_number ? m.points : points;
     double few[points > 0 ? points : 1];
-    double* force = points == any_number ? r.force : few;
-    for (int row = r.first; row < r.end; ++row) {
-        write(m, obstacle.series(), out, row, r);
-        for (long i = 0; i < r.steps_per_row; ++i) {
-            ++r.steps;
-            const bool converged = solve(force);
-            for (int p = 0; p < n; ++p) r.sum[p] += force[p];
-            end_step<points>(m, two_point_summed_again, force);
-            if (!converged) {
-                r.converged = false;
-                r.end = row + 1;
-                return true;
-            }
-            if (out.stopped(i, steps_between_questions)) return false;
-        }
-    }
-    return true;
+    const Residual* series = obstacle.series();
+    return make_rows(
+        points == any_number ? m.points : points, points == any_number ? r.force : few, out, r,
+        [&](int k) HWY_ATTR {
+            const FusedTap& t = r.taps[k];
+            return (t.on_first ? dot(t.on_first, m, Column::y) : 0) +
+                   (t.on_second ? dot(t.on_second, m, Column::u) : 0);
+        },
+        [&] { return series ? series->force(0) : nullptr; }, solve,
+        [&](const double* force) HWY_ATTR { end_step<points>(m, two_point_summed_again, force); });
 }
 template <bool barrier, bool thread, bool in_series>
-bool rows_of_one(TwoPointStream& m, Obstacle& at, const Block& out, TwoPointRows& r) {
+bool rows_of_one(TwoPointStream& m, Obstacle& at, const Block& out, RowsInHand& r) {
     return rows_of<barrier + thread>(m, at, out, r, [&](double* force) HWY_ATTR {
         if constexpr (barrier || thread) return solve_one<barrier, thread, in_series>(m, at, force);
         else return true;
     });
 }
 template <int points>
-bool rows_of_several(TwoPointStream& m, Obstacle& at, const Block& out, TwoPointRows& r) {
+bool rows_of_several(TwoPointStream& m, Obstacle& at, const Block& out, RowsInHand& r) {
     const ReadingsBeforeStep readings{m.y, m.y, m.u};
     return rows_of<points>(m, at, out, r, [&](double* force) { return at.solve(readings, force); });
 }

@@ -19,6 +19,7 @@
 #include <cstddef>
 
 #include "schemes/contact/obstacle.hpp"
+#include "schemes/modal/kernels/fused_rows.hpp"
 #include "schemes/scheme.hpp"
 
 namespace jvari {
@@ -48,24 +49,9 @@ constexpr long two_point_summed_again = 16;  // in whole steps
 using TwoPointPass = void (*)(TwoPointStream&, const double* force);
 TwoPointPass two_point_pass(int points);
 
-struct TwoPointTap {                                // what a tap hears of a row:
-    const double *on_y = nullptr, *on_u = nullptr;  // weights on the modes; nullptr: none
-    // of the points' mean forces, and of the springs in series with them; nullptr: none
-    const double *on_mean = nullptr, *on_series = nullptr;
-};
-struct TwoPointRows {
-    const TwoPointTap* taps;
-    int first, end;  // rows of the block
-    long steps_per_row;
-    double* sum;   // of the points' forces since the last row [N]
-    double* mean;  // workspaces: these over the steps, and the points' forces
-    double* force;
-    long steps = 0;         // made
-    bool converged = true;  // the last of them
-};
 // Rows without a pluck, in the widest vector instructions of this machine. False: the caller wants
 // no more.
-using TwoPointKernel = bool (*)(TwoPointStream&, Obstacle&, const Block&, TwoPointRows&);
+using TwoPointKernel = bool (*)(TwoPointStream&, Obstacle&, const Block&, RowsInHand&);
 TwoPointKernel two_point_kernel(int points, const Obstacle&);
 
 // Sum of w and a column, over the padded modes.

@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "schemes/modal/kernels/two_moment_kernel.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 
+#include "schemes/modal/kernels/fused_rows-inl.hpp"
 #include "schemes/modal/kernels/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -144,62 +145,48 @@ void pass_of(Stream& m, const double* phi, bool contacts) {
     pass<points, thread>(m, phi, contacts);
 }
 
-HWY_INLINE void write(const Stream& m, MomentObstacle& at, const Block& out, int row,
-                      TwoMomentRows& r) {
-    double* HWY_RESTRICT mean = r.mean;
-    for (int p = 0; p < m.points; ++p) {
-        mean[p] = r.sum[p] / static_cast<double>(r.steps_per_row);
-        r.sum[p] = 0;
+// Taps that read modes, two at a time in one pass: a tap and the next such one.
+class TapPairs {
+public:
+    TapPairs(const Stream& m, const FusedTap* taps, int count)
+        : m_(m), taps_(taps), count_(count) {}
+    HWY_INLINE double read(int k) {
+        if (!taps_[k].on_first) return 0;
+        if (std::exchange(waits_, false)) return sums_[1];
+        const double *on_a[2] = {}, *on_b[2] = {};
+        int found = 0;
+        for (; k < count_ && found < 2; ++k)
+            if (const FusedTap& t = taps_[k]; t.on_first)
+                on_a[found] = t.on_first, on_b[found++] = t.on_second;
+        waits_ = found == 2;
+        if (waits_) sums_of<2>(on_a, on_b, m_, sums_);
+        else sums_of<1>(on_a, on_b, m_, sums_);
+        return sums_[0];
     }
-    const double* spring = at.forces(0);
-    double of_modes[2] = {};  // of this tap that reads modes and the next: one pass for both
-    bool waits = false;       // the second
-    const auto sum = [&](int k) HWY_ATTR {
-        if (std::exchange(waits, false)) return of_modes[1];
-        const double *on_a[2], *on_b[2];
-        int count = 0;
-        for (; k < out.taps && count < 2; ++k)
-            if (const TwoMomentTap& t = r.taps[k]; t.on_a)
-                on_a[count] = t.on_a, on_b[count++] = t.on_b;
-        waits = count == 2;
-        if (waits) sums_of<2>(on_a, on_b, m, of_modes);
-        else sums_of<1>(on_a, on_b, m, of_modes);
-        return of_modes[0];
-    };
-    for (int k = 0; k < out.taps; ++k) {
-        const TwoMomentTap& t = r.taps[k];
-        double x = t.on_a ? sum(k) : 0, of_springs = 0;
-        for (int p = 0; t.on_mean && p < m.points; ++p) x += t.on_mean[p] * mean[p];
-        for (int p = 0; t.on_series && p < m.points; ++p) of_springs += t.on_series[p] * spring[p];
-        out.tap[k * out.stride + row] = t.on_series ? x + of_springs : x;
-    }
-}
+
+private:
+    const Stream& m_;
+    const FusedTap* taps_;
+    int count_;
+    double sums_[2] = {};
+    bool waits_ = false;  // the second sum for its tap
+};
 
 template <int points, bool thread, bool series>
-bool rows_of(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
-    for (int row = r.first; row < r.end; ++row) {
-        write(m, at, out, row, r);
-        for (long i = 0; i < r.steps_per_row; ++i) {
-            ++r.steps;
-            const bool converged = at.step<points, thread, series>(m.free, r.force);
-            for (int p = 0; p < m.points; ++p) r.sum[p] += r.force[p];
-            pass<points, thread>(m, r.force, at.any_force(r.force));
-            if (!converged) {
-                r.converged = false;
-                r.end = row + 1;
-                return true;
-            }
-            if (out.stopped(i, steps_between_questions)) return false;
-        }
-    }
-    return true;
+bool rows_of(Stream& m, MomentObstacle& at, const Block& out, RowsInHand& r) {
+    TapPairs taps(m, r.taps, out.taps);
+    return make_rows(
+        m.points, r.force, out, r, [&](int k) HWY_ATTR { return taps.read(k); },
+        [&] { return at.forces(0); },
+        [&](double* force) HWY_ATTR { return at.step<points, thread, series>(m.free, force); },
+        [&](const double* force) HWY_ATTR { pass<points, thread>(m, force, at.any_force(force)); });
 }
 template <int points, bool thread>
-bool rows_without(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
+bool rows_without(Stream& m, MomentObstacle& at, const Block& out, RowsInHand& r) {
     return rows_of<points, thread, false>(m, at, out, r);
 }
 template <int points, bool thread>
-bool rows_with(Stream& m, MomentObstacle& at, const Block& out, TwoMomentRows& r) {
+bool rows_with(Stream& m, MomentObstacle& at, const Block& out, RowsInHand& r) {
     return rows_of<points, thread, true>(m, at, out, r);
 }
 }  // namespace

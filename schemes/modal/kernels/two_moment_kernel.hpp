@@ -7,6 +7,7 @@
 
 #include <cstddef>
 
+#include "schemes/modal/kernels/fused_rows.hpp"
 #include "schemes/moments/moment_obstacle.hpp"
 #include "schemes/scheme.hpp"
 
@@ -33,24 +34,8 @@ struct TwoMomentStream {
 using TwoMomentPass = void (*)(TwoMomentStream&, const double* phi, bool contacts);
 TwoMomentPass two_moment_pass(int points, bool thread);
 
-struct TwoMomentTap {
-    const double *on_a = nullptr, *on_b = nullptr;  // weights on the modes; nullptr: none
-    // of the points' mean forces, and of the springs in series with them; nullptr: none
-    const double *on_mean = nullptr, *on_series = nullptr;
-};
-struct TwoMomentRows {
-    const TwoMomentTap* taps;
-    int first, end;  // rows of the block
-    long steps_per_row;
-    double* sum;            // of the points' mean forces since the last row [N]
-    double* mean;           // workspaces: these over the steps, and moments of the points'
-    double* force;          // forces
-    long steps = 0;         // made
-    bool converged = true;  // the last of them
-};
 // False: the caller wants no more.
-using TwoMomentRowsKernel = bool (*)(TwoMomentStream&, MomentObstacle&, const Block&,
-                                     TwoMomentRows&);
+using TwoMomentRowsKernel = bool (*)(TwoMomentStream&, MomentObstacle&, const Block&, RowsInHand&);
 TwoMomentRowsKernel two_moment_rows(int points, bool thread, bool series);
 
 // Sum of on_a a + on_b b, over the padded modes.
