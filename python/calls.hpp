@@ -84,7 +84,8 @@ inline Job job_of(const std::string& scheme, double rate, std::optional<double> 
 
 // With `within`, or without a scheme, the settings are those of compare::advise.
 inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme,
-                                         double rate, int modes, std::optional<double> duration,
+                                         std::optional<double> rate, int modes,
+                                         std::optional<double> duration,
                                          std::optional<double> tap_rate, bool energy,
                                          const py::dict& options, const std::string& within,
                                          const std::string& measure, const std::string& tap) {
@@ -93,13 +94,12 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
     compare::note_scene(scene, PythonListener());
     std::string advice;
     Job job;
-    if (within.empty() && !scheme.empty()) {
-        job = job_of(scheme, rate, tap_rate, modes, options);
+    const compare::AdviceRequest request{within, measure,  tap,
+                                         scheme, tap_rate, options_of(options)};
+    if (!compare::asks_for_advice(request, rate.has_value(), modes)) {
+        job = job_of(scheme, rate.value_or(44100), tap_rate, modes, options);
     } else {
-        if (modes != 0) throw store::UsageError("within: chooses rate and modes; leave out modes");
         const compare::Catalogue catalogue(plugins());
-        const compare::AdviceRequest request{within, measure,  tap,
-                                             scheme, tap_rate, options_of(options)};
         const compare::Advice a = unlocked(
             [&] { return compare::advise(scene, request, catalogue, PythonListener()).back(); });
         if (!a.within) throw Refusal(compare::text_of(a));

@@ -81,7 +81,7 @@ class Trimmed:
 
 def scene(name: _Path) -> Scene: ...
 def run(
-    scene: Scene | _Path, scheme: str = "", rate: float = 44100, modes: int = 0,
+    scene: Scene | _Path, scheme: str = "", rate: float | None = None, modes: int = 0,
     duration: float | None = None, tap_rate: float | None = None, energy: bool = False,
     options: Mapping[str, _Value] = {}, *, within: str = "", of: str = "", tap: str = "",
 ) -> Run: ...

@@ -148,11 +148,12 @@ void add_run(py::module_& m) {
              "xarray.Dataset: a variable per column over `time` [s], each with its units, and the "
              "facts as attributes. Needs xarray.");
     m.def("run", &python::run_one, py::arg("scene"), py::arg("scheme") = "",
-          py::arg("rate") = 44100.0, py::arg("modes") = 0, py::arg("duration") = py::none(),
+          py::arg("rate") = py::none(), py::arg("modes") = 0, py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("energy") = false,
           py::arg("options") = py::dict(), py::kw_only(), py::arg("within") = "",
           py::arg("of") = "", py::arg("tap") = "",
-          "One scheme on one scene. rate, tap_rate [Hz]; duration [s]; energy=True adds the energy "
+          "One scheme on one scene. rate [Hz], 44100 where absent, tap_rate [Hz]; duration [s]; "
+          "energy=True adds the energy "
           "columns; options {\"compliance\": \"matched\"}. within=\"1%\" chooses scheme, rate and "
           "modes as `jvari run --within`, by the measure `of` of `tap`; so does a run without a "
           "scheme. Raises Refusal, SceneError or UsageError.");

@@ -214,16 +214,10 @@ void draw(const std::string& file, const Descriptor& d, const Scene& scene, cons
 // Scheme, rate and modes where they are to be chosen, by the last of these.
 std::vector<compare::Advice> advised(const RunRequest& r, const Scene& scene,
                                      const compare::Catalogue& catalogue, const Console& console) {
-    if (r.within.empty() && !(r.measure.empty() && r.tap.empty()))
-        throw store::UsageError("--of and --tap go with --within ERROR");
-    if (r.within.empty() && !r.scheme.empty()) return {};
-    if (r.rate || r.modes > 0)
-        throw store::UsageError(
-            r.within.empty() ? "--rate and --modes go with --scheme NAME"
-                             : "--within chooses rate and modes: expected no --rate, no --modes");
-    const auto all = compare::advise(
-        scene, {r.within, r.measure, r.tap, r.scheme, r.tap_rate, scheme_options(r.options)},
-        catalogue, console);
+    const compare::AdviceRequest request{r.within, r.measure,  r.tap,
+                                         r.scheme, r.tap_rate, scheme_options(r.options)};
+    if (!compare::asks_for_advice(request, r.rate.has_value(), r.modes)) return {};
+    const auto all = compare::advise(scene, request, catalogue, console);
     for (const compare::Advice& advice : all)
         if (advice.within) console.print(compare::text_of(advice));
         else console.note(compare::text_of(advice));

@@ -278,6 +278,17 @@ Advice advice_of(const Scene& whole, const AdviceRequest& r, const Catalogue& ca
 }
 }  // namespace
 
+bool asks_for_advice(const AdviceRequest& r, bool names_rate, int modes) {
+    if (r.within.empty() && !(r.measure.empty() && r.tap.empty()))
+        throw store::UsageError("--of and --tap go with --within ERROR");
+    if (r.within.empty() && !r.scheme.empty()) return false;
+    if (names_rate || modes != 0)
+        throw store::UsageError(
+            r.within.empty() ? "--rate and --modes go with --scheme NAME"
+                             : "--within chooses rate and modes: expected no --rate, no --modes");
+    return true;
+}
+
 std::vector<Advice> advise(const Scene& scene, const AdviceRequest& request,
                            const Catalogue& catalogue, const store::Listener& listener) {
     AdviceRequest r = request;

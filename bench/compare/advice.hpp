@@ -47,6 +47,9 @@ struct Advice {
     double seconds = 0;   // of processor, of all runs
 };
 
+// Whether scheme, rate and modes are to be chosen, or were named. Throws UsageError where both, and
+// for a measure or a tap without a tolerance.
+bool asks_for_advice(const AdviceRequest&, bool names_rate, int modes);
 // The last one counts. Where no tolerance is asked for it is 1 % of the waveform; a second advice,
 // 3 dB in third octaves, follows where that cannot be had. Throws UsageError, BadScene, Refusal
 // where no scheme with a record represents the scene.
