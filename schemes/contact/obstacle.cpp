@@ -42,6 +42,13 @@ Obstacle::Obstacle(const Contacts& contacts, std::vector<Thread> threads,
         one_.theta = between[0];
     }
     one_.of_thread = threads_.one();
+    const bool linear = std::all_of(contacts.laws.begin(), contacts.laws.end(),
+                                    [](const ContactLaw& l) { return l.alpha == 1 && !l.rigid(); });
+    const bool loses = std::any_of(contacts.loss.begin(), contacts.loss.end(),
+                                   [](double beta) { return beta != 0; });
+    if (contacts.count() > 1 && points() <= FewContacts::most && threads_.count() <= 1 && linear &&
+        !loses && rule_->is_discrete_gradient())
+        few_.emplace(contacts.laws, between);
     for (auto* v : {&eta_, &now_, &b_, &r_, &gained_}) v->assign(contacts.count(), 0.0);
     for (auto* v : {&pull_, &from_}) v->assign(threads_.count(), 0.0);
     for (auto* v : {&older_points_, &now_points_, &free_points_}) v->assign(points(), 0.0);
@@ -70,6 +77,7 @@ void Obstacle::begin(const double* reading, const double* moving, const double* 
 void Obstacle::set(std::span<const double> theta) noexcept {
     rule_->set(theta);
     one_.theta = theta.empty() ? 0 : theta[0];
+    few_.reset();
 }
 
 void Obstacle::follow(const Obstacle& first) {

@@ -24,6 +24,7 @@
 
 #include "scenes/scene.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
+#include "schemes/contact/few_contacts.hpp"
 #include "schemes/contact/obstacle_rule.hpp"
 #include "schemes/contact/residual.hpp"
 
@@ -93,10 +94,13 @@ public:
     const double* forces(int level) const { return series_->force(level); }  // in series [N]
     std::vector<Fact> facts() const;
 
-    // For a string whose kernel makes whole steps (modal/two_point_modes.hpp): nullptr where they
-    // solve for more than one contact by the discrete gradient and a thread.
-    ContactAndThread* one() { return fused_ ? &one_ : nullptr; }
-    const ContactAndThread* one() const { return fused_ ? &one_ : nullptr; }
+    // Whether solve_few() has these contacts: linear ones by the discrete gradient without losses,
+    // up to FewContacts::most, or any one without losses; and a thread at most.
+    bool few() const { return fused_ || few_.has_value(); }
+    // Solves a step at the readings y, which what is in series has yielded to, of points that move
+    // by u without forces; for string kernels that make whole steps.
+    template <int contacts, bool thread>
+    [[gnu::always_inline]] bool solve_few(const double* y, const double* u, double* force) noexcept;
     Residual* series() { return series_ ? &*series_ : nullptr; }
     bool has_series() const { return series_.has_value(); }
 
@@ -139,11 +143,47 @@ private:
     int levels_;
     bool centred_ = false, fused_ = false;
     ContactAndThread one_;  // its tally is that of all contacts
+    std::optional<FewContacts> few_;
     std::optional<Residual> series_;
     std::vector<double> eta_, now_, b_, r_, gained_;
     std::vector<double> older_points_, now_points_, free_points_;  // with what is in series [m]
     // of each thread in the last step: its force [N], the reading it started from [m]
     std::vector<double> pull_, from_;
 };
+
+template <int contacts, bool thread>
+[[gnu::always_inline]] inline bool Obstacle::solve_few(const double* y, const double* u,
+                                                       double* force) noexcept {
+    constexpr int n = contacts;
+    if constexpr (n <= 1) {
+        double F_b = 0, F_c = 0;
+        const double y_b = n == 1 ? y[0] : 0, u_b = n == 1 ? u[0] : 0;
+        const bool converged = one_.solve<n == 1, thread>(y_b, y_b, u_b, thread ? y[n] : 0,
+                                                          thread ? u[n] : 0, F_b, F_c);
+        if constexpr (n == 1) force[0] = F_b;
+        if constexpr (thread) force[n] = F_c;
+        return converged;
+    } else {
+        const double v = thread ? one_.of_thread.alone(y[n], u[n]) : 0;
+        double eta[n], b[n], depth[n];
+        for (int a = 0; a < n; ++a) {
+            eta[a] = contacts_.heights[a] - y[a];
+            b[a] = -u[a];
+            if (thread) b[a] -= threads_.coupling(a, 0) * v;
+        }
+        const int iterations = few_->solve<n>(eta, b, depth, force);
+        if (iterations < 0) return solve_points({y, y, u}, force, false, false);
+        double pull = v;
+        bool pushes = false;
+        for (int a = 0; a < n; ++a) {
+            if (thread) pull -= threads_.answer(0, a) * force[a];
+            one_.tally.note(force[a], std::max(eta[a], depth[a]));
+            pushes = pushes || force[a] != 0;
+        }
+        if (pushes) one_.tally.note(iterations, 0);
+        if constexpr (thread) force[n] = pull;
+        return true;
+    }
+}
 
 }  // namespace jvari

@@ -4,39 +4,86 @@
 
 namespace jvari {
 
+namespace {
+using Real = long double;  // matrices are rounded once: an error is one of every step, of one sign
+}
+
 Residual::Residual(const MissingMatrix& m, double span, int levels)
     : points_(m.points()),
       levels_(levels),
       rate_(1 / span),
-      C_(m.C),
-      W_(m.C),
-      K_(m.C),
       damper_(m.ladder.damper),
       V_(m.ladder.V),
-      moved_(points_),
-      behind_(points_) {
-    const std::size_t n = points_;
-    for (std::size_t k = 0; k < n; ++k)
+      steady_(points_),
+      Q_(points_),
+      before_(2 * static_cast<std::size_t>(points_)) {
+    const int n = points_;
+    for (int k = 0; k < n; ++k)
         masses_.emplace_back(m.ladder.mass[k], m.ladder.resistance[k], span);
-    std::vector<double> R = damper_;
-    for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b) {
-            double branches = 0;
-            for (std::size_t k = 0; k < n; ++k)
-                branches += V_[k * n + a] * masses_[k].branch * V_[k * n + b];
-            R[a * n + b] += branches;
-        }
-    std::vector<double> sum = product_of(R, C_, m.points());
-    for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b)
-            sum[a * n + b] = sum[a * n + b] / span + (a == b ? 0.5 : 0.0);
-    W_ = inverse_of(sum, m.points());  // (3)
-    const std::vector<double> k = product_of(C_, W_, m.points());
-    for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b) K_[a * n + b] = 0.5 * (k[a * n + b] + k[b * n + a]);
-    for (State& s : state_)
-        for (auto* x : {&s.P, &s.v, &s.D, &s.Q, &s.H}) x->assign(points_, 0.0);
-    steady_.assign(points_, 0.0);
+    const auto product = [n](const auto& A, const auto& B) {
+        std::vector<Real> sum(static_cast<std::size_t>(n) * n);
+        for (int a = 0; a < n; ++a)
+            for (int c = 0; c < n; ++c)
+                for (int b = 0; b < n; ++b)
+                    sum[a * n + b] += static_cast<Real>(A[a * n + c]) * B[c * n + b];
+        return sum;
+    };
+    std::vector<Real> branches(V_.size()), R(damper_.begin(), damper_.end());  // V' B
+    for (int a = 0; a < n; ++a)
+        for (int k = 0; k < n; ++k) branches[a * n + k] = V_[k * n + a] * Real{masses_[k].branch};
+    const std::vector<Real> resisted = product(branches, V_);
+    for (std::size_t i = 0; i < R.size(); ++i) R[i] += resisted[i];
+    std::vector<Real> W = product(R, m.C);
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) W[a * n + b] = W[a * n + b] / span + (a == b ? 0.5 : 0.0);
+    W = inverse_of(W, n);  // (3)
+    const std::vector<Real> k = product(m.C, W);
+    std::vector<Real> K(k.size());
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) K[a * n + b] = (k[a * n + b] + k[b * n + a]) / 2;
+    K_.assign(K.begin(), K.end());
+    const std::vector<Real> VK = product(V_, K), K_branches = product(K, branches);
+    const auto column = [](std::vector<double>& to, auto&&... rows) {
+        (to.push_back(static_cast<double>(rows)), ...);
+    };
+    for (int b = 0; b < n; ++b) {
+        for (int a = 0; a < n; ++a) column(by_force_, W[a * n + b]);  // (5)
+        for (int p = 0; p < n; ++p)                                   // (2), (4)
+            column(by_force_, masses_[p].share / Real{span} * VK[p * n + b]);
+    }
+    keeps_.assign(n, 1);
+    for (const MassStep& mass : masses_) keeps_.push_back(1 - mass.share);
+    for (int b = 0; b < n; ++b) {  // P
+        for (int a = 0; a < n; ++a) column(by_state_, m.C[a * n + b]);
+        for (int a = 0; a < n; ++a) column(by_state_, K[a * n + b]);
+        for (int a = 0; a < n; ++a) column(by_state_, a == b ? 1 : 0);
+    }
+    for (int p = 0; p < n; ++p) {  // v
+        for (int a = 0; a < n; ++a) column(by_state_, 0);
+        for (int a = 0; a < n; ++a) column(by_state_, -K_branches[a * n + p]);
+        for (int a = 0; a < n; ++a) column(by_state_, -branches[a * n + p]);
+    }
+    for (State& s : state_) {
+        s.x.assign(2 * static_cast<std::size_t>(n), 0.0);
+        s.out.assign(3 * static_cast<std::size_t>(n), 0.0);
+    }
+}
+
+double Residual::lost() const {
+    const int n = points_;
+    std::vector<double> moved(n);
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) moved[a] += K_[a * n + b] * Q_[b];
+    double sum = 0;
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) sum += moved[a] * damper_[a * n + b] * moved[b];
+    sum *= rate_;
+    for (int k = 0; k < n; ++k) {
+        double along = 0;
+        for (int b = 0; b < n; ++b) along += V_[k * n + b] * moved[b];
+        sum += masses_[k].lost(masses_[k].behind(along, before_[n + k]));
+    }
+    return sum;
 }
 
 }  // namespace jvari

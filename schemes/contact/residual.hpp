@@ -1,5 +1,5 @@
 // What a string lacks at its points stands in series with them: springs, and beside them a ladder
-// (compliance.hpp). One form for any number of points; 1 and 2 are unrolled. The equations are
+// (compliance.hpp). One form for any number of points; up to 5 are unrolled. The equations are
 // those of docs/compliance-matching.md, "The step".
 //
 //     symbol        meaning                                              unit        equation
@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "schemes/contact/compliance.hpp"
+#include "schemes/contact/products.hpp"
 
 namespace jvari {
 
@@ -38,7 +39,6 @@ struct MassStep {
             branch = 1 / (1 / resistance + 0.5 * span / mass), share = branch * span / mass;
     }
     double behind(double moved, double v) const { return moved / span - v; }  // [m/s]
-    void follow(double behind, double& v) const { v += share * behind; }      // (2)
     double lost(double behind) const {                                        // in a step [J] (7)
         return branch * span * (1 - 0.5 * share) * behind * behind;
     }
@@ -52,17 +52,18 @@ public:
 
     double K(std::size_t i) const { return K_[i]; }  // row-major over the points
     // Of each point; level 0: that the next step starts from, 1: the one after it.
-    const double* yields(int level) const { return state_[level].D.data(); }  // D [m]
-    const double* force(int level) const { return state_[level].P.data(); }   // P [N]
-    const double* pulled() const { return state_[0].H.data(); }  // of the next step [m]
+    const double* yields(int level) const { return state_[level].out.data(); }  // D [m]
+    const double* force(int level) const { return state_[level].x.data(); }     // P [N]
+    // H of the next step [m]
+    const double* pulled() const { return state_[0].out.data() + points_; }
     int centre() const { return levels_ - 1; }  // the level that it is centred on, or starts from
 
     void rest(const double* force) noexcept {  // under steady forces of the points [N]
         std::copy_n(force, points_, steady_.begin());
         for (State& s : state_) {
-            std::copy_n(force, points_, s.P.begin());
-            std::fill(s.v.begin(), s.v.end(), 0.0);
-            prepare<0>(s, s.P.data(), s.Q.data());
+            std::copy_n(force, points_, s.x.begin());
+            std::fill(s.x.begin() + points_, s.x.end(), 0.0);
+            show<0>(s.x.data(), s);
         }
     }
     void follow(const Residual& first) noexcept {  // after it made the first half step
@@ -84,78 +85,64 @@ public:
     }
     template <int few>
     [[gnu::always_inline]] void step(const double* F) noexcept {
-        const std::size_t n = few > 0 ? few : points_;
+        const int n = few > 0 ? few : points_;
         State& s = state_[0];
-        double local[3][std::max(few, 1)];  // in registers
-        double *Q = few > 0 ? local[0] : s.Q.data(), *moved = few > 0 ? local[1] : moved_.data(),
-               *P = few > 0 ? local[2] : s.P.data();
-        for (std::size_t a = 0; a < n; ++a) Q[a] = F[a] - s.Q[a];
-        for (std::size_t a = 0; a < n; ++a) {
-            moved_[a] = moved[a] = times(K_, a, Q, n);    // (4)
-            s.P[a] = P[a] = s.P[a] + times(W_, a, Q, n);  // (5)
+        double local[few > 0 ? 5 * few : 1];  // in registers
+        double *Q = few > 0 ? local : Q_.data(), *before = few > 0 ? Q + few : before_.data(),
+               *x = few > 0 ? before + 2 * few : s.x.data();
+        for (int a = 0; a < n; ++a) Q[a] = F[a] - s.out[2 * n + a];
+        for (int i = 0; i < 2 * n; ++i) before[i] = s.x[i];
+        for (int i = 0; i < 2 * n; ++i) x[i] = keeps_[i] * before[i];
+        add_product<2 * few>(by_force_.data(), Q, n, x, 2 * n);
+        show<few>(x, s);
+        if constexpr (few > 0) {
+            for (int a = 0; a < n; ++a) Q_[a] = Q[a];
+            for (int i = 0; i < 2 * n; ++i) before_[i] = before[i], s.x[i] = x[i];
         }
-        for (std::size_t k = 0; k < n; ++k) {
-            behind_[k] = masses_[k].behind(times(V_, k, moved, n), s.v[k]);
-            masses_[k].follow(behind_[k], s.v[k]);
-        }
-        prepare<few>(s, P, Q);
         if (levels_ == 2) std::swap(state_[0], state_[1]);
     }
 
     double stored(int level) const {  // [J] (7)
         const State& s = state_[level];
         double sum = 0;
-        for (std::size_t a = 0; a < points_; ++a)
-            sum += 0.5 * (s.P[a] * s.D[a] + masses_[a].mass * s.v[a] * s.v[a]);
+        for (int a = 0; a < points_; ++a) {
+            const double v = s.x[points_ + a];
+            sum += 0.5 * (s.x[a] * s.out[a] + masses_[a].mass * v * v);
+        }
         return sum;
     }
-    double lost() const {  // in the last step [J] (7)
-        double sum = 0;
-        for (std::size_t a = 0; a < points_; ++a)
-            sum += moved_[a] * times(damper_, a, moved_.data(), points_);
-        sum *= rate_;
-        for (std::size_t k = 0; k < points_; ++k) sum += masses_[k].lost(behind_[k]);
-        return sum;
-    }
+    double lost() const;  // in the last step [J] (7)
 
 private:
     struct State {
-        std::vector<double> P, v, D, Q, H;  // of points, of patterns (v)
+        std::vector<double> x;    // P of points, v of patterns
+        std::vector<double> out;  // D, H, Q of points
     };
-    [[gnu::always_inline]] static double times(const std::vector<double>& m, std::size_t a,
-                                               const double* x, std::size_t n) {
-        double sum = 0;
-        for (std::size_t b = 0; b < n; ++b) sum += m[a * n + b] * x[b];
-        return sum;
+    // D, H and Q of what P and v are
+    template <int few>
+    [[gnu::always_inline]] void show(const double* x, State& s) noexcept {
+        const int n = few > 0 ? few : points_;
+        double local[few > 0 ? 3 * few : 1];
+        double* out = few > 0 ? local : s.out.data();
+        product<3 * few>(by_state_.data(), x, 2 * n, out, 3 * n);
+        if constexpr (few > 0)
+            for (int i = 0; i < 3 * n; ++i) s.out[i] = out[i];
     }
     void take(State& to, const State& from) noexcept {
-        to.P = from.P;
-        to.v = from.v;
-        prepare<0>(to, to.P.data(), to.Q.data());
-    }
-    // D, Q and H of what P and v are
-    template <int few>
-    [[gnu::always_inline]] void prepare(State& s, const double* P, double* Q) noexcept {
-        const std::size_t n = few > 0 ? few : points_;
-        for (std::size_t a = 0; a < n; ++a) {
-            double resisted = 0;
-            for (std::size_t k = 0; k < n; ++k)
-                resisted += V_[k * n + a] * masses_[k].branch * s.v[k];
-            s.D[a] = times(C_, a, P, n);
-            s.Q[a] = Q[a] = P[a] - resisted;
-        }
-        for (std::size_t a = 0; a < n; ++a) s.H[a] = times(K_, a, Q, n);
+        to.x = from.x;
+        show<0>(to.x.data(), to);
     }
 
-    std::size_t points_;
-    int levels_;
+    int points_, levels_;
     double rate_;                     // 1/span [1/s]
-    std::vector<double> C_, W_, K_;   // points x points
+    std::vector<double> K_;           // points x points
     std::vector<double> damper_, V_;  // V: patterns x points
     std::vector<MassStep> masses_;    // of each pattern
+    // A step, by columns: x of F - Q, what of x stays, out of x.
+    std::vector<double> by_force_, keeps_, by_state_;
     State state_[2];
-    std::vector<double> steady_;          // of points, at rest [N]
-    std::vector<double> moved_, behind_;  // in the last step: of points [m], of patterns [m/s]
+    std::vector<double> steady_;      // of points, at rest [N]
+    std::vector<double> Q_, before_;  // F - Q of the last step, and x before it
 };
 
 }  // namespace jvari

@@ -146,20 +146,31 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         v = quotient(x, to, a, b);
     };
     double last = std::numeric_limits<double>::infinity();
+    const double close = 1e-8 / law_.alpha;  // relative: the next error is about its square
     s.converged = false;
     for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
         look();
         const double g = p - v.value, by_x = (1 + T.m11 * a.slope) * by_A_1, size = std::abs(g),
-                     slope = by_x - v.by_from - v.by_to * (T.m01 * a.slope - A_0 * by_x);
+                     to_by_x = T.m01 * a.slope - A_0 * by_x,
+                     slope = by_x - v.by_from - v.by_to * to_by_x;
         if (g > 0) high = std::min(high, x);
         else low = std::max(low, x);
         double next = x - g / slope;
-        s.residual = size / std::max(std::abs(v.value), 1e-300);
-        if (s.residual > 1e-6 && (!(next > low && next < high) || !(slope > 0)))
+        const double step = next - x, reach = std::max(std::abs(x), std::abs(to)),
+                     scale = std::max(std::abs(v.value), 1e-300);
+        if (slope > 0 && std::abs(step) <= close * std::abs(x) &&
+            std::abs(step * to_by_x) <= close * reach) {
+            p += by_x * step, a.force += a.slope * step, to += to_by_x * step, x = next;
+            s.converged = true;
+            s.residual = size / scale;
+            break;
+        }
+        if (size > 1e-6 * scale && (!(next > low && next < high) || !(slope > 0)))
             next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
         // to rounding, which may be more where the contact is stiff
-        s.converged = s.residual <= 1e-14 || std::abs(next - x) <= half_bit * std::abs(x) ||
-                      (s.residual <= 1e-11 && size >= 0.5 * last);
+        s.converged = size <= 1e-14 * scale || std::abs(next - x) <= half_bit * std::abs(x) ||
+                      (size <= 1e-11 * scale && size >= 0.5 * last);
+        s.residual = size / scale;
         if (s.converged) break;
         last = size;
         x = next;
@@ -167,6 +178,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     // p, not DV: where the contact is stiff, DV has the rounding of penetrations
     s.phi_0 = p, s.phi_1 = p - a.force, s.from = x, s.to = to;
     if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) {  // enters: the end from the energy
+        b = powers(to);
         for (int i = 0; i < 8; ++i) {
             const double next = s.to - (b.V - p * (s.to - x)) / (b.force - p);
             if (!(next > 0)) break;
@@ -221,8 +233,8 @@ void MomentRule::without_loss(const MomentMatrix& T, double eta, double E_0, dou
     const double A_1 = T.m10 + T.m11;
     if (A_1 > 1e-6 * T.m00) by_newton(T, eta, E_0, E_1, s);
     // where forces move the contact by little, p is the small difference of two penetrations
-    const double digits = A_1 * std::abs(s.phi_0) / (std::abs(s.from) + std::abs(E_0));
-    if (!s.converged || (s.phi_0 != 0 && digits < 1e-3)) by_bracket(T, E_0, E_1, s);
+    const bool small = A_1 * std::abs(s.phi_0) < 1e-3 * (std::abs(s.from) + std::abs(E_0));
+    if (!s.converged || (s.phi_0 != 0 && small)) by_bracket(T, E_0, E_1, s);
 }
 
 // The step with the dampers l_0, l_1 of (11).

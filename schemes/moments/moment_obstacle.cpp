@@ -2,7 +2,6 @@
 #include "schemes/moments/moment_obstacle.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -69,16 +68,14 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
         gram_ = ContactGram(laws, means);
     }
     found_.resize(n);
+    pairs_.assign(static_cast<std::size_t>(14) * n, 0.0);
     active_.resize(n);
     for (auto* v : {&moved_, &spring_, &ends_, &trial_, &step_, &last_}) v->assign(D, 0.0);
     b_.assign(2 * static_cast<std::size_t>(D), 0.0);
     for (auto* v : {&next_, &x_before_}) v->assign(x_.size(), 0.0);
     matrix_.assign(static_cast<std::size_t>(2 * n) * (4 * n + 1), 0.0);
     sets_.resize(n > 1 ? kept_sets : 1);
-    for (Kept& s : sets_) {
-        s.contacts.assign(n, 0);
-        s.inverse.assign(static_cast<std::size_t>(4) * n * n, 0.0);
-    }
+    for (Kept& s : sets_) s.inverse.assign(static_cast<std::size_t>(4) * n * n, 0.0);
     if (n == 1 && linear_) std::copy_n(kept(1).inverse.begin(), 4, inverse_);
 }
 
@@ -163,10 +160,10 @@ void MomentObstacle::put_linear_part() {
         for (int f = 0; f < D; ++f)
             state_by_[(S + f) * S + S - 1] = static_cast<double>(theta[c * D + f]);
     }
-    for (int i = 0; i < 2; ++i)
-        for (int a = 0; a < n; ++a)
-            for (int j = 0; j < 2; ++j)
-                for (int b = 0; b < n; ++b) {
+    for (int j = 0; j < 2; ++j)
+        for (int b = 0; b < n; ++b)
+            for (int i = 0; i < 2; ++i)
+                for (int a = 0; a < n; ++a) {
                     Real sum = theta[(i * P + a) * D + j * P + b];
                     for (int l = 0; thread_ && l < 2; ++l)
                         sum += theta[(i * P + a) * D + l * P + c] * answer[(2 * l + j) * n + b];
@@ -225,20 +222,6 @@ void MomentObstacle::take(int a, const MomentContact& s) noexcept {
     if (s.phi_0 != 0 || s.phi_1 != 0) tally_.note(s.phi_0, std::max({p.eta_before, p.eta, s.from}));
 }
 
-void MomentObstacle::take_out(int a, double moved) noexcept {
-    Point& p = at_[a];
-    moved_[a] = moved;
-    const double lost = rules_[a].conserves() ? 0 : rules_[a].law().potential(p.eta);
-    p = {p.eta - moved, p.eta, p.eta, false, lost};
-}
-
-void MomentObstacle::take_linear(int a, double phi_0, double from, double to) noexcept {
-    Point& p = at_[a];
-    moved_[a] = p.eta - to;
-    p = {to, p.eta, from, true, 0};
-    if (phi_0 != 0) tally_.note(phi_0, std::max({p.eta_before, p.eta, from}));
-}
-
 bool MomentObstacle::alone(const double* b, double* force) noexcept {
     if (rules_[0].stays_out(at_[0].eta, b[0], b[points_])) {
         force[0] = force[points_] = 0;
@@ -255,33 +238,33 @@ bool MomentObstacle::alone(const double* b, double* force) noexcept {
 
 // Of the linear contacts in full contact: c (phi_0 + phi_1) + (T phi)_0 = E_1 and c (phi_0 - phi_1)
 // - (T phi)_1 = E_0.
-const MomentObstacle::Kept& MomentObstacle::kept(std::uint64_t set) noexcept {
-    Kept& s = sets_[(set ^ (set >> 7) ^ (set >> 19)) % sets_.size()];
-    if (s.set == set) return s;
+void MomentObstacle::keep(std::uint64_t set, Kept& s) noexcept {
     s.set = set;
-    s.size = 0;
+    std::fill(s.inverse.begin(), s.inverse.end(), 0.0);
+    int size = 0;
     for (int a = 0; a < n_; ++a)
-        if (set >> a & 1) s.contacts[s.size++] = a;
-    const int m = 2 * s.size, columns = 2 * m;
+        if (set >> a & 1) active_[size++] = a;
+    const int m = 2 * size, columns = 2 * m;
     double* rows = matrix_.data();
     std::fill_n(rows, m * columns, 0.0);
-    for (int x = 0; x < s.size; ++x) {
-        const int a = s.contacts[x];
+    for (int x = 0; x < size; ++x) {
+        const int a = active_[x];
         const double c = rules_[a].c();
-        double *first = rows + 2 * x * columns, *second = first + columns;
-        for (int y = 0; y < s.size; ++y)
+        double *first = rows + x * columns, *second = rows + (size + x) * columns;
+        for (int y = 0; y < size; ++y)
             for (int j = 0; j < 2; ++j) {
-                first[2 * y + j] = T(0, a, j, s.contacts[y]);
-                second[2 * y + j] = -T(1, a, j, s.contacts[y]);
+                first[j * size + y] = T(0, a, j, active_[y]);
+                second[j * size + y] = -T(1, a, j, active_[y]);
             }
-        first[2 * x] += c, first[2 * x + 1] += c;
-        second[2 * x] += c, second[2 * x + 1] -= c;
-        first[m + 2 * x] = second[m + 2 * x + 1] = 1;
+        first[x] += c, first[size + x] += c;
+        second[x] += c, second[size + x] -= c;
+        first[m + x] = second[m + size + x] = 1;
     }
     eliminate(rows, m, columns);
+    const auto place = [&](int i) { return i / size * n_ + active_[i % size]; };
     for (int i = 0; i < m; ++i)
-        for (int j = 0; j < m; ++j) s.inverse[i * m + j] = rows[i * columns + m + j];
-    return s;
+        for (int j = 0; j < m; ++j)
+            s.inverse[place(j) * 2 * n_ + place(i)] = rows[i * columns + m + j];
 }
 
 void MomentObstacle::moved_by_others(int a, const double* b, const double* force, double& b_0,
@@ -296,121 +279,57 @@ void MomentObstacle::moved_by_others(int a, const double* b, const double* force
     }
 }
 
-bool MomentObstacle::several(const double* b, double* force) noexcept {
-    const int P = points_;
-    const Kept* s = nullptr;
-    std::fill_n(force, n_, 0.0);
-    std::fill_n(force + P, n_, 0.0);
-    if (set_ != 0) {
-        s = &kept(set_);
-        const int m = 2 * s->size;
-        for (int x = 0; x < s->size; ++x) {
-            const int a = s->contacts[x];
-            ends_[2 * x] = at_[a].eta - b[a];
-            ends_[2 * x + 1] = at_[a].eta + b[P + a];
-        }
-        for (int x = 0; x < m; ++x) {
-            double phi = 0;
-            for (int y = 0; y < m; ++y) phi += s->inverse[x * m + y] * ends_[y];
-            force[x % 2 * P + s->contacts[x / 2]] = phi;
-        }
-    }
-    int misfits = 0, who = 0;
-    for (int a = 0; a < n_; ++a) {
-        bool fits;
-        if (set_ >> a & 1) {
-            fits = force[a] > std::abs(force[P + a]);
-        } else {
-            double b_0, b_1;
-            moved_by_others(a, b, force, b_0, b_1);
-            trial_[a] = b_0, trial_[P + a] = b_1;
-            fits = rules_[a].stays_out(at_[a].eta, b_0, b_1);
-        }
-        if (!fits) ++misfits, who = a;
-    }
-    const std::uint64_t set = set_;
-    if (misfits == 0) {
-        for (int a = 0; a < n_; ++a) {
-            if (set >> a & 1) {
-                const double c = rules_[a].c(), phi_0 = force[a], phi_1 = force[P + a];
-                take_linear(a, phi_0, c * (phi_0 - phi_1), c * (phi_0 + phi_1));
-            } else {
-                take_out(a, trial_[a]);
-            }
-        }
-        if (set) tally_.note(0, 0);
+// A step in which contacts change.
+bool MomentObstacle::with_change(std::uint64_t misfits, const double* b, const double* ends,
+                                 const double* phi, double* force) noexcept {
+    if (std::has_single_bit(misfits) &&
+        with_one(set_ & ~misfits, std::countr_zero(misfits), b, ends, force))
         return true;
+    for (int a = 0; a < n_; ++a) {  // a first guess: of full contact what pushes
+        force[a] = std::max(phi[a], 0.0);
+        force[points_ + a] = std::clamp(phi[n_ + a], -force[a], force[a]);
     }
-    if (misfits == 1 && with_one(set & ~(std::uint64_t{1} << who), who, b, force)) return true;
     return by_newton(b, force);
 }
 
 // Contact a by its own equation, those of `others` in full contact and eliminated, the rest out.
 // False where these do not agree.
-bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b,
+bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b, const double* ends,
                               double* force) noexcept {
-    const int P = points_;
+    const int n = n_, D = 2 * n;
+    double *phi = trial_.data(), *r = pairs_.data() + 3 * D, *by = r + D;  // by: phi_a
+    std::fill_n(phi, D, 0.0);
+    std::fill_n(by, 2 * D, 0.0);
     MomentMatrix less = own(a);
-    double b_0 = b[a], b_1 = b[P + a];
-    const Kept* s = others ? &kept(others) : nullptr;
-    const int m = s ? 2 * s->size : 0;
-    // ends of the others by phi_a: -T_0a, T_1a
-    const auto by_own = [&](int x, int j) {
-        const int c = s->contacts[x / 2];
-        return x % 2 == 0 ? -T(0, c, j, a) : T(1, c, j, a);
-    };
-    for (int x = 0; x < m; ++x) {
-        const int c = s->contacts[x / 2];
-        double free = 0, by_0 = 0, by_1 = 0;  // phi of the others
-        for (int y = 0; y < m; ++y) {
-            const int d = s->contacts[y / 2];
-            const double inverse = s->inverse[x * m + y];
-            free += inverse * (y % 2 == 0 ? at_[d].eta - b[d] : at_[d].eta + b[P + d]);
-            by_0 += inverse * by_own(y, 0), by_1 += inverse * by_own(y, 1);
+    double b_0 = b[a], b_1 = b[points_ + a];
+    if (others) {
+        const double* M = kept(others).inverse.data();
+        product_of_pairs<0>(M, ends, phi);
+        double* change = r;  // of the ends, by phi_a
+        for (int j = 0; j < 2; ++j) {
+            for (int c = 0; c < n; ++c) change[c] = -T(0, c, j, a), change[n + c] = T(1, c, j, a);
+            product_of_pairs<0>(M, change, by + j * D);
         }
-        const double t_0 = T(0, a, x % 2, c), t_1 = T(1, a, x % 2, c);
-        b_0 += t_0 * free, b_1 += t_1 * free;
-        less.m00 += t_0 * by_0, less.m01 += t_0 * by_1;
-        less.m10 += t_1 * by_0, less.m11 += t_1 * by_1;
+        for (int k = 0; k < D; ++k) {
+            const double t_0 = T_[k * D + a], t_1 = T_[k * D + n + a];
+            b_0 += t_0 * phi[k], b_1 += t_1 * phi[k];
+            less.m00 += t_0 * by[k], less.m01 += t_0 * by[D + k];
+            less.m10 += t_1 * by[k], less.m11 += t_1 * by[D + k];
+        }
     }
     const MomentContact own = rules_[a].solve(less, at_[a].eta, b_0, b_1);
     if (!own.converged) return false;
-    std::fill_n(trial_.data(), 2 * P, 0.0);
-    trial_[a] = own.phi_0, trial_[P + a] = own.phi_1;
-    for (int x = 0; x < m; ++x) {
-        double phi = 0;
-        for (int y = 0; y < m; ++y) {
-            const int d = s->contacts[y / 2];
-            phi +=
-                s->inverse[x * m + y] * ((y % 2 == 0 ? at_[d].eta - b[d] : at_[d].eta + b[P + d]) +
-                                         by_own(y, 0) * own.phi_0 + by_own(y, 1) * own.phi_1);
-        }
-        trial_[x % 2 * P + s->contacts[x / 2]] = phi;
-    }
-    for (int c = 0; c < n_; ++c) {
-        if (c == a) continue;
-        if (others >> c & 1) {
-            if (!(trial_[c] > std::abs(trial_[P + c]))) return false;
-            continue;
-        }
-        double c_0, c_1;
-        moved_by_others(c, b, trial_.data(), c_0, c_1);
-        if (!rules_[c].stays_out(at_[c].eta, c_0, c_1)) return false;
-        ends_[c] = c_0;
-    }
+    for (int k = 0; k < D; ++k) phi[k] += by[k] * own.phi_0 + by[D + k] * own.phi_1;
+    phi[a] = own.phi_0, phi[n + a] = own.phi_1;
+    product_of_pairs<0>(T_.data(), phi, r);
+    for (int c = 0; c < n; ++c) r[c] += b[c], r[n + c] += b[points_ + c];
+    for (int c = 0; c < n; ++c)
+        if (c != a && !fits(c, others >> c & 1, phi, r)) return false;
     set_ = others;
-    for (int c = 0; c < n_; ++c) {
-        force[c] = trial_[c], force[P + c] = trial_[P + c];
-        if (c == a) {
-            take(a, own);
-        } else if (others >> c & 1) {
-            const double give = rules_[c].c();
-            take_linear(c, force[c], give * (force[c] - force[P + c]),
-                        give * (force[c] + force[P + c]));
-        } else {
-            take_out(c, ends_[c]);
-        }
-    }
+    for (int c = 0; c < n; ++c)
+        if (c != a) take_as(c, others >> c & 1, phi, r, force);
+    force[a] = own.phi_0, force[points_ + a] = own.phi_1;
+    take(a, own);
     tally_.note(own.iterations, own.residual);
     return true;
 }

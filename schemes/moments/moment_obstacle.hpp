@@ -18,6 +18,8 @@
 // (contact_gram.hpp).
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -25,6 +27,7 @@
 #include "schemes/contact/contact_gram.hpp"
 #include "schemes/contact/eliminated_thread.hpp"
 #include "schemes/contact/obstacle.hpp"
+#include "schemes/contact/products.hpp"
 #include "schemes/moments/exact_ladder.hpp"
 #include "schemes/moments/moment_contact.hpp"
 
@@ -86,12 +89,12 @@ private:
     };
     struct Kept {  // a set of linear contacts in full contact
         std::uint64_t set = 0;
-        std::vector<int> contacts;
-        std::vector<double> inverse;  // of E_1, E_0 of each: phi_0, phi_1 of each
-        int size = 0;                 // contacts
+        // phi_0 of all contacts, then phi_1, by E_1 of all, then E_0: 2n x 2n, by columns; zeros
+        // in rows and columns of the others
+        std::vector<double> inverse;
     };
     double T(int i, int a, int j, int b) const {  // between contacts, the thread eliminated
-        return T_[((i * n_ + a) * 2 + j) * n_ + b];
+        return T_[(j * n_ + b) * 2 * n_ + i * n_ + a];
     }
     MomentMatrix own(int a) const {
         return {T(0, a, 0, a), T(0, a, 1, a), T(1, a, 0, a), T(1, a, 1, a)};
@@ -99,10 +102,34 @@ private:
     template <int few>
     [[gnu::always_inline]] bool one(const double* b, double* force) noexcept;
     bool alone(const double* b, double* force) noexcept;
-    bool several(const double* b, double* force) noexcept;
-    const Kept& kept(std::uint64_t set) noexcept;
-    bool by_set(const Kept&, const double* b, double* force) noexcept;
-    bool with_one(std::uint64_t others, int a, const double* b, double* force) noexcept;
+    template <int few>
+    [[gnu::always_inline]] bool several(const double* b, double* force) noexcept;
+    const Kept& kept(std::uint64_t set) noexcept {
+        Kept& s = sets_[(set ^ (set >> 7) ^ (set >> 19)) % sets_.size()];
+        if (s.set != set) keep(set, s);
+        return s;
+    }
+    void keep(std::uint64_t set, Kept&) noexcept;
+    // to = M x, of two numbers for each contact
+    template <int few>
+    [[gnu::always_inline]] void product_of_pairs(const double* M, const double* x,
+                                                 double* to) const noexcept {
+        product<2 * few>(M, x, 2 * (few > 0 ? few : n_), to, 2 * n_);
+    }
+    bool fits(int a, bool in, const double* phi, const double* r) const noexcept {
+        const double eta = at_[a].eta;
+        return in ? phi[a] > std::abs(phi[n_ + a]) : eta - r[a] <= 0 && eta + r[n_ + a] <= 0;
+    }
+    void take_as(int a, bool in, const double* phi, const double* r, double* force) noexcept {
+        force[a] = phi[a], force[points_ + a] = phi[n_ + a];
+        if (!in) return take_out(a, r[a]);
+        const double c = rules_[a].c();
+        take_linear(a, phi[a], c * (phi[a] - phi[n_ + a]), c * (phi[a] + phi[n_ + a]));
+    }
+    bool with_change(std::uint64_t misfits, const double* b, const double* ends, const double* phi,
+                     double* force) noexcept;
+    bool with_one(std::uint64_t others, int a, const double* b, const double* ends,
+                  double* force) noexcept;
     struct Rest {
         double squares = 0, relative = 0;
     };
@@ -113,15 +140,26 @@ private:
     void moved_by_others(int a, const double* b, const double* force, double& b_0,
                          double& b_1) const noexcept;
     void take(int a, const MomentContact&) noexcept;
-    void take_linear(int a, double phi_0, double from, double to) noexcept;
-    void take_out(int a, double moved) noexcept;
+    void take_linear(int a, double phi_0, double from, double to) noexcept {
+        Point& p = at_[a];
+        moved_[a] = p.eta - to;
+        p = {to, p.eta, from, true, 0};
+        if (phi_0 != 0) tally_.note(phi_0, std::max({p.eta_before, p.eta, from}));
+    }
+    void take_out(int a, double moved) noexcept {
+        Point& p = at_[a];
+        moved_[a] = moved;
+        const double lost =
+            p.eta <= 0 || rules_[a].conserves() ? 0 : rules_[a].law().potential(p.eta);
+        p = {p.eta - moved, p.eta, p.eta, false, lost};
+    }
 
     void put_linear_part();
 
     Contacts contacts_;
     int n_, points_;
     double span_;
-    std::vector<double> theta_, T_;
+    std::vector<double> theta_, T_;  // T_ by columns
     std::vector<MomentRule> rules_;
     std::vector<Point> at_;
     std::optional<Thread> thread_;
@@ -133,10 +171,10 @@ private:
     std::vector<double> points_by_, state_by_;
     std::vector<double> pull_by_;  // phi_c of the contacts' phi, 2 x 2n
     std::vector<double> last_;     // phi of the last step
-    double inverse_[4] = {};       // of one linear contact in full contact
+    double inverse_[4] = {};       // Kept's of one linear contact
     ContactTally tally_;
     std::vector<double> b_, next_, moved_, spring_;  // workspaces; r_0; C^-1 D
-    std::vector<double> ends_, trial_, step_, matrix_;
+    std::vector<double> pairs_, ends_, trial_, step_, matrix_;
     std::vector<MomentContact> found_;
     ContactGram gram_;
     long constant_ = 0;  // steps by it
@@ -144,14 +182,6 @@ private:
     std::uint64_t set_ = 0, linear_ = 0;  // touching linear contacts; all linear contacts
     std::vector<Kept> sets_;
 };
-
-// to += sum over columns of M x; columns of `rows` numbers
-template <int known>
-[[gnu::always_inline]] inline void add_product(const double* M, const double* x, int columns,
-                                               int rows, double* to) noexcept {
-    for (int c = 0; c<columns; ++c, M += known> 0 ? known : rows)
-        for (int r = 0; r < (known > 0 ? known : rows); ++r) to[r] += M[r] * x[c];
-}
 
 // Inline for the kernels that make whole steps.
 template <int few, bool thread, bool series>
@@ -168,16 +198,14 @@ template <int few, bool thread, bool series>
     if (states == 0) {
         for (int i = 0; i < 2 * P; ++i) b[i] = free[i];
     } else {
-        for (int i = 0; i < 2 * P; ++i) b[i] = by_free[i] = 0;
-        add_product<D>(points_by_.data(), x, states, 2 * P, b);
-        add_product<D>(points_by_.data() + states * 2 * P, free, 2 * P, 2 * P, by_free);
+        product<D>(points_by_.data(), x, states, b, 2 * P);
+        product<D>(points_by_.data() + states * 2 * P, free, 2 * P, by_free, 2 * P);
         for (int i = 0; i < 2 * P; ++i) b[i] += by_free[i];
-        for (int i = 0; i < states; ++i) next[i] = 0;
-        add_product<S>(state_by_.data(), x, states, states, next);
+        product<S>(state_by_.data(), x, states, next, states);
     }
     bool converged = true;
     if (n == 1) converged = one<few>(b, force);
-    else if (n > 1) converged = several(b, force);
+    else if (n > 1) converged = several<few - thread>(b, force);
     if (has_thread) {
         double pull_0 = b[c], pull_1 = b[P + c];
         for (int a = 0; a < n; ++a) {
@@ -188,7 +216,7 @@ template <int few, bool thread, bool series>
         next[states - 1] += free[c];
     }
     if (states > 0) {
-        add_product<S>(state_by_.data() + states * states, force, 2 * P, states, next);
+        add_product<S>(state_by_.data() + states * states, force, 2 * P, next, states);
         for (int i = 0; i < states; ++i) x_before_[i] = x_[i], x_[i] = next[i];
         for (int i = 0; i < 2 * P; ++i) last_[i] = force[i];
     }
@@ -207,8 +235,8 @@ template <int few>
             at = {E_1, at.eta, E_0, true, 0};
             return true;
         }
-        const double phi_0 = inverse_[0] * E_1 + inverse_[1] * E_0,
-                     phi_1 = inverse_[2] * E_1 + inverse_[3] * E_0;
+        const double phi_0 = inverse_[0] * E_1 + inverse_[2] * E_0,
+                     phi_1 = inverse_[1] * E_1 + inverse_[3] * E_0;
         if (phi_0 > std::abs(phi_1)) {
             force[0] = phi_0, force[P] = phi_1;
             const double c = rules_[0].c(), to = c * (phi_0 + phi_1);
@@ -220,6 +248,34 @@ template <int few>
         }
     }
     return alone(b, force);
+}
+
+template <int few>
+[[gnu::always_inline]] inline bool MomentObstacle::several(const double* b,
+                                                           double* force) noexcept {
+    const int n = few > 0 ? few : n_, P = points_;
+    double local[few > 0 ? 6 * few : 1];
+    double *ends = few > 0 ? local : pairs_.data(), *phi = ends + 2 * n, *r = phi + 2 * n;
+    for (int a = 0; a < n; ++a) {
+        ends[a] = at_[a].eta - b[a], ends[n + a] = at_[a].eta + b[P + a];
+    }
+    const std::uint64_t set = set_;
+    if (set != 0) {
+        product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
+        product_of_pairs<few>(T_.data(), phi, r);
+        for (int a = 0; a < n; ++a) r[a] += b[a], r[n + a] += b[P + a];
+    } else {
+        for (int a = 0; a < n; ++a) {
+            phi[a] = phi[n + a] = 0;
+            r[a] = b[a], r[n + a] = b[P + a];
+        }
+    }
+    std::uint64_t misfits = 0;
+    for (int a = 0; a < n; ++a) misfits |= std::uint64_t{!fits(a, set >> a & 1, phi, r)} << a;
+    if (misfits != 0) return with_change(misfits, b, ends, phi, force);
+    for (int a = 0; a < n; ++a) take_as(a, set >> a & 1, phi, r, force);
+    if (set) tally_.note(0, 0);
+    return true;
 }
 
 }  // namespace jvari

@@ -1,7 +1,6 @@
 // The pass of the modal two-point string, and its fused rows (van Walstijn et al. 2016, eqs 41-48),
-// compiled once per instruction set by Highway. The number of points up to five, and of one contact
-// and a thread what stands in series with them, are template arguments: what a scene lacks costs
-// nothing.
+// compiled once per instruction set by Highway. The numbers of contacts and threads up to five, and
+// what stands in series with them, are template arguments: what a scene lacks costs nothing.
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -39,24 +38,23 @@ void pass_of(TwoPointStream& m, const double* force) {
     end_step<points>(m, m.summed_again, force);
 }
 
-// The forces of a step, of one contact and a thread. False: it did not converge.
-template <bool barrier, bool thread, bool in_series>
-HWY_INLINE bool solve_one(const TwoPointStream& m, Obstacle& obstacle, double* F) {
-    constexpr int c = barrier;  // of the thread among the points
-    ContactAndThread& at = *obstacle.one();
-    double y_b = barrier ? m.y[0] : 0, y_c = thread ? m.y[c] : 0, u_b = barrier ? m.u[0] : 0,
-           u_c = thread ? m.u[c] : 0, F_b, F_c;
+// The forces of a step, of few contacts and a thread. False: it did not converge.
+template <int contacts, bool thread, bool in_series>
+HWY_INLINE bool solve_few(const TwoPointStream& m, Obstacle& obstacle, double* force) {
+    constexpr int points = contacts + thread;
     if constexpr (in_series) {
-        const Residual& series = *obstacle.series();
-        const double *yields = series.yields(0), *pulled = series.pulled();
-        if constexpr (barrier) y_b += yields[0], u_b -= pulled[0];
-        if constexpr (thread) y_c += yields[c], u_c -= pulled[c];
+        Residual& series = *obstacle.series();
+        double y[points], u[points];
+        for (int p = 0; p < points; ++p) {
+            y[p] = m.y[p] + series.yields(0)[p];
+            u[p] = m.u[p] - series.pulled()[p];
+        }
+        const bool converged = obstacle.solve_few<contacts, thread>(y, u, force);
+        series.step<points>(force);
+        return converged;
+    } else {
+        return points == 0 || obstacle.solve_few<contacts, thread>(m.y, m.u, force);
     }
-    const bool converged = at.solve<barrier, thread>(y_b, y_b, u_b, y_c, u_c, F_b, F_c);
-    if constexpr (barrier) F[0] = F_b;
-    if constexpr (thread) F[c] = F_c;
-    if constexpr (in_series) obstacle.series()->step<barrier + thread>(F);
-    return converged;
 }
 
 template <int points, class Solve>
@@ -74,11 +72,10 @@ HWY_INLINE bool rows_of(TwoPointStream& m, Obstacle& obstacle, const Block& out,
         [&] { return series ? series->force(0) : nullptr; }, solve,
         [&](const double* force) HWY_ATTR { end_step<points>(m, two_point_summed_again, force); });
 }
-template <bool barrier, bool thread, bool in_series>
-bool rows_of_one(TwoPointStream& m, Obstacle& at, const Block& out, RowsInHand& r) {
-    return rows_of<barrier + thread>(m, at, out, r, [&](double* force) HWY_ATTR {
-        if constexpr (barrier || thread) return solve_one<barrier, thread, in_series>(m, at, force);
-        else return true;
+template <int contacts, bool thread, bool in_series>
+bool rows_of_few(TwoPointStream& m, Obstacle& at, const Block& out, RowsInHand& r) {
+    return rows_of<contacts + thread>(m, at, out, r, [&](double* force) HWY_ATTR {
+        return solve_few<contacts, thread, in_series>(m, at, force);
     });
 }
 template <int points>
@@ -87,22 +84,26 @@ bool rows_of_several(TwoPointStream& m, Obstacle& at, const Block& out, RowsInHa
     return rows_of<points>(m, at, out, r, [&](double* force) { return at.solve(readings, force); });
 }
 
-template <bool barrier, bool thread>
-TwoPointKernel choose_by_series(bool in_series) {
-    if constexpr (barrier || thread)
-        if (in_series) return rows_of_one<barrier, thread, true>;
-    return rows_of_one<barrier, thread, false>;
-}
-TwoPointKernel choose_kernel(int points, bool one, bool barrier, bool thread, bool in_series) {
+TwoPointKernel choose_kernel(int points, int contacts, bool few, bool in_series) {
     static constexpr TwoPointKernel several[7] = {rows_of_several<any_number>, rows_of_several<1>,
                                                   rows_of_several<2>,          rows_of_several<3>,
                                                   rows_of_several<4>,          rows_of_several<5>,
                                                   rows_of_several<any_number>};
-    if (!one) return several[points <= 5 ? points : 6];
-    return barrier ? (thread ? choose_by_series<true, true>(in_series)
-                             : choose_by_series<true, false>(in_series))
-                   : (thread ? choose_by_series<false, true>(in_series)
-                             : choose_by_series<false, false>(in_series));
+    if (!few) return several[points <= 5 ? points : 6];
+        // [contacts][series]
+#define JVARI_BY_SERIES(contacts, thread) \
+    { rows_of_few<contacts, thread, false>, rows_of_few<contacts, thread, true> }
+    static constexpr TwoPointKernel without[6][2] = {{rows_of_few<0, false, false>, nullptr},
+                                                     JVARI_BY_SERIES(1, false),
+                                                     JVARI_BY_SERIES(2, false),
+                                                     JVARI_BY_SERIES(3, false),
+                                                     JVARI_BY_SERIES(4, false),
+                                                     JVARI_BY_SERIES(5, false)};
+    static constexpr TwoPointKernel with[5][2] = {
+        JVARI_BY_SERIES(0, true), JVARI_BY_SERIES(1, true), JVARI_BY_SERIES(2, true),
+        JVARI_BY_SERIES(3, true), JVARI_BY_SERIES(4, true)};
+#undef JVARI_BY_SERIES
+    return points > contacts ? with[contacts][in_series] : without[contacts][in_series];
 }
 
 TwoPointPass choose_pass(int points) {
@@ -130,9 +131,7 @@ HWY_EXPORT(choose_dot);
 HWY_EXPORT(plain_dot);
 
 TwoPointKernel two_point_kernel(int points, const Obstacle& at) {
-    const ContactAndThread* one = at.one();
-    return HWY_DYNAMIC_DISPATCH(choose_kernel)(points, one, one && one->contact, one && one->thread,
-                                               at.has_series());
+    return HWY_DYNAMIC_DISPATCH(choose_kernel)(points, at.contacts(), at.few(), at.has_series());
 }
 TwoPointPass two_point_pass(int points) { return HWY_DYNAMIC_DISPATCH(choose_pass)(points); }
 TwoPointDot two_point_dot() { return HWY_DYNAMIC_DISPATCH(choose_dot)(); }

@@ -84,14 +84,19 @@ HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) 
         at(i + N, 1);
     }
     if (i < m.modes) at(i, 0);
-    const auto both = [](const V(&v)[2]) { return hn::Add(v[0], v[1]); };
-    for (int p = 0; p < points; p += 2) {
-        const int next = p + 1 < points ? p + 1 : p;
-        alignas(64) double sum[4];
-        sums(both(y[p]), both(u[p]), both(y[next]), both(u[next]), sum);
-        if constexpr (dots_of_y) m.y[p] = sum[0], m.y[next] = sum[2];
-        m.u[p] = sum[1], m.u[next] = sum[3];
-    }
+    const auto put = [](const V(&v)[some][2], double* to) HWY_ATTR {  // four at a time
+        const auto both = [&](int p) HWY_ATTR {
+            const int q = p < points ? p : points - 1;
+            return hn::Add(v[q][0], v[q][1]);
+        };
+        for (int p = 0; p < points; p += 4) {
+            alignas(64) double sum[4];
+            sums(both(p), both(p + 1), both(p + 2), both(p + 3), sum);
+            for (int q = p; q < points && q < p + 4; ++q) to[q] = sum[q - p];
+        }
+    };
+    put(u, m.u);
+    if constexpr (dots_of_y) put(y, m.y);
 }
 
 // As many points as there are: the sums pass through memory, a line at a time.

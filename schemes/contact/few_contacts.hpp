@@ -1,0 +1,138 @@
+// Two to five linear contacts without losses, by the discrete gradient, inline for the kernels that
+// make whole steps: the equations of contact_gram.hpp, in three tiers.
+//   1. One contact alone touches, before the step or by its end: its own equation (contact.hpp).
+//   2. The contacts that touch before the step are in full contact, the others out: with D = k/2,
+//      F = (1/D + Theta)^-1 (2 eta + b) of them. The inverses of all sets are kept, at most 31.
+//   3. Else Newton's steps on F = S(b - Theta_off F), S_a the force of contact a by itself and
+//      Theta_off the compliances between different contacts: S' = D/(1 + Theta_aa D), D = -dF/dr.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "schemes/contact/contact.hpp"
+#include "schemes/contact/products.hpp"
+
+namespace jvari {
+
+class FewContacts {
+public:
+    static constexpr int most = 5;
+    // theta: n x n, row-major [m/N]
+    FewContacts(std::span<const ContactLaw> laws, std::span<const double> theta);
+
+    // eta and b [m] in, the new depths eta - r [m] and the mean forces [N] out; n of each. Returns
+    // Newton's iterations, or -1 where they did not end.
+    template <int n>
+    [[gnu::always_inline]] int solve(const double* eta, const double* b, double* depth,
+                                     double* force) const noexcept {
+        unsigned set = 0, enter = 0;
+        for (int a = 0; a < n; ++a) {
+            set |= static_cast<unsigned>(eta[a] > 0) << a;
+            enter |= static_cast<unsigned>(eta[a] + b[a] > 0) << a;
+        }
+        const unsigned touch = set | enter;
+        if (touch == 0) {
+            for (int a = 0; a < n; ++a) force[a] = 0, depth[a] = eta[a] + b[a];
+            return 0;
+        }
+        if (std::has_single_bit(touch)) {
+            const int one = std::countr_zero(touch);
+            const double* to = theta_ + one * n;
+            const ContactSolution s = solve_linear_contact(k_[one], eta[one], b[one], to[one]);
+            bool fits = true;
+            for (int a = 0; a < n; ++a) {  // no store to a place known at run time only
+                const double free = eta[a] + b[a] - to[a] * s.force;
+                fits = fits && (a == one || !(free > 0));
+                force[a] = a == one ? s.force : 0;
+                depth[a] = a == one ? eta[a] - s.r : free;
+            }
+            if (fits) return 0;
+        } else if (in_full<n>(set, eta, b, depth, force)) {
+            return 0;
+        }
+        return newton<n>(eta, b, depth, force);
+    }
+
+private:
+    static constexpr double rounding = 8e-15;  // of the terms of one equation
+    static constexpr int most_steps = 12;
+
+    template <int n>
+    [[gnu::always_inline]] bool in_full(unsigned set, const double* eta, const double* b,
+                                        double* depth, double* force) const noexcept {
+        double x[n], moved[n], terms[n];
+        for (int a = 0; a < n; ++a) x[a] = 2 * eta[a] + b[a];
+        product<n>(M_.data() + set * n * n, x, n, force);
+        product<n>(theta_, force, n, moved);
+        for (int a = 0; a < n; ++a) terms[a] = std::abs(b[a]) + std::abs(eta[a]);
+        for (int c = 0; c < n; ++c)
+            for (int a = 0; a < n; ++a) terms[a] += std::abs(theta_[c * n + a] * force[c]);
+        bool fits = true;
+        for (int a = 0; a < n; ++a) {
+            const bool in = set >> a & 1;
+            const double free = eta[a] + b[a] - moved[a];
+            depth[a] = in ? give_[a] * force[a] - eta[a] : free;
+            fits = fits && in == (depth[a] > 0) && std::abs(depth[a] - free) <= rounding * terms[a];
+        }
+        return fits;
+    }
+    template <int n>
+    [[gnu::always_inline]] int newton(const double* eta, const double* b, double* depth,
+                                      double* force) const noexcept {
+        for (int a = 0; a < n; ++a) force[a] = std::max(force[a], 0.0);
+        for (int i = 1; i <= most_steps; ++i) {
+            double next[n], J[n][n], off[n], terms[n];
+            for (int a = 0; a < n; ++a) {
+                double rest = b[a];
+                terms[a] = std::abs(b[a]) + std::abs(eta[a]);
+                for (int c = 0; c < n; ++c) {
+                    const double by = c == a ? 0 : theta_[a * n + c] * force[c];
+                    rest -= by, terms[a] += std::abs(by);
+                }
+                const ContactSolution s =
+                    solve_linear_contact(k_[a], eta[a], rest, theta_[a * n + a]);
+                next[a] = s.force;
+                depth[a] = eta[a] - s.r;
+                const double D = s.force == 0    ? 0
+                                 : eta[a] <= 0   ? (k_[a] * depth[a] - s.force) / -s.r
+                                 : depth[a] <= 0 ? s.force / s.r
+                                                 : 0.5 * k_[a],
+                             S = D / (1 + theta_[a * n + a] * D);
+                for (int c = 0; c < n; ++c) J[a][c] = c == a ? 1 : S * theta_[a * n + c];
+            }
+            bool solved = true;
+            for (int a = 0; a < n; ++a) {
+                off[a] = 0;
+                for (int c = 0; c < n; ++c)
+                    if (c != a) off[a] += theta_[a * n + c] * (next[c] - force[c]);
+                solved = solved && std::abs(off[a]) <= rounding * terms[a];
+            }
+            if (solved) {
+                for (int a = 0; a < n; ++a) force[a] = next[a];
+                return i;
+            }
+            for (int a = 0; a < n; ++a) next[a] -= force[a];
+            for (int k = 0; k < n; ++k)  // a scaled symmetric, positive definite matrix: no pivots
+                for (int a = k + 1; a < n; ++a) {
+                    const double by = J[a][k] / J[k][k];
+                    for (int c = k + 1; c < n; ++c) J[a][c] -= by * J[k][c];
+                    next[a] -= by * next[k];
+                }
+            for (int k = n - 1; k >= 0; --k) {
+                for (int c = k + 1; c < n; ++c) next[k] -= J[k][c] * next[c];
+                next[k] /= J[k][k];
+                force[k] += next[k];
+            }
+        }
+        return -1;
+    }
+
+    double k_[most] = {}, give_[most] = {};  // give_: 2/k
+    double theta_[most * most] = {};
+    std::vector<double> M_;  // of each set of contacts, n x n; zeros in rows and columns of others
+};
+
+}  // namespace jvari
