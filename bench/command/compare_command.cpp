@@ -160,6 +160,8 @@ int compare_command(CompareCall r) {
     console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) +
                   certificate_text(c) + "\n" + floor_text(c));
     if (!results.cheapest.empty()) console.print(compare::cheapest_text(results.cheapest, cells));
+    if (c.advice)
+        console.print("advice: " + text_of(*c.advice) + "\n" + verdict_on(*c.advice, cells).text);
     for (const std::string& warning : compare::warnings_of(cells))
         console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + r.out);

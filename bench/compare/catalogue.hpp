@@ -41,6 +41,8 @@ struct CompareRequest {
     std::vector<std::string> set;              // overrides of the scene, "key.path=value"
     std::string tap;                           // the only one that is compared; "": all
     std::vector<SchemeOption> options;
+    // settings of an advice, near which cells are sought as well; modes 0: none
+    Settings near{};
     int repeats = 5;
     int jobs = 0;  // 0: as many as there are cores
 };

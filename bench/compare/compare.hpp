@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "bench/compare/advice.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/records.hpp"
 #include "bench/study/run.hpp"
@@ -26,6 +27,8 @@ struct Comparison {
     // of the reference against itself with half its modes [s]
     double horizon = std::numeric_limits<double>::quiet_NaN();
     store::Sound reference_sound;
+    // where settings were sought: what two runs advise for 1 % over the headline's window
+    std::optional<Advice> advice;
     const Scene& scene() const { return plan.points.front().scene; }
 };
 

@@ -43,7 +43,8 @@ std::vector<study::ReferenceChoice> references_of(const CompareRequest&, const C
 // A request names some of it. The rest is sought (CompareRequest::search), because the cheapest
 // scheme may take more modes than those below 20 kHz, or matched compliance:
 //   modes        1, 1.5, 2, 3 and 4 times those below 20 kHz, at rates above twice the frequency
-//                of the highest. Below, `jvari trim` looks.
+//                of the highest; and those that were advised (advice.hpp), at half, the same and
+//                twice the rate. Others `jvari trim` tries.
 //   compliance   own and matched, of a scheme that has both, where something touches the string.
 // Nothing is sought of a scheme in continuous time, or against a reference with a cell's own modes.
 

@@ -158,6 +158,17 @@ std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const S
             if (rung.modes <= most_modes_sought(scene, unasked, rate)) rung.rates.push_back(rate);
         if (!rung.rates.empty()) rungs.push_back(std::move(rung));
     }
+    if (const Settings& near = r.near; near.modes > 0) {
+        Rung rung{near.modes, {}, true};
+        for (const double rate : rates)
+            if (near.sample_rate <= 2 * rate && rate <= 2 * near.sample_rate &&
+                std::ranges::all_of(scene.strings, [&](const String& s) {
+                    return rung.modes <= modes_below(s, rate / 2);
+                }))
+                rung.rates.push_back(rate);
+        const bool known = std::ranges::find(rungs, rung.modes, &Rung::modes) != rungs.end();
+        if (!known && !rung.rates.empty()) rungs.push_back(std::move(rung));
+    }
     if (rungs.size() == 1) return rungs;
     Settings at_lowest = settings;
     at_lowest.sample_rate = rungs[1].rates.front();

@@ -73,7 +73,8 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene,
 }
 
 Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
-            const std::vector<int>& starts, const store::Listener& listener) {
+            const std::vector<int>& starts, const compare::Advice* advised,
+            const store::Listener& listener) {
     Path path;
     CheapestSettings s(judge, schemes, starts, listener);
     for (const Descriptor* d : schemes)
@@ -90,7 +91,14 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
     std::vector<int> unheard;  // taps that nobody judges: the motion is the same without them
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
         if (judge.reductions()[k].part == Part::tap && judge.may_go(k)) unheard.push_back(k);
-    std::optional<Found> now = s.of_all(unheard, HUGE_VAL);
+    std::optional<Found> now;
+    if (advised) {
+        const Model m{unheard, advised->scheme, advised->settings};
+        if (const auto error = s.error_within(m, HUGE_VAL)) now = Found{m, *error, judge.cost(m)};
+    }
+    if (const auto found = s.of_all(unheard, now ? now->cost : HUGE_VAL);
+        found && (!now || found->better_than(*now)))
+        now = found;
     path.passed_over = s.passed_over();
     if (!now) return path;
     step("taps that are not judged, scheme, rate and modes", *now);

@@ -61,6 +61,23 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
     return left;
 }
 
+// Nothing where two runs do not tell, or no rung is within.
+std::optional<compare::Advice> advice_on(const Judge& judge, const Request& r,
+                                         const compare::Catalogue& catalogue,
+                                         const store::Listener& listener) {
+    try {
+        compare::AdviceRequest asked{r.within, r.measure, judge.tap().name};
+        if (r.scheme != "any") asked.scheme = r.scheme;
+        asked.tap_rate = r.tap_rate;
+        asked.options = r.options;
+        const compare::Advice a = compare::advise(judge.scene(), asked, catalogue, listener).back();
+        listener.note("advice before any reference: " + text_of(a));
+        if (a.within) return a;
+    } catch (const Refusal&) {
+    } catch (const store::UsageError&) {}
+    return std::nullopt;
+}
+
 Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
     const Judged j = judge.judged(m, start);
     return {start,
@@ -116,6 +133,7 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
 Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalogue,
                 const store::Listener& listener) {
     Trimmed t{judge.scene(), judge.scene(), judge.own_duration(), {}, {}, {}, {}, {}};
+    const std::optional<compare::Advice> advised = advice_on(judge, r, catalogue, listener);
     const Target& target = judge.target();
     if (!judge.certain(0))
         throw Refusal(
@@ -128,7 +146,7 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
     for (const Descriptor* d : schemes) compare::combinations_of(r.options, *d, used);
     compare::must_be_used(r.options, used);
     for (std::vector<int> by{0};;) {
-        t.path = search(judge, schemes, by, listener);
+        t.path = search(judge, schemes, by, advised ? &*advised : nullptr, listener);
         t.verified.clear();
         if (!t.path.within_tolerance) break;
         for (int s = 0; s < starts; ++s)

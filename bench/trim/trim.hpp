@@ -5,7 +5,8 @@
 //      compared with.
 //   1. Of the whole scene, less the taps that are not judged: for each scheme, own and matched
 //      compliance, and each rate the fewest modes that serve; the cheapest stays
-//      (cheapest_settings.hpp).
+//      (cheapest_settings.hpp). It begins with the settings that two runs advise
+//      (compare/advice.hpp).
 //   2. In turn the part that saves most for the error it costs is left out, the fewest modes at
 //      half, the same and twice the rate are sought anew, and what is cheaper stays. Parts that
 //      went before are put back in the same way: what one part costs depends on others.
@@ -21,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/compare/advice.hpp"
 #include "bench/store/records.hpp"
 #include "bench/trim/judge.hpp"
 
@@ -58,9 +60,10 @@ struct Path {
     std::vector<std::string> passed_over;
 };
 
-// Judged by these starts.
+// Judged by these starts. advised: settings of the whole scene that two runs advise, or nullptr:
+// what costs more is not looked at where they serve.
 Path search(Judge&, const std::vector<const Descriptor*>& schemes, const std::vector<int>& starts,
-            const store::Listener&);
+            const compare::Advice* advised, const store::Listener&);
 
 // ---- Search, verification by another start, needs, and what was not tried.
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/compare/record/findings.hpp"
 #include "bench/store/usage.hpp"
 #include "reference/agreement.hpp"
 #include "scenes/excitation.hpp"
@@ -155,5 +156,29 @@ TEST(Advice, AsksForThirdOctavesOfTheWholeRunWhereTheWaveformCannotBeHad) {
     EXPECT_EQ(all[1].window, 0.5);
     EXPECT_TRUE(says(compare::text_of(all[1]), "third-octave difference"));
 }
+TEST(Within, AComparisonSeeksCellsNearTheAdviceAndSaysWhetherItHeld) {
+    compare::CompareRequest r;
+    r.scene = "tanpura_c3_release";
+    r.schemes = {"modal_two_point"};
+    r.rates = {88200, 176400};
+    r.duration = 0.06;
+    r.reference_modes = 400;
+    r.repeats = 1;
+    const compare::Comparison c = compare::compare(r, catalogue(), silent);
+    ASSERT_TRUE(c.advice && c.advice->within);
+    const study::Cells cells = compare::cells_of(c);
+    const compare::Verdict v = verdict_on(*c.advice, cells);
+    ASSERT_TRUE(v.cell) << v.text;
+    EXPECT_EQ(v.says, compare::Verdict::Says::held) << v.text;
+    EXPECT_NEAR(c.advice->counted / v.bound.error, 1, 0.4);
+    Advice less = *c.advice;
+    less.target.most = 0.5 * v.bound.error;
+    EXPECT_EQ(verdict_on(less, cells).says, compare::Verdict::Says::not_held);
+    less.target.most = v.bound.error;  // nearer than the reference is certain
+    EXPECT_EQ(verdict_on(less, cells).says, compare::Verdict::Says::not_known);
+    less.settings.modes = 7;
+    EXPECT_FALSE(verdict_on(less, cells).cell);
+}
+
 }  // namespace
 }  // namespace jvari

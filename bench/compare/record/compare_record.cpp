@@ -47,6 +47,16 @@ study::Cells cells_of(const Comparison& c) {
     return with_front(study::cells_of(c.plan, c.outcome.records));
 }
 
+Json json_of(const Advice& a, const Verdict& v) {
+    Json j = json_of(a);
+    j["says"] = v.says == Verdict::Says::held       ? "held"
+                : v.says == Verdict::Says::not_held ? "not_held"
+                                                    : "not_known";
+    j["error"] = v.bound.error, j["certificate"] = v.bound.certificate;
+    j["verdict"] = v.text;
+    return j;
+}
+
 Json manifest_of(const Comparison& c, const CompareRequest& r) {
     const study::Cells cells = cells_of(c);
     const std::size_t error = headline_error(cells, study::all_rows(cells));
@@ -113,6 +123,7 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
                        {"error", study::measures()[error].column}}},
                      {"noise_floor", floor},
                      {"controls", r.controls}});
+    if (c.advice) manifest["advice"] = json_of(*c.advice, verdict_on(*c.advice, cells));
     return manifest;
 }
 

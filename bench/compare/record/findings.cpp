@@ -224,6 +224,41 @@ std::string cause_text(const study::Cells& cells) {
     return text.empty() ? "" : "most of an error has one cause: " + text.substr(2);
 }
 
+Verdict verdict_on(const Advice& a, const study::Cells& cells) {
+    Verdict v;
+    if (!a.scheme) return {.text = "nothing was advised"};
+    const std::string options = store::options_text(a.settings.options);
+    for (std::size_t i = 0; i < cells.size() && !v.cell; ++i)
+        if (const study::TabledCell& c = cells[i];
+            c.scheme == a.scheme->name && c.options == options && c.modes == a.settings.modes &&
+            c.rate == a.settings.sample_rate)
+            v.cell = i;
+    if (v.cell) v.bound = bound_of(cells[*v.cell], a.target.measure, a.tap);
+    const Target& t = a.target;
+    const bool waveform = study::is_waveform(t.measure);
+    const double most = waveform ? v.bound.most() : v.bound.error,
+                 least = waveform ? v.bound.least() : v.bound.error;
+    const std::string asked = fmt::format("{}, where {} {}", t.text(v.bound.error),
+                                          a.within ? "at most" : "the nearest to",
+                                          t.text(t.most) + (a.within ? " was promised" : ""));
+    if (!std::isfinite(v.bound.error)) {
+        v.text = "the advice was not verified: the cell has no such error";
+    } else if (most <= t.most) {
+        v.says = Verdict::Says::held;
+        v.text = "the advice held: an error of " + asked;
+    } else if (least > t.most) {
+        v.says = a.within ? Verdict::Says::not_held : Verdict::Says::held;
+        v.text =
+            fmt::format("the advice {}: an error of {}", a.within ? "did not hold" : "held", asked);
+    } else {
+        v.text = fmt::format(
+            "whether the advice holds is not known: an error of {}, and the "
+            "reference is known to {}",
+            asked, t.text(v.bound.certificate, "no figure"));
+    }
+    return v;
+}
+
 std::vector<std::string> warnings_of(const study::Cells& cells) {
     std::vector<std::string> all{busy_text(cells), harm_text(cells), cause_text(cells)};
     std::erase(all, "");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/convergence.hpp"
+#include "bench/compare/bound.hpp"
 #include "bench/compare/compare.hpp"
 #include "bench/study/cells.hpp"
 
@@ -74,6 +75,18 @@ std::string harm_text(const study::Cells&);
 std::string cause_text(const study::Cells&);
 
 std::vector<std::string> warnings_of(const study::Cells&);  // all of these that say something
+
+// ---- Advice, held against the reference
+
+// Whether the cell with the settings that were advised has the error that was promised.
+struct Verdict {
+    enum class Says { held, not_held, not_known } says = Says::not_known;
+    std::optional<std::size_t> cell;
+    Bound bound{};     // of its error
+    std::string text;  // "the advice held: 0.38 % where at most 1 % was asked"
+};
+Verdict verdict_on(const Advice&, const study::Cells&);
+nlohmann::ordered_json json_of(const Advice&, const Verdict&);
 
 // ---- A comparison as rows, as its manifest and as sounds.
 //
