@@ -20,9 +20,12 @@
 #include "bench/compare/compare.hpp"
 #include "bench/compare/record/findings.hpp"
 #include "bench/compare/scene_notes.hpp"
+#include "bench/judge/judge.hpp"
 #include "bench/report/report.hpp"
 #include "bench/report/results.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "bench/study/cells.hpp"
 #include "bench/study/run.hpp"
@@ -88,7 +91,8 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
                                          std::optional<double> duration,
                                          std::optional<double> tap_rate, bool energy,
                                          const py::dict& options, const std::string& within,
-                                         const std::string& measure, const std::string& tap) {
+                                         const std::string& measure, const std::string& tap,
+                                         std::optional<double> time_limit) {
     Scene scene = NamedScene::of(of).scene;
     if (duration) scene.duration = *duration;
     compare::note_scene(scene, PythonListener());
@@ -111,7 +115,54 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
         RunOptions o;
         o.energy = energy;
         o.progress = [](long, long) { look_for_signals(); };
-        return std::make_shared<TakenRun>(run(*job.scheme, scene, job.settings, o), scene, advice);
+        if (time_limit) o.progress = store::within(*time_limit, o.progress);
+        const double start = store::processor_seconds();
+        auto taken = std::make_shared<TakenRun>(run(*job.scheme, scene, job.settings, o), scene);
+        taken->processor_seconds = store::processor_seconds() - start;
+        taken->advice = advice;
+        return taken;
+    });
+}
+
+// Relative L2 of each tap over the windows of Trust, None where it is unknown; and by what.
+inline std::string uncertainty_of(const study::Trust& t, const Scene& scene) {
+    constexpr std::size_t certificate = std::string_view("certificate_").size();
+    nlohmann::ordered_json j{{"against", t.against}, {"doubled", t.doubled}};
+    for (std::size_t tap = 0; tap < scene.taps.size(); ++tap)
+        for (std::size_t w = 0; w < study::Trust::columns.size(); ++w) {
+            const double known = t.of_scene(static_cast<int>(tap), w);
+            auto& figure = j["taps"][scene.taps[tap].name][study::Trust::columns[w] + certificate];
+            if (!std::isnan(known)) figure = known;
+        }
+    return store::indented(j);
+}
+
+// The motion that compare measures errors against.
+inline std::shared_ptr<TakenRun> reference_of(const py::object& of, const std::string& reference,
+                                              int modes, std::optional<double> duration,
+                                              std::optional<double> tap_rate,
+                                              std::optional<double> time_limit, int jobs) {
+    const NamedScene s = NamedScene::of(of);
+    compare::CompareRequest r;
+    r.scene = s.name, r.set = s.set, r.duration = duration, r.tap_rate = tap_rate;
+    r.reference = reference;
+    at_least(0, jobs, "jobs");
+    const compare::Catalogue catalogue(plugins());
+    study::Plan plan;
+    study::Point& p = plan.points.emplace_back();
+    p.scene = compare::load_scene(r);
+    p.references = compare::references_of(r, catalogue, p.scene);
+    p.truth_modes = at_least(0, modes, "modes");
+    p.time_limit = time_limit.value_or(HUGE_VAL);
+    study::address(plan, store::program_identity(plugins()));
+    return unlocked([&] {
+        study::References all;
+        all.hold(p);
+        const study::References::Of found = all.make(p, jobs, PythonListener());
+        if (!found.truth) throw Refusal(found.refused);
+        auto taken = std::make_shared<TakenRun>(found.truth->reference.run, p.scene);
+        taken->uncertainty = uncertainty_of(found.against().trust, p.scene);
+        return taken;
     });
 }
 
@@ -216,10 +267,12 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
                                const std::string& reference, int reference_modes, bool controls,
                                std::optional<double> duration, std::optional<double> tap_rate,
                                const py::dict& options, int repeats,
-                               const std::filesystem::path& out, int jobs) {
+                               const std::filesystem::path& out, int jobs, const py::dict& cost,
+                               std::optional<double> time_limit) {
     const NamedScene s = NamedScene::of(scene);
     compare::CompareRequest r;
     r.out = out.string();
+    r.time_limit = time_limit;
     r.scene = s.name;
     r.set = s.set;
     r.schemes = schemes;
@@ -238,8 +291,16 @@ inline py::object compare_rows(const py::object& scene, const std::vector<std::s
     r.repeats = at_least(1, repeats, "repeats");
     r.jobs = at_least(0, jobs, "jobs");
     const compare::Catalogue catalogue(plugins());
-    return compared(
-        r, [&](study::Kept& k) { return compare::compare(r, catalogue, PythonListener(), k); });
+    std::map<std::string, judge::Costs> costs;
+    for (const auto& [name, by_rate] : cost)
+        for (const auto& [rate, seconds] : by_rate.cast<py::dict>())
+            costs[name.cast<std::string>()][rate.cast<double>()] = seconds.cast<double>();
+    for (const auto& [name, by_rate] : costs) judge::must_be_untimed(catalogue.find(name));
+    return compared(r, [&](study::Kept& k) {
+        compare::Comparison c = compare::compare(r, catalogue, PythonListener(), k);
+        for (const auto& [name, by_rate] : costs) judge::report_costs(c, name, by_rate);
+        return c;
+    });
 }
 
 inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path& folder,

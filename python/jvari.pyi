@@ -36,6 +36,8 @@ class Scene:
     @property
     def duration(self) -> float: ...  # s
     @property
+    def period(self) -> float: ...  # s, of the first mode of the lowest string
+    @property
     def taps(self) -> list[str]: ...
     def toml(self) -> str: ...
 
@@ -64,6 +66,10 @@ class Run:
     @property
     def wall_seconds(self) -> float: ...  # s
     @property
+    def processor_seconds(self) -> float | None: ...  # s; None of a reference
+    @property
+    def uncertainty(self) -> _Row | None: ...  # of a reference: {"taps": {tap: {window: float}}}
+    @property
     def advice(self) -> _Row | None: ...  # how the settings were chosen
     def to_xarray(self) -> Any: ...  # xarray.Dataset
 
@@ -84,6 +90,11 @@ def run(
     scene: Scene | _Path, scheme: str = "", rate: float | None = None, modes: int = 0,
     duration: float | None = None, tap_rate: float | None = None, energy: bool = False,
     options: Mapping[str, _Value] = {}, *, within: str = "", of: str = "", tap: str = "",
+    time_limit: float | None = None,  # s of processor
+) -> Run: ...
+def reference(
+    scene: Scene | _Path, reference: str = "", modes: int = 0, duration: float | None = None,
+    tap_rate: float | None = None, time_limit: float | None = None, jobs: int = 0,
 ) -> Run: ...
 def run_many(
     scenes: Sequence[Scene | _Path], scheme: str, rate: float = 44100, modes: int = 0,
@@ -94,7 +105,8 @@ def compare(
     scene: Scene | _Path, schemes: Sequence[str] = [], rates: Sequence[float] = [],
     modes: int | Sequence[int] = 0, reference: str = "", reference_modes: int = 0,
     controls: bool = False, duration: float | None = None, tap_rate: float | None = None,
-    options: Mapping[str, _Value] = {}, repeats: int = 5, out: _Path = "", jobs: int = 0,
+    options: Mapping[str, _Value] = {}, repeats: int = 5, out: _Path = "", jobs: int = 0, *,
+    cost: Mapping[str, Mapping[float, float]] = {}, time_limit: float | None = None,
 ) -> Rows: ...
 def report(of: Rows | _Path, out: _Path = "") -> list[str]: ...
 def suite(file: _Path, out: _Path = "", resume: bool = False, jobs: int = 0) -> list[_Row]: ...

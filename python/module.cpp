@@ -6,7 +6,9 @@
 #include <pybind11/stl.h>
 
 #include "bench/store/machine.hpp"
+#include "bench/store/system/interruption.hpp"
 #include "python/judging.hpp"
+#include "scenes/modes.hpp"
 #include "schemes/making.hpp"
 
 namespace py = pybind11;
@@ -48,6 +50,8 @@ void translate_exceptions(py::module_& m) {
             py::error_already_set(e.error).restore();
         } catch (const bench::store::UsageError& e) {
             raise_as(usage, e);
+        } catch (const bench::store::PastItsLimit& e) {
+            raise_as(PyExc_TimeoutError, e);
         } catch (const BadOption& e) { raise_as(usage, e); } catch (const SceneFileError& e) {
             raise_as(scene, e);
         } catch (const BadScene& e) { raise_as(scene, e); } catch (const Refusal& e) {
@@ -73,6 +77,9 @@ void add_scene(py::module_& m) {
         .def_property_readonly(
             "duration", [](const NamedScene& s) { return s.scene.duration; },
             "How long it lasts [s].")
+        .def_property_readonly(
+            "period", [](const NamedScene& s) { return 1 / lowest_frequency(s.scene); },
+            "Of the first mode of the lowest string [s]: run(..., duration=8 * scene.period).")
         .def_property_readonly(
             "taps",
             [](const NamedScene& s) {
@@ -138,12 +145,28 @@ void add_run(py::module_& m) {
             "wall_seconds", [](const TakenRun& r) { return r.run.wall_seconds; },
             "Of the stepping alone [s].")
         .def_property_readonly(
+            "processor_seconds",
+            [](const TakenRun& r) -> py::object {
+                if (std::isnan(r.processor_seconds)) return py::none();
+                return py::float_(r.processor_seconds);
+            },
+            "Processor time of making the scheme and stepping it [s]; None of a reference, which "
+            "may have been read back.")
+        .def_property_readonly(
             "advice",
             [](const TakenRun& r) -> py::object {
                 if (r.advice.empty()) return py::none();
                 return python::parsed(r.advice);
             },
             "How scheme, rate and modes were chosen, a dict; None where they were named.")
+        .def_property_readonly(
+            "uncertainty",
+            [](const TakenRun& r) -> py::object {
+                if (r.uncertainty.empty()) return py::none();
+                return python::parsed(r.uncertainty);
+            },
+            "Of a reference, a dict: taps {tap: {window: relative L2, None where unknown}}, and "
+            "`against` and `doubled`, which tell it. None of other runs.")
         .def("to_xarray", &python::to_xarray,
              "xarray.Dataset: a variable per column over `time` [s], each with its units, and the "
              "facts as attributes. Needs xarray.");
@@ -151,12 +174,18 @@ void add_run(py::module_& m) {
           py::arg("rate") = py::none(), py::arg("modes") = 0, py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("energy") = false,
           py::arg("options") = py::dict(), py::kw_only(), py::arg("within") = "",
-          py::arg("of") = "", py::arg("tap") = "",
+          py::arg("of") = "", py::arg("tap") = "", py::arg("time_limit") = py::none(),
           "One scheme on one scene. rate [Hz], 44100 where absent, tap_rate [Hz]; duration [s]; "
           "energy=True adds the energy "
           "columns; options {\"compliance\": \"matched\"}. within=\"1%\" chooses scheme, rate and "
           "modes as `jvari run --within`, by the measure `of` of `tap`; so does a run without a "
-          "scheme. Raises Refusal, SceneError or UsageError.");
+          "scheme. Raises Refusal, SceneError or UsageError, and TimeoutError after time_limit [s] "
+          "of processor.");
+    m.def("reference", &python::reference_of, py::arg("scene"), py::arg("reference") = "",
+          py::arg("modes") = 0, py::arg("duration") = py::none(), py::arg("tap_rate") = py::none(),
+          py::arg("time_limit") = py::none(), py::arg("jobs") = 0,
+          "The motion that `compare` measures errors against, with its `uncertainty`. modes 0: "
+          "doubled until nothing moves. duration, time_limit [s], tap_rate [Hz].");
     m.def("run_many", &python::run_many, py::arg("scenes"), py::arg("scheme"),
           py::arg("rate") = 44100.0, py::arg("modes") = 0, py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("jobs") = 0,
@@ -172,11 +201,14 @@ void add_studies(py::module_& m) {
         py::arg("modes") = 0, py::arg("reference") = "", py::arg("reference_modes") = 0,
         py::arg("controls") = false, py::arg("duration") = py::none(),
         py::arg("tap_rate") = py::none(), py::arg("options") = py::dict(), py::arg("repeats") = 5,
-        py::arg("out") = "", py::arg("jobs") = 0,
+        py::arg("out") = "", py::arg("jobs") = 0, py::kw_only(), py::arg("cost") = py::dict(),
+        py::arg("time_limit") = py::none(),
         "Schemes x modes x rates [Hz] against a reference, as `jvari compare`: modes may be a "
         "number or several, and so may the values of options. A dict per cell, its keys the "
         "columns of cells.csv and the bounds of the errors. None where nothing is known. out: the "
-        "folder that gets tables, pictures and report.html, as of `jvari compare --out`.");
+        "folder that gets tables, pictures and report.html, as of `jvari compare --out`. cost: "
+        "{scheme: {rate: s per s}} of schemes that are not timed, shown as reported. time_limit: "
+        "of each run, of a reference too [s].");
     const py::type list = py::type::of(py::list());
     m.attr("Rows") = py::type::of(list)(
         "Rows", py::make_tuple(list),

@@ -132,10 +132,11 @@ struct TakenRun {  // a run, and what its columns are in
     Run run;
     // of each column: taps, then what of the energy was probed
     std::vector<std::pair<std::string, std::string>> units;
-    std::string advice;  // that chose the settings, as JSON; "": none
+    // as JSON, or "": how the settings were chosen; what a reference is uncertain by
+    std::string advice{}, uncertainty{};
+    double processor_seconds = std::numeric_limits<double>::quiet_NaN();
 
-    TakenRun(Run r, const Scene& scene, std::string chosen_by)
-        : run(std::move(r)), advice(std::move(chosen_by)) {
+    TakenRun(Run r, const Scene& scene) : run(std::move(r)) {
         for (const Tap& t : scene.taps) units.emplace_back(t.name, unit_of(t.quantity));
         if (!run.trace.energy.empty())
             for (const char* name : {"energy_stored_J", "energy_supplied_J", "energy_dissipated_J"})

@@ -36,10 +36,7 @@ std::map<std::string, judge::Costs> costs_of(const CompareCall& r, const compare
     std::map<std::string, judge::Costs> costs;
     for (const compare::SchemeOption& o : scheme_options(r.costs)) {
         const std::string what = fmt::format("--cost {}={}", o.name, o.value);
-        if (!*all.find(o.name).untimed)
-            throw store::UsageError(what +
-                                    ": this scheme is timed; a cost is given to one that is "
-                                    "not, as of --external");
+        judge::must_be_untimed(all.find(o.name));
         if (r.modes.size() > 1) throw store::UsageError(what + ": found more than one of --modes");
         std::istringstream values(o.value);
         std::size_t count = 0;

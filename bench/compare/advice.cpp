@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <span>
 #include <string_view>
 
@@ -45,13 +44,6 @@ constexpr const char *with_a_record[] = {"modal_two_moment", "modal_two_point"},
 
 bool is_among(std::span<const char* const> names, const Descriptor& d) {
     return std::ranges::find(names, std::string_view(d.name)) != names.end();
-}
-
-double lowest_frequency(const Scene& scene) {  // [Hz]
-    double lowest = HUGE_VAL;
-    for (const String& s : scene.strings)
-        lowest = std::min(lowest, modes_of(s, 1).omega0[0] / (2 * std::numbers::pi));
-    return lowest;
 }
 
 // Of a scene with the judged tap alone, as long as it is judged.

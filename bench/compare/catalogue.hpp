@@ -38,6 +38,7 @@ struct CompareRequest {
     // with no schemes named, those that are known to be wrong too
     bool controls = false;
     std::optional<double> duration, tap_rate;  // [s], [Hz]
+    std::optional<double> time_limit;          // of each run, of a reference too [s]
     std::vector<std::string> set;              // overrides of the scene, "key.path=value"
     std::string tap;                           // the only one that is compared; "": all
     std::vector<SchemeOption> options;

@@ -157,6 +157,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
     Comparison c;
     study::Point common;
     common.scene = load_scene(request);
+    common.time_limit = request.time_limit.value_or(HUGE_VAL);
     common.begin = request.modes.empty() ? 0 : request.modes.front();
     note_scene(common.scene, listener);
     c.headline = study::headline_of(common.scene);

@@ -162,6 +162,12 @@ std::string beside(const compare::Comparison& c, const study::Record& own) {
 }
 }  // namespace
 
+void must_be_untimed(const Descriptor& d) {
+    if (!*d.untimed)
+        throw store::UsageError(fmt::format(
+            "cost of {}: this scheme is timed; a cost is given to one that is not", d.name));
+}
+
 void report_costs(compare::Comparison& c, const std::string& scheme, const Costs& costs) {
     for (study::Record& r : c.outcome.records) {
         const auto cost = costs.find(r.cell.settings.sample_rate);

@@ -102,6 +102,7 @@ compare::Comparison judge(Candidate, compare::CompareRequest,
 // Gives cells of a scheme that is not timed the cost that somebody reports, and marks them by the
 // option cost=as_reported; those at other rates, or with modes that were added, keep none.
 void report_costs(compare::Comparison&, const std::string& scheme, const Costs&);
+void must_be_untimed(const Descriptor&);  // throws UsageError for a scheme that is timed
 
 bool is_candidate(const study::Cell&);  // a cell of the trace that is judged
 // in words: of each rate, against what ran beside it, and the observed order

@@ -39,7 +39,6 @@ struct CellSet
     std::vector<VariedOption> varied;
     std::vector<SweptKey> sweep;
     std::vector<std::string> measure{measured::errors};  // names of facets
-    std::optional<double> time_limit;                    // [s]
     std::vector<Tap> taps;                               // beside those of the scene
     bool measures(std::string_view facet) const;
 };

@@ -96,7 +96,7 @@ std::vector<store::Key<CellSet>> set_keys() {
             "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
         key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap",
             "the scene's first"),
-        key("time_limit_s", &Set::time_limit, store::positive("s"),
+        key("time_limit_s", request(&Set::time_limit), store::positive("s"),
             "processor time of a cell's accuracy run, and of each of its reference's two", "none"),
         key("options", &Set::varied,
             store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),

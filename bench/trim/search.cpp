@@ -73,8 +73,8 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene,
 }
 
 Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
-            const std::vector<int>& starts, const compare::Advice* advised,
-            const store::Listener& listener) {
+            const std::vector<int>& starts, const store::Listener& listener,
+            const compare::Advice* advised) {
     Path path;
     CheapestSettings s(judge, schemes, starts, listener);
     for (const Descriptor* d : schemes)

@@ -146,7 +146,7 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
     for (const Descriptor* d : schemes) compare::combinations_of(r.options, *d, used);
     compare::must_be_used(r.options, used);
     for (std::vector<int> by{0};;) {
-        t.path = search(judge, schemes, by, advised ? &*advised : nullptr, listener);
+        t.path = search(judge, schemes, by, listener, advised ? &*advised : nullptr);
         t.verified.clear();
         if (!t.path.within_tolerance) break;
         for (int s = 0; s < starts; ++s)

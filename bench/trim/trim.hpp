@@ -63,7 +63,7 @@ struct Path {
 // Judged by these starts. advised: settings of the whole scene that two runs advise, or nullptr:
 // what costs more is not looked at where they serve.
 Path search(Judge&, const std::vector<const Descriptor*>& schemes, const std::vector<int>& starts,
-            const compare::Advice* advised, const store::Listener&);
+            const store::Listener&, const compare::Advice* advised = nullptr);
 
 // ---- Search, verification by another start, needs, and what was not tried.
 

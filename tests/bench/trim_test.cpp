@@ -251,7 +251,7 @@ TEST(Judge, CountsTheCertificateWithTheError) {
 TEST(Search, IsWithinAtEachStepWhichSavesAndKeepsNothingThatWouldSave) {
     trim::Judge judge(request("tanpura_c3_release", "5%"), catalogue(), silent, counted);
     const trim::Path path =
-        trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, nullptr, silent);
+        trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent);
     ASSERT_TRUE(path.within_tolerance);
     const trim::Step& last = path.steps.back();
     EXPECT_EQ(judge.scene_of(last.model).taps.size(), 1u);
@@ -285,7 +285,7 @@ TEST(Search, FindsTheSameModelWhateverAClocksNoise) {
                               return counted(m, left) * std::exp(noise * normal(random));
                           });
         const trim::Model m =
-            trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, nullptr, silent)
+            trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent)
                 .steps.back()
                 .model;
         return std::pair(m.settings_text(), m.left_out);
@@ -302,7 +302,7 @@ TEST(Search, OfAnySchemeFindsTheCheapestAndPassesOverWhatDoesNotServe) {
     for (const char* name : {"finite_difference_explicit", "finite_difference_hamiltonian",
                              "modal_quadratised", "modal_two_point"})
         any.push_back(&catalogue().find(name));
-    const trim::Path path = trim::search(judge, any, {0}, nullptr, silent);
+    const trim::Path path = trim::search(judge, any, {0}, silent);
     ASSERT_TRUE(path.within_tolerance);
     double cheapest = HUGE_VAL;
     for (const Descriptor* d : any) {
@@ -338,8 +338,8 @@ TEST(Trim, AnUnknownOrATooLargeUncertaintyDecidesNothing) {
 
 TEST(Search, SaysWhereNothingServes) {
     trim::Judge judge(request("tanpura_c3_release", "0.0001%"), catalogue(), silent, counted);
-    EXPECT_FALSE(trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, nullptr, silent)
-                     .within_tolerance);
+    EXPECT_FALSE(
+        trim::search(judge, {&catalogue().find("modal_two_point")}, {0}, silent).within_tolerance);
 }
 
 TEST(Search, OptionsThatAreNamedAreTriedInPlaceOfThoseThatTrimTriesByItself) {

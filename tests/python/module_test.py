@@ -370,6 +370,38 @@ os._exit(1)"""
                          [("compliance=own", 60), ("compliance=own", 80),
                           ("compliance=matched", 60), ("compliance=matched", 80)])
 
+    def test_a_reference_tells_what_it_is_uncertain_by(self):
+        scene = jvari.scene("tanpura_c3_release")
+        truth = jvari.reference(scene, modes=400, **SHORT)
+        coarse = jvari.run(scene, "modal_two_point", 88200, 133, options={"compliance": "matched"},
+                           **SHORT)
+        rows = jvari.compare(scene, schemes=["modal_two_point"], rates=[88200], modes=133,
+                             reference_modes=400, options={"compliance": "matched"}, repeats=1,
+                             **SHORT)
+        window = truth.time < 0.01
+        error = (np.linalg.norm((coarse["nut"] - truth["nut"])[window])
+                 / np.linalg.norm(truth["nut"][window]))
+        figure = rows[0]["errors"]["nut"]["error_l2_10ms"]
+        self.assertAlmostEqual(figure["value"] / error, 1, places=9)
+        known = truth.uncertainty["taps"]["nut"]["l2_10ms"]
+        self.assertEqual(known, figure["certificate"])
+        self.assertTrue(0 < known < error)
+        self.assertIsNone(coarse.uncertainty)
+
+    def test_a_time_limit_ends_a_run_and_time_is_told(self):
+        scene = jvari.scene("tanpura_c3_release")
+        self.assertAlmostEqual(1 / scene.period, 130.9, delta=0.2)
+        run = jvari.run(scene, "modal_two_point", duration=8 * scene.period)
+        self.assertTrue(0 < run.processor_seconds < 5)
+        with self.assertRaisesRegex(TimeoutError, "time limit of 0.001 s"):
+            jvari.run(scene, "finite_difference_theta", 44100 * 64, time_limit=0.001)
+
+    def test_a_reported_cost_stands_with_the_schemes_that_are_timed(self):
+        call = {"schemes": ["modal_two_point"], "rates": [44100], "modes": 60, "repeats": 1}
+        with self.assertRaisesRegex(jvari.UsageError, "this scheme is timed"):
+            jvari.compare("tanpura_c3_release", cost={"modal_two_point": {44100: 0.8}}, **call,
+                          **SHORT)
+
     def test_a_suite_is_its_rows(self):
         with tempfile.TemporaryDirectory() as folder:
             file = folder + "/a.toml"

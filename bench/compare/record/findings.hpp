@@ -81,9 +81,9 @@ std::vector<std::string> warnings_of(const study::Cells&);  // all of these that
 // Whether the cell with the settings that were advised has the error that was promised.
 struct Verdict {
     enum class Says { held, not_held, not_known } says = Says::not_known;
-    std::optional<std::size_t> cell;
-    Bound bound{};     // of its error
-    std::string text;  // "the advice held: 0.38 % where at most 1 % was asked"
+    std::optional<std::size_t> cell{};
+    Bound bound{};       // of its error
+    std::string text{};  // "the advice held: 0.38 % where at most 1 % was asked"
 };
 Verdict verdict_on(const Advice&, const study::Cells&);
 nlohmann::ordered_json json_of(const Advice&, const Verdict&);
