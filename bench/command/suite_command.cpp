@@ -96,6 +96,38 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
                      "run every cell: start only one");
 }
 
+// Of a population its strings are shown, and not its cells.
+int end_population(const SuiteRequest& r, const suite::Suite& suite, const study::Plan& plan,
+                   const study::Study& run, const Console& console) {
+    const suite::StringTables strings = suite::string_tables(suite, plan, run.records);
+    const study::Cells cells = study::cells_of(plan, run.records);
+    report::ResultsFolder results(r.out, console);
+    results.add_tables(cells);
+    for (const auto& [name, table] : {std::pair{"strings.csv", &strings.strings},
+                                      {"outcomes.csv", &strings.outcomes},
+                                      {"advice.csv", &strings.advice},
+                                      {"fronts.csv", &strings.fronts}})
+        results.add(name, store::csv(*table));
+    Json manifest = manifest_of(suite, plan);
+    manifest.erase("scenes");  // those in scenes/ are frozen
+    manifest["strings"] = suite.sets.size();
+    results.add_manifest(manifest);
+    results.add_report();
+    console.print(suite.name + "\n" + strings.text);
+    if (!r.out.empty()) console.print("written: " + r.out);
+    const int code = code_of(run.records);
+    console.print_json(with_results({{"suite", suite.name},
+                                     {"status", exit_code::status(code)},
+                                     {"ran", run.ran},
+                                     {"timed", run.timed},
+                                     {"read_back", run.read_back},
+                                     {"strings", store::rows_json(strings.strings)},
+                                     {"outcomes", store::rows_json(strings.outcomes)},
+                                     {"advice", store::rows_json(strings.advice)}},
+                                    {manifest, {}, {}, results.files}));
+    return code;
+}
+
 int suite_command(const SuiteRequest& r) {
     const Console console(r.json, r.quiet);
     if (r.resume && r.out.empty())
@@ -108,12 +140,14 @@ int suite_command(const SuiteRequest& r) {
     const fs::path folder = r.out;
     const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan), console);
     if (r.resume) note_missing_locks(folder, console);
+    suite::freeze(suite, folder, r.resume);
     const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
     if (r.resume) study::keep_references_in(plan, folder / "references");
     const suite::RecordedMaps maps = suite::run_and_record_maps(
         suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs},
         console);
     const study::Study run = study::run(plan, own.cells, r.resume, r.jobs, console);
+    if (suite.population) return end_population(r, suite, plan, run, console);
     const study::Cells cells = compare::with_front(study::cells_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
     const std::vector<compare::Answer> cheapest = compare::cheapest_of(cells);

@@ -36,7 +36,7 @@ std::string joined(std::initializer_list<const char*> files) {
 
 std::string shared_program() {
     return joined({"data.js", "looks.js", "work_precision.js", "along.js", "maps.js",
-                   "sound_charts.js", "run.js", "verdict.js"});
+                   "sound_charts.js", "run.js", "share.js", "verdict.js"});
 }
 static std::string page_program() {
     return shared_program() +

@@ -90,10 +90,13 @@ Results read_results(const fs::path& path) {
     const store::Folder folder{path};
     Results r;
     r.folder = path;
-    r.cells = study::read_cells(path, true);
+    for (const char* name : {"strings", "fronts", "advice"}) r.tables[name] = folder.table(name);
+    const bool population = !r.tables["strings"].columns.empty();  // its cells are too many
+    if (!population) r.cells = study::read_cells(path, true);
     for (const char* name : {"convergence", "maps", "boundaries", "sounds", "path", "needs"})
         r.tables[name] = folder.table(name);
-    if (r.cells.empty() && r.tables["maps"].columns.empty() && r.tables["path"].columns.empty())
+    if (r.cells.empty() && !population && r.tables["maps"].columns.empty() &&
+        r.tables["path"].columns.empty())
         throw store::UsageError(
             fmt::format("cannot read {}, and there is no maps.csv", (path / "facts.csv").string()));
     try {
@@ -102,7 +105,8 @@ Results read_results(const fs::path& path) {
         throw store::UsageError(fmt::format("{}: {}", (path / "manifest.json").string(), e.what()));
     }
     for (auto& [name, table] : r.tables)
-        if (name != "path" && name != "needs" && !table.columns.empty()) name_rows(table, r.name);
+        if (!population && name != "path" && name != "needs" && !table.columns.empty())
+            name_rows(table, r.name);
     std::vector<Named> named;
     for (const study::TabledCell& c : r.cells)
         named.push_back(
@@ -195,7 +199,8 @@ Json heard(const Results& r, const store::Table& cheapest, double longest, std::
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* own_folders[] = {"cells", "points", "sounds", "failures", "references"};
+constexpr const char* own_folders[] = {"cells",    "points",     "sounds",
+                                       "failures", "references", "scenes"};
 constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".toml", ".part"};
 
 std::string what_is_in(const fs::path& folder) {  // "" where that is unknown

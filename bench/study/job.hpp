@@ -28,6 +28,7 @@ struct Point {
     // 0: found by doubling; none: the reference with the cells' modes is all there is
     std::optional<int> truth_modes = 0;
     int begin = 0;       // modes that the doubling begins with; 0: those of modes_to_begin_with
+    double effort = 1;   // of the doubling (run_truth)
     bool alone = false;  // nothing is asked of what the reference is uncertain by
     // errors from a string with as many modes are asked for too, where the truth has others
     bool in_model = true;
@@ -60,9 +61,11 @@ struct Job {
     // jobs of one set are timed in one interleaved run
     int set = 0;
     std::function<void(const Ran&, Record&)> measure{};  // whatever else is measured of it
-    std::string measured{};                              // that, as JSON: part of its identity
-    std::string identity{};                              // JSON: all that its result depends on
-    std::string id{};                                    // hash_of it
+    // what is found out of the point, whatever becomes of the cell
+    std::function<std::string(const Point&, const Truth*)> beside{};
+    std::string measured{};  // both, as JSON: part of its identity
+    std::string identity{};  // JSON: all that its result depends on
+    std::string id{};        // hash_of it
 };
 
 struct Plan {

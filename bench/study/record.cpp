@@ -100,6 +100,7 @@ std::string json_of(const Record& r, const std::string& identity) {
     const Cell& c = r.cell;
     const Against& a = r.against;
     return store::kept_text(identity, {{"failure", c.failure},
+                                       {"beside", r.beside},
                                        {"reason", c.reason},
                                        {"cause", c.cause},
                                        {"summary", summary_json(c.summary)},
@@ -139,6 +140,7 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         r.against.model_trust.figure = figures_in(a.at("certificate_in_model"));
         r.reference_sound = sound_in(j.at("reference_sound"));
         r.levels = levels_in(j.at("levels"));
+        r.beside = j.value("beside", "");
         return r;
     });
 }

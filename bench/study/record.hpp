@@ -43,6 +43,7 @@ struct Record {
     // of the spectrogram; none where it was not asked for
     Levels levels;
     store::Sound reference_sound;  // of the tap of the cell's; none likewise
+    std::string beside{};          // JSON of what was found out beside the cell; "": nothing
     bool timed() const { return cell.clock.wall.count > 0; }
 };
 

@@ -95,7 +95,10 @@ constexpr double worth_keeping = 0.5;  // [s] of stepping
 Run kept_run(const std::filesystem::path& folder, const std::string& key,
              const std::function<Run()>& make, double least = worth_keeping);
 
-// Limit of a reference's run whose size nobody asked for: a minute to show that it ends within ten.
-inline TimeLimit first_run(double at_most) { return {std::min(at_most, 600.0), 60}; }
+// Limit of a reference's run whose size nobody asked for: a minute to show that it ends within ten,
+// both times `effort`.
+inline TimeLimit first_run(double at_most, double effort = 1) {
+    return {std::min(at_most, 600 * effort), 60 * effort};
+}
 
 }  // namespace jvari::bench::study

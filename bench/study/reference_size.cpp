@@ -97,8 +97,8 @@ Sizes sizes_of(const ReferenceChoice& c, const Scene& scene, int modes, int begi
     return s;
 }
 
-bool within_budget(const Descriptor& reference, const Scene& scene, double tap_rate,
-                   const Size& s) {
+bool within_budget(const Descriptor& reference, const Scene& scene, double tap_rate, const Size& s,
+                   double effort) {
     std::size_t contacts = 2;  // the closed forms take two alike
     for (const String& string : scene.strings)
         contacts = std::max(contacts, string.barriers.size() + string.masses.size());
@@ -112,7 +112,7 @@ bool within_budget(const Descriptor& reference, const Scene& scene, double tap_r
                 (1 + 2.5 * coupled);
     }
     return s.points <= most_points && s.modes <= most_modes_found &&
-           work * dearness(reference, scene) <= budget;
+           work * dearness(reference, scene) <= budget * effort;
 }
 
 ReferenceChoice sized(ReferenceChoice choice, const Size& s) {

@@ -28,9 +28,10 @@ struct Sizes {
 // unasked.
 Sizes sizes_of(const ReferenceChoice&, const Scene&, int modes, int begin);
 
-// Where a run of this size takes about ten to twenty seconds at most. The time that the scene lasts
-// is counted in rows, so that its unit does not matter.
-bool within_budget(const Descriptor& reference, const Scene&, double tap_rate, const Size&);
+// Where a run of this size takes about ten to twenty seconds at most, times `effort`. The time that
+// the scene lasts is counted in rows, so that its unit does not matter.
+bool within_budget(const Descriptor& reference, const Scene&, double tap_rate, const Size&,
+                   double effort = 1);
 
 ReferenceChoice sized(ReferenceChoice, const Size&);
 

@@ -49,6 +49,7 @@ Record run_job(const Job& job, const References::Of& known, const ProgressOf& pr
     } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
         fail(cell, e);
     }
+    if (job.beside) r.beside = job.beside(point, known.truth);
     if (!known.refused.empty()) cell.reason += (cell.reason.empty() ? "" : "; ") + known.refused;
     r.against = known.against();
     return r;

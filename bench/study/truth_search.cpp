@@ -54,8 +54,14 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
 
 class Search {
 public:
-    Search(const Scene& s, int jobs, const store::Listener& listener, double time_limit, bool find)
-        : scene_(s), jobs_(jobs), listener_(listener), time_limit_(time_limit), find_(find) {}
+    Search(const Scene& s, int jobs, const store::Listener& listener, double time_limit, bool find,
+           double effort)
+        : scene_(s),
+          jobs_(jobs),
+          listener_(listener),
+          time_limit_(time_limit),
+          find_(find),
+          effort_(effort) {}
     Truth of(const std::vector<ReferenceChoice>&, int modes, int begin);
 
 private:
@@ -79,7 +85,8 @@ private:
     const int jobs_;
     const store::Listener& listener_;
     const double time_limit_;
-    const bool find_;  // and not asked for
+    const bool find_;      // and not asked for
+    const double effort_;  // of all limits that nobody asked for
     const double from_ = free_from(scene_), end_ = headline_window(scene_);
     const std::size_t window_ = std::isinf(end_) ? 2 : end_ >= 50e-3 ? 1 : 0;
     Truth t_;
@@ -107,7 +114,7 @@ Truth Search::first(const std::vector<ReferenceChoice>& choices, int modes, int 
         }
         first.push_back(sized(c, size));
     }
-    const TimeLimit limit = find_ ? first_run(time_limit_) : TimeLimit{time_limit_};
+    const TimeLimit limit = find_ ? first_run(time_limit_, effort_) : TimeLimit{time_limit_};
     try {
         Truth t;
         t.reference = run_reference(first, scene_, jobs_, listener_, limit);
@@ -127,14 +134,14 @@ std::optional<Size> Search::next() const {
     if (at != sizes_.each.end() && at + 1 != sizes_.each.end()) return *(at + 1);
     const Size twice = size_.twice(sizes_.most_modes());
     if (!sizes_.doubled || unsettled_ < settled || twice == size_ ||
-        !within_budget(*choice_.scheme, scene_, choice_.settings.tap_rate, twice))
+        !within_budget(*choice_.scheme, scene_, choice_.settings.tap_rate, twice, effort_))
         return {};
     return twice;
 }
 
 bool Search::more() {
     const std::optional<Size> size = next();
-    const double left = sizes_.doubled ? patience - spent_ : HUGE_VAL;
+    const double left = sizes_.doubled ? patience * effort_ - spent_ : HUGE_VAL;
     if (!size || left <= 0) return false;
     Reference finer;
     try {
@@ -180,7 +187,7 @@ void Search::own() {
     if (t_.coarser.empty() || !is_matched(choice_.settings.options)) return;
     try {
         t_.own = own_motion(choice_, scene_, size_, jobs_, listener_,
-                            find_ ? std::min(time_limit_, patience) : time_limit_);
+                            find_ ? std::min(time_limit_, patience * effort_) : time_limit_);
     } catch (const store::PastItsLimit&) {  // without it the doublings alone tell
     } catch (const Refusal&) {}
     if (!t_.own.empty()) t_.reference.trust = trust_of(solved_, t_, size_, from_);
@@ -261,8 +268,9 @@ Truth Search::of(const std::vector<ReferenceChoice>& choices, int modes, int beg
 }  // namespace
 
 Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes,
-                int jobs, const store::Listener& listener, double time_limit, int begin) {
-    return Search(scene, jobs, listener, time_limit, modes == 0).of(choices, modes, begin);
+                int jobs, const store::Listener& listener, double time_limit, int begin,
+                double effort) {
+    return Search(scene, jobs, listener, time_limit, modes == 0, effort).of(choices, modes, begin);
 }
 
 }  // namespace jvari::bench::study

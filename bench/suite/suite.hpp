@@ -11,6 +11,7 @@
 
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/keys.hpp"
+#include "bench/store/records.hpp"
 #include "bench/study/job.hpp"
 #include "scenes/scene.hpp"
 
@@ -18,7 +19,7 @@ namespace jvari::bench::suite {
 
 namespace measured {  // facets that more than their own file knows
 inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram",
-                            *sound = "sound";
+                            *sound = "sound", *share = "share";
 }
 
 struct SweptKey {
@@ -40,6 +41,8 @@ struct CellSet
     std::vector<SweptKey> sweep;
     std::vector<std::string> measure{measured::errors};  // names of facets
     std::vector<Tap> taps;                               // beside those of the scene
+    double effort = 1;                                   // of its references (study::run_truth)
+    std::optional<Scene> drawn{};  // a string of a population, in place of reading its scene
     bool measures(std::string_view facet) const;
 };
 
@@ -74,12 +77,35 @@ struct Map {
 // [[map]] tables of a suite (map_file.cpp).
 store::Kind<std::vector<Map>> maps();
 
+// ---- A population: strings drawn from ranges of a scene's keys, and fixed ones beside them. Each
+// string becomes a set of cells of its own (population.cpp).
+
+struct DrawnKey {
+    std::string key;                   // of a scene
+    std::vector<std::string> choices;  // in TOML syntax; none: a range
+    double from = 0, to = 0;
+    bool log = false;  // equal ratios are equally likely
+};
+struct Ground {  // strings of one kind
+    std::string name, scene;
+    int number = 0;
+    std::vector<DrawnKey> draw;
+};
+struct Population : CellSet {  // `scenes`: the fixed strings
+    int seed = 0;
+    double periods = 8;                // of the first mode, after the last pluck
+    std::vector<double> multiples{1};  // of the modes below 20 kHz
+    std::vector<std::string> measure{measured::errors, measured::cost, measured::share};
+};
+
 // ---- A suite.
 
 struct Suite {
     std::string name, question, source;
-    std::vector<CellSet> sets;
+    std::vector<CellSet> sets;  // of a population one for each string
     std::vector<Map> maps;
+    std::optional<Population> population;
+    std::vector<Ground> grounds;
 };
 
 // A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12:
@@ -87,12 +113,21 @@ struct Suite {
 Suite read_suite(const std::string& file_or_library_name);
 Suite parse_suite(std::string_view text, const std::string& file_name);
 
-// The keys of a suite file, of each of its tables: "", "cells", "map".
+// The keys of a suite file, of each of its tables: "", "cells", "map", "population", "ground".
 struct TableWords {
     std::string table;
     std::vector<store::KeyWords> keys;
 };
 std::vector<TableWords> suite_keys();
+
+// The sets of cells of a population's strings, in order: its grounds, then its fixed scenes. The
+// same file gives the same scenes to the byte. Throws SceneFileError, BadScene.
+std::vector<CellSet> sets_of(const Population&, const std::vector<Ground>&);
+std::vector<store::Key<Ground>> ground_keys();
+
+// Writes the scenes into the folder before anything runs. Throws UsageError where one lies there
+// that differs, for its cells are of another string.
+void freeze(const Suite&, const std::filesystem::path& folder, bool resume);
 
 // Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the
 // sources, else the installed one.
@@ -124,5 +159,21 @@ std::span<const Facet> facets();
 void keep_sounds(const study::Ran&, study::Record&);
 void write_sounds(const std::filesystem::path& folder, const study::Plan&,
                   const std::vector<study::Record>&);
+
+// ---- What a population finds out beside its cells, and the tables of it (strings.cpp).
+
+// Of a string, once: how much a change of the obstacle's height is amplified, and how far advice
+// errs, as JSON.
+std::string examined(const study::Point&, const study::Truth*, const compare::Catalogue&);
+
+// strings.csv:  a row per string: its dimensionless numbers, reference, uncertainty, outcome
+// outcomes.csv: a row per string and variant: the outcome within 10, 1 and 0.1 %
+// advice.csv:   a row per string and tolerance: what `run --within` takes, and its true error
+// fronts.csv:   measured: the cheapest cells of each variant, with error and cost
+struct StringTables {
+    store::Table strings, outcomes, advice, fronts;
+    std::string text;  // for the terminal
+};
+StringTables string_tables(const Suite&, const study::Plan&, const std::vector<study::Record>&);
 
 }  // namespace jvari::bench::suite

@@ -108,6 +108,33 @@ std::vector<store::Key<CellSet>> set_keys() {
         key("taps", &Set::taps, store::several(tap()), "taps beside those of the scene")};
 }
 
+std::vector<store::Key<Population>> population_keys() {
+    const auto base = []<class Member>(Member CellSet::*member) -> Member Population::* {
+        return member;
+    };
+    std::vector<store::Key<Population>> keys{
+        key("seed", &Population::seed, store::whole(0, store::most_counted),
+            "of the strings that are drawn"),
+        key("periods", &Population::periods, store::positive(),
+            "of the first mode, after the last pluck, that each string runs for"),
+        key("modes", &Population::multiples, store::several(store::positive()),
+            "as multiples of those below 20 kHz; those above half the rate are left out"),
+        key("effort", base(&CellSet::effort), store::positive(),
+            "of each reference: 1 are the minutes that compare takes at most", "1"),
+        key("scenes", base(&CellSet::scenes), store::several(store::text()),
+            "fixed strings beside those that are drawn", "none"),
+        key("measure", &Population::measure,
+            store::several(store::word("measure", names_of_facets())), "what is measured",
+            "errors, cost, share")};
+    const auto same = [](const std::string& name) {
+        return name == "schemes" || name == "rates" || name == "repeats" || name == "reference" ||
+               name == "time_limit_s" || name == "options";
+    };
+    for (store::Key<CellSet>& k : set_keys())
+        if (same(k.words.name)) keys.push_back({k.words, k.read});
+    return keys;
+}
+
 void must_be_few(const CellSet& s, const store::Entry& e) {
     double cells = 1;
     const auto times = [&cells](std::size_t listed) {
@@ -126,9 +153,17 @@ void must_be_few(const CellSet& s, const store::Entry& e) {
 void hold_together(CellSet& s, const store::Entry& e) {
     must_be_few(s, e);
     s.search = s.search && s.measures(measured::errors);
+    if (s.measures(measured::share))
+        e.need("measure").fail("found share in [[cells]], expected it in [population]");
     if (s.measures(measured::cost) && !s.measures(measured::errors))
         e.need("measure").fail(
             "found cost without errors, expected both: no speed without an error");
+}
+
+store::Kind<std::optional<Population>> population() {
+    const auto one = store::table(population_keys());
+    return {one.says, [read = one.read](const store::Entry& e) { return std::optional(read(e)); },
+            one.below};
 }
 
 // ---- A suite
@@ -139,6 +174,10 @@ std::vector<store::Key<Suite>> keys_of_suite() {
         key("question", &Suite::question, store::text(), "what it answers", "none"),
         key("source", &Suite::source, store::text(), "what it follows", "none"),
         key("map", &Suite::maps, maps(), "maps of what becomes of each scheme"),
+        key("population", &Suite::population, population(),
+            "strings drawn from the grounds, in place of cells"),
+        key("ground", &Suite::grounds, store::tables("ground", store::table(ground_keys())),
+            "of a population: strings of one kind"),
         key("cells", &Suite::sets, store::tables("cells", store::table(set_keys(), hold_together)),
             "sets of cells: each the product of what it lists")};
 }
@@ -172,9 +211,27 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
     store::read_keys(root, keys, suite);
-    if (suite.sets.empty() && (suite.maps.empty() || root.at("cells")))
+    if (suite.population && (!suite.sets.empty() || !suite.maps.empty()))
+        root.need("population").fail("found [[cells]] or [[map]] too, expected a suite of its own");
+    if (suite.sets.empty() && !suite.population && (suite.maps.empty() || root.at("cells")))
         root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") +
                                              "expected at least one [[cells]]");
+    // a scene's file is looked for beside the suite's, then where the program runs; a name of the
+    // library is neither
+    const auto find = [&](std::string& scene) {
+        std::error_code error;
+        if (const fs::path beside = fs::path(file_name).parent_path() / scene;
+            fs::path(scene).is_relative() && fs::is_regular_file(beside, error))
+            scene = beside.string();
+    };
+    for (CellSet& set : suite.sets)
+        for (std::string& scene : set.scenes) find(scene);
+    for (Map& m : suite.maps) find(m.scene);
+    for (Ground& g : suite.grounds) find(g.scene);
+    if (suite.population) {
+        for (std::string& scene : suite.population->scenes) find(scene);
+        suite.sets = sets_of(*suite.population, suite.grounds);
+    }
     return suite;
 }
 
@@ -189,18 +246,7 @@ Suite read_suite(const std::string& name) {
         throw store::UsageError(store::unknown("suite", name, library_suites()) +
                                 " (neither a file nor a suite of the library)");
     const std::string path = file ? name : shelved.string();
-    Suite suite = parse_suite(store::read_whole(path), path);
-    // a scene's file is looked for beside the suite's, then where the program runs; a name of the
-    // library is neither
-    const auto find = [&](std::string& scene) {
-        if (const fs::path beside = fs::path(path).parent_path() / scene;
-            fs::path(scene).is_relative() && fs::is_regular_file(beside, error))
-            scene = beside.string();
-    };
-    for (CellSet& set : suite.sets)
-        for (std::string& scene : set.scenes) find(scene);
-    for (Map& m : suite.maps) find(m.scene);
-    return suite;
+    return parse_suite(store::read_whole(path), path);
 }
 
 std::vector<std::string> library_suites() { return toml_names(library()); }

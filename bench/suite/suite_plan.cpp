@@ -6,11 +6,14 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
+#include "scenes/modes.hpp"
 
 namespace jvari::bench::suite {
 
 namespace {
 using Json = nlohmann::ordered_json;
+
+constexpr double most_of_rate = 0.49;  // the highest mode of a string of a population
 
 // Spectrogram and sound of a job's accuracy run, and what they are made of as JSON.
 void add_facets(study::Job& job, const CellSet& set, int tap) {
@@ -24,6 +27,33 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
         if (set.measures(measured::spectrogram))
             into.levels = study::levels_of(ran.trace.column(tap), ran.trace.tap_rate);
         if (set.measures(measured::sound)) keep_sounds(ran, into);
+    };
+}
+
+// A string of a population is one point with all modes and options. Modes that a rate cannot hold
+// are left out, but the fewest. The first job examines the string where that is measured.
+void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellSet& set,
+                const compare::Catalogue& catalogue, study::Point& common, study::Job& like) {
+    common.begin = 0;
+    common.in_model = false;
+    common.effort = set.effort;
+    like.errors = {study::measure("error_l2_whole")};
+    const std::size_t from = plan.jobs.size(), notes = plan.notes.size();
+    compare::add_jobs(plan, r, catalogue, common, like);
+    plan.notes.resize(notes);  // of each string the same
+    const auto held = [&](const study::Job& job) {
+        const int modes = job.cell.settings.modes;
+        return modes == set.modes.front() ||
+               modes <= modes_below(set.drawn->strings.front(),
+                                    most_of_rate * job.cell.settings.sample_rate);
+    };
+    plan.jobs.erase(
+        std::stable_partition(plan.jobs.begin() + static_cast<long>(from), plan.jobs.end(), held),
+        plan.jobs.end());
+    if (plan.jobs.size() == from || !set.measures(measured::share)) return;
+    plan.jobs[from].measured += " beside";
+    plan.jobs[from].beside = [catalogue](const study::Point& p, const study::Truth* truth) {
+        return examined(p, truth, catalogue);
     };
 }
 }  // namespace
@@ -42,6 +72,15 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
             requests = std::move(more);
         };
         using Request = compare::CompareRequest;
+        if (set.drawn) {
+            Request& r = requests.front();
+            r.scene = set.drawn->name;
+            for (const VariedOption& o : set.varied)
+                for (const std::string& value : o.values)
+                    r.options.emplace_back(o.option).value = value;
+            points.push_back({&set, r});
+            continue;
+        }
         vary(set.scenes, [](Request& r, const std::string& scene) { r.scene = scene; });
         vary(set.modes, [](Request& r, int modes) { r.modes = {modes}; });
         for (const SweptKey& k : set.sweep)
@@ -65,7 +104,7 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
         const compare::CompareRequest& r = point.request;
         const std::string where = "scene " + r.scene + ": ";
         study::Point common;
-        common.scene = compare::load_scene(r);
+        common.scene = set.drawn ? *set.drawn : compare::load_scene(r);
         common.time_limit = set.time_limit.value_or(HUGE_VAL);
         // of a sweep over modes one reference for all
         common.begin = set.modes.empty() ? 0 : *std::ranges::max_element(set.modes);
@@ -81,7 +120,8 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
             common.scene.taps.insert(common.scene.taps.end(), set.taps.begin(), set.taps.end());
             validate(common.scene);
             add_facets(like, set, compare::tap_named(common.scene, set.tap));
-            compare::add_jobs(all, r, catalogue, common, like);
+            if (set.drawn) add_string(all, r, set, catalogue, common, like);
+            else compare::add_jobs(all, r, catalogue, common, like);
         } catch (const store::UsageError& e) {
             throw store::UsageError(where + e.what());
         } catch (const Refusal& e) { throw Refusal(where + e.what()); }

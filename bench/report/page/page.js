@@ -116,7 +116,8 @@ function fill_page() {
   document.getElementById("about").textContent = [page.title, page.about]
     .filter(Boolean)
     .join(" \u00b7 ");
-  document.querySelector("h1").textContent = finding_of_maps() || finding_of_trim() || page.title;
+  document.querySelector("h1").textContent =
+    finding_of_maps() || finding_of_trim() || finding_of_share() || page.title;
   if (page.missing) main.append(element("p", {className: "soft"}, page.missing));
   const beginning = element("div", {className: "first"}),
     heard = sounds().length ? [hear_it(), ...(traces ? [see_it(traces)] : [])] : [];

@@ -250,6 +250,7 @@ function cell_section() {
 function sections_of() {
   const drawn = [
     run_section(),
+    share_section(),
     path_section(),
     needs_section(),
     work_precision_section(),

@@ -1,0 +1,247 @@
+// A population: which share of its strings each scheme solves for what cost, and how far the
+// estimate of an advice is from the true error.
+const strings_in = () => records("strings");
+const schemes_in = rows => in_order(rows.map(row => row.scheme));
+const all_schemes = "best of all";
+
+// Of a tolerance: the cheapest cost of each string by scheme, and the strings that can be decided.
+function solved_within(within) {
+  const cheapest = new Map([[all_schemes, new Map()]]);
+  for (const f of records("fronts")) {
+    if (!(number(f.error) <= within)) continue;
+    for (const series of [all_schemes, f.scheme]) {
+      const costs = cheapest.get(series) ?? new Map(),
+        cost = number(f.cost_s_per_s);
+      cheapest.set(series, costs.set(f.string, Math.min(cost, costs.get(f.string) ?? Infinity)));
+    }
+  }
+  const solved = cheapest.get(all_schemes),
+    decided = strings_in().filter(s => number(s.uncertainty) <= within / 2 || solved.has(s.string));
+  return {cheapest, decided: decided.length};
+}
+const within_text = within => `within ${percent(within)}`;
+
+// One panel: a curve per scheme, and grey where nothing can be decided.
+function share_panel(within, names, domain, first, width) {
+  const {cheapest, decided} = solved_within(within),
+    count = strings_in().length,
+    steps = [...cheapest].flatMap(([series, of]) => {
+      const costs = [...of.values()].sort((a, b) => a - b),
+        row = (x, k) => ({
+          series,
+          x,
+          y: k / count,
+          tooltip: tooltip([
+            ["scheme", series],
+            ["cost", cost_text(x, "cost_s_per_s")],
+            ["solved", `${k} of ${count} strings`],
+          ]),
+        });
+      return costs.length
+        ? [row(costs[0], 0), ...costs.map((x, k) => row(x, k + 1)), row(domain[1], costs.length)]
+        : [];
+    });
+  const {color} = encodings_of(names),
+    x = quantity(
+      "x",
+      {
+        ...decades(
+          "x",
+          "datum.value < 1 ? format(1000*datum.value, '~r') + ' ms' : datum.value + ' s'",
+        ),
+        title:
+          first === null ? "processor time for one second of sound" : "processor time a second",
+      },
+      {...log(4), domain},
+    ),
+    y = quantity(
+      "y",
+      {format: "%", ...(first === false ? {labels: false} : {title: "share of strings solved"})},
+      {domain: [0, 1]},
+    );
+  const line = (rows, more, encoding) => ({
+    data: {values: rows},
+    mark: {type: "line", interpolate: "step-after", ...more},
+    encoding: {...encoding, ...hover},
+  });
+  return {
+    width,
+    height: 300,
+    encoding: {x, y},
+    layer: [
+      {
+        data: {values: [{low: decided / count, high: 1}]},
+        mark: {type: "rect", color: "#8d959c", opacity: 0.35, tooltip: null},
+        encoding: {
+          x: {datum: domain[0], type: "quantitative"},
+          x2: {datum: domain[1]},
+          y: {field: "low", type: "quantitative"},
+          y2: {field: "high"},
+        },
+      },
+      line(
+        steps.filter(s => s.series === all_schemes),
+        {strokeWidth: 3, opacity: 0.35, color: ink[0]},
+        {},
+      ),
+      line(
+        steps.filter(s => s.series !== all_schemes),
+        {strokeWidth: 1.8},
+        {color, opacity: brought_out},
+      ),
+      once({
+        type: "text",
+        x: {expr: "width - 4"},
+        y: 12,
+        align: "right",
+        fontSize: 10,
+        text: `${count - decided} undecided`,
+      }),
+      above(within_text(within)),
+    ],
+  };
+}
+const shares = [0.1, 0.01, 0.001];
+function share_spec(choice, print) {
+  const costs = records("fronts").map(f => number(f.cost_s_per_s)),
+    domain = [0.8 * Math.min(...costs), 1.2 * Math.max(...costs)],
+    names = schemes_in(records("fronts")),
+    one = choice.within_field > 0,
+    width = one ? (print ? print_width() : "container") : (print_width() - 60) / 3;
+  const panels = one
+    ? share_panel(choice.within_field, names, domain, null, width)
+    : {
+        width: undefined,
+        spacing: 20,
+        hconcat: shares.map((within, k) => share_panel(within, names, domain, k === 0, width)),
+      };
+  return {
+    legend: names,
+    spec: framed(
+      panels,
+      {
+        title: `${page.title}: share of strings solved against cost`,
+        subtitle:
+          `${strings_in().length} strings, nut force; each scheme as published or matched, whichever is ` +
+          "cheaper; thick: the best of all; grey: the reference is not known well enough. What is " +
+          "missing below it was refused, failed, or needs other settings",
+        names,
+      },
+      print,
+    ),
+  };
+}
+
+// ---- The estimate of an advice against its true error
+function advice_spec(choice, print) {
+  const names = shares.map(within_text),
+    given = records("advice")
+      .filter(a => a.outcome !== "none" && number(a.estimate) > 0 && number(a.error) > 0)
+      .map(a => ({
+        series: within_text(number(a.tolerance)),
+        x: number(a.estimate),
+        y: number(a.error),
+        known: number(a.uncertainty) <= number(a.tolerance) / 2,
+        tooltip: tooltip([
+          ["string", a.string],
+          ["settings", `${spoken(`${a.scheme} ${a.options}`)}, ${a.modes} modes, ${a.rate} Hz`],
+          ["estimate", percent(number(a.estimate))],
+          ["true error", percent(number(a.error))],
+          ["reference known to", percent(number(a.uncertainty))],
+        ]),
+      })),
+    all = given.flatMap(a => [a.x, a.y]),
+    ends = [0.7 * Math.min(...all), 1.4 * Math.max(...all)],
+    scale = what => ({domain: names, range: what}),
+    axis = (field, title) =>
+      quantity(field, {...error_axis("error_l2_whole", field), title}, {...log(4), domain: ends});
+  const encoding = {
+    color: {field: "series", type: "nominal", scale: scale(["#c07c00", "#0d44e1", "#480588"])},
+    shape: {field: "series", type: "nominal", scale: scale(shapes.slice(0, 3))},
+  };
+  for (const channel of Object.values(encoding))
+    channel.legend = {title: null, orient: "top-left", symbolSize: 60};
+  const line = (times, dash) => ({
+    data: {values: ends.map(x => ({x, y: Math.min(ends[1], times * x)}))},
+    mark: {
+      type: "line",
+      strokeWidth: 1,
+      strokeDash: dash,
+      color: "#8d959c",
+      tooltip: null,
+      clip: true,
+    },
+  });
+  return {
+    spec: framed(
+      {
+        height: print ? 420 : 380,
+        encoding: {x: axis("x", "error that the advice estimates"), y: axis("y", "true error")},
+        layer: [
+          line(1, [1, 0]),
+          line(2.5, [4, 3]),
+          {data: {values: given.filter(a => a.known)}, ...points(encoding)},
+          {
+            data: {values: given.filter(a => !a.known)},
+            ...points(encoding, {filled: false, opacity: 0.5}),
+          },
+        ],
+      },
+      {
+        title: `${page.title}: what advice estimates, and the true error`,
+        subtitle:
+          "each point is a string and a tolerance; dashed: 2.5 times the estimate, which the advice " +
+          "keeps within the tolerance; hollow: the reference is not known well enough to judge",
+      },
+      print,
+    ),
+  };
+}
+function finding_of_share() {
+  const count = strings_in().length;
+  if (!count) return "";
+  const {cheapest, decided} = solved_within(0.01),
+    [name, of] = [...cheapest]
+      .filter(([series]) => series !== all_schemes)
+      .reduce((a, b) => (b[1].size > a[1].size ? b : a), ["no scheme", new Map()]);
+  return (
+    `Of ${count} strings ${decided} can be decided within 1\u00a0%: ` +
+    `${scheme_words(name)} solves ${of.size}`
+  );
+}
+function share_section() {
+  if (!strings_in().length) return null;
+  const timed = records("fronts").length > 0,
+    advised = records("advice").some(a => number(a.error) > 0);
+  const within = {
+    label: "within",
+    key: "within_field",
+    choices: [
+      [0, "10, 1 and 0.1 %"],
+      ...[0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].map(t => [t, percent(t)]),
+    ],
+  };
+  const share = {
+      name: "share of strings solved against cost",
+      menus: () => [within],
+      scrolls: true,
+      spec: share_spec,
+      twins: [{file: "share.svg", choice: {within_field: 0}}],
+    },
+    advice = {
+      name: "estimated against true error of each advice",
+      menus: () => [],
+      spec: advice_spec,
+      twins: [{file: "advice.svg", choice: {}}],
+    };
+  return {
+    id: "share",
+    heading: "Share of strings solved",
+    notes: [
+      "A string counts as solved where the error, the uncertainty of the reference added, is within " +
+        "the tolerance. Costs are processor time of one thread.",
+    ],
+    charts: [...(timed ? [share] : []), ...(advised ? [advice] : [])],
+    table: without(table("strings"), ["problem", "series"]),
+  };
+}
