@@ -70,14 +70,9 @@ function share_panel(within, names, domain, first, width) {
     encoding: {x, y},
     layer: [
       {
-        data: {values: [{low: decided / count, high: 1}]},
+        data: {values: [{x: domain[0], to: domain[1], y: decided / count, high: 1}]},
         mark: {type: "rect", color: "#8d959c", opacity: 0.35, tooltip: null},
-        encoding: {
-          x: {datum: domain[0], type: "quantitative"},
-          x2: {datum: domain[1]},
-          y: {field: "low", type: "quantitative"},
-          y2: {field: "high"},
-        },
+        encoding: {x2: {field: "to"}, y2: {field: "high"}},
       },
       line(
         steps.filter(s => s.series === all_schemes),
@@ -91,9 +86,9 @@ function share_panel(within, names, domain, first, width) {
       ),
       once({
         type: "text",
-        x: {expr: "width - 4"},
+        x: 6,
         y: 12,
-        align: "right",
+        align: "left",
         fontSize: 10,
         text: `${count - decided} undecided`,
       }),
@@ -101,7 +96,7 @@ function share_panel(within, names, domain, first, width) {
     ],
   };
 }
-const shares = [0.1, 0.01, 0.001];
+const share_tolerances = [0.1, 0.01, 0.001];
 function share_spec(choice, print) {
   const costs = records("fronts").map(f => number(f.cost_s_per_s)),
     domain = [0.8 * Math.min(...costs), 1.2 * Math.max(...costs)],
@@ -113,7 +108,9 @@ function share_spec(choice, print) {
     : {
         width: undefined,
         spacing: 20,
-        hconcat: shares.map((within, k) => share_panel(within, names, domain, k === 0, width)),
+        hconcat: share_tolerances.map((within, k) =>
+          share_panel(within, names, domain, k === 0, width),
+        ),
       };
   return {
     legend: names,
@@ -134,7 +131,7 @@ function share_spec(choice, print) {
 
 // ---- The estimate of an advice against its true error
 function advice_spec(choice, print) {
-  const names = shares.map(within_text),
+  const names = share_tolerances.map(within_text),
     given = records("advice")
       .filter(a => a.outcome !== "none" && number(a.estimate) > 0 && number(a.error) > 0)
       .map(a => ({
@@ -162,7 +159,7 @@ function advice_spec(choice, print) {
   for (const channel of Object.values(encoding))
     channel.legend = {title: null, orient: "top-left", symbolSize: 60};
   const line = (times, dash) => ({
-    data: {values: ends.map(x => ({x, y: Math.min(ends[1], times * x)}))},
+    data: {values: [ends[0], ends[1] / times].map(x => ({x, y: times * x}))},
     mark: {
       type: "line",
       strokeWidth: 1,
