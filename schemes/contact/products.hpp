@@ -1,5 +1,5 @@
 // Products of small matrices stored by columns: vectors of rows, where compilers would take scalars
-// for fear that arrays overlap. The order of a row's sum does not depend on what the compiler knows.
+// for fear that arrays overlap. The order of a row's sum is the same whatever the compiler knows.
 #pragma once
 
 namespace jvari {

@@ -19,6 +19,7 @@ const files = [
   "maps",
   "sound_charts",
   "run",
+  "share",
   "verdict",
 ].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
 const css = readFileSync(join(sources, "page.css"), "utf8");
