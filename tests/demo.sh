@@ -18,6 +18,8 @@ spent=$(awk 'NR == 2 { gsub(/[ms]/, " "); print $1 * 60 + $2 + $3 * 60 + $4 }' "
     complain "says $(wc -l <"$folder.said") lines, expected 33 at most"
 [ "$(grep -c '^the cheapest scheme on' "$folder.said")" = 4 ] ||
     complain "says no verdict on four strings"
+[ "$(grep -c '^advice on .*; .*the advice h' "$folder.said")" = 4 ] ||
+    complain "does not say of four strings whether the advice holds"
 [ "$(grep -c ' within ' "$folder.said")" -ge 16 ] || complain "says too few accuracies"
 [ -f "$folder/report.html" ] || complain "there is no report"
 echo "processor time of the demo: $spent s"

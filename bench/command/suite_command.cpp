@@ -135,7 +135,8 @@ int suite_command(const SuiteRequest& r) {
     const suite::Suite suite = suite::read_suite(r.suite);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    study::Plan plan = suite::plan_of(suite, catalogue, r.plugins);
+    const std::vector<suite::Advised> advised = suite::advice_of(suite, catalogue, console);
+    study::Plan plan = suite::plan_of(suite, catalogue, r.plugins, advised);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
     const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan), console);
@@ -161,6 +162,7 @@ int suite_command(const SuiteRequest& r) {
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.empty()) console.print(compare::cheapest_text(cheapest, cells));
+    if (!advised.empty()) console.print(suite::verdicts_on(advised, cells));
     for (const std::string& warning : compare::warnings_of(cells))
         console.print("warning: " + warning);
     if (!r.out.empty()) console.print("written: " + folder.string());

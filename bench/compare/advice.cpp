@@ -319,6 +319,14 @@ std::string text_of(const Advice& a) {
         a.margin, t.text(t.most));
 }
 
+std::string short_text(const Advice& a) {
+    const Target& t = a.target;
+    if (!a.scheme) return "nothing for " + t.text(t.most);
+    return fmt::format("{} for {} of {}, estimated {}", settings_text(*a.scheme, a.settings),
+                       t.text(t.most), study::is_waveform(t.measure) ? "the waveform" : t.title,
+                       t.text(a.counted));
+}
+
 nlohmann::ordered_json json_of(const Advice& a) {
     nlohmann::ordered_json j{{"within", a.within},         {"tolerance", a.target.most},
                              {"measure", a.target.name},   {"tap", a.tap},

@@ -57,6 +57,8 @@ std::vector<Advice> advise(const Scene&, const AdviceRequest&, const Catalogue&,
                            const store::Listener&);
 // "modal_two_point compliance=matched, 80 modes, 88200 Hz: ..." and why, one line
 std::string text_of(const Advice&);
+// settings and estimate alone
+std::string short_text(const Advice&);
 nlohmann::ordered_json json_of(const Advice&);
 
 }  // namespace jvari::bench::compare

@@ -29,24 +29,6 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {
     return text;
 }
 
-// Of the scheme that is advised unasked, or of the first of those that are compared whose error two
-// runs tell.
-std::optional<Advice> advice_on(const Scene& scene, const CompareRequest& r,
-                                const Catalogue& catalogue, const store::Listener& listener) {
-    if (!r.search || !r.modes.empty()) return std::nullopt;
-    const double window = study::headline_window(scene);
-    AdviceRequest asked;
-    asked.measure = std::isinf(window) ? "l2_whole" : window >= 50e-3 ? "l2_50ms" : "l2_10ms";
-    asked.tap_rate = r.tap_rate;
-    for (const std::string& scheme : r.schemes.empty() ? std::vector<std::string>{""} : r.schemes) {
-        asked.scheme = scheme;
-        try {
-            return advise(scene, asked, catalogue, listener).back();
-        } catch (const Refusal&) {}
-    }
-    return std::nullopt;
-}
-
 // What of a comparison is known before a cell runs; messages of its reference.
 void describe(Comparison& c, const CompareRequest& request, const study::References::Of& known,
               const store::Listener& listener) {
@@ -145,6 +127,21 @@ void run(Comparison& c, study::References& references, std::vector<study::Record
 }
 }  // namespace
 
+std::optional<Advice> advice_on(const Scene& scene, const CompareRequest& r,
+                                const Catalogue& catalogue, const store::Listener& listener) {
+    const double window = study::headline_window(scene);
+    AdviceRequest asked;
+    asked.measure = std::isinf(window) ? "l2_whole" : window >= 50e-3 ? "l2_50ms" : "l2_10ms";
+    asked.tap_rate = r.tap_rate;
+    for (const std::string& scheme : r.schemes.empty() ? std::vector<std::string>{""} : r.schemes) {
+        asked.scheme = scheme;
+        try {
+            return advise(scene, asked, catalogue, listener).back();
+        } catch (const Refusal&) {}
+    }
+    return std::nullopt;
+}
+
 Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
                    const store::Listener& listener) {
     study::Kept nowhere;
@@ -166,7 +163,8 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
     like.repeats = request.repeats;
     like.measure = measure;
     CompareRequest sought = request;
-    c.advice = advice_on(common.scene, request, catalogue, listener);
+    if (request.search && request.modes.empty())
+        c.advice = advice_on(common.scene, request, catalogue, listener);
     if (c.advice) listener.note("advice before any reference: " + text_of(*c.advice));
     if (c.advice && c.advice->scheme) sought.near = c.advice->settings;
     add_jobs(c.plan, sought, catalogue, common, like);

@@ -38,6 +38,12 @@ Comparison compare(const CompareRequest&, const Catalogue&, const store::Listene
 Comparison compare(const CompareRequest&, const Catalogue&, const store::Listener&, study::Kept&,
                    const std::function<void(const study::Ran&, study::Record&)>& measure = {});
 
+// What two runs advise for 1 % over the headline's window, else for 3 dB: of the scheme that is
+// advised unasked, or of the first of those asked for whose error two runs tell; nothing where
+// there is none.
+std::optional<Advice> advice_on(const Scene&, const CompareRequest&, const Catalogue&,
+                                const store::Listener&);
+
 // ---- Which of the cells that were sought are worth a whole run and a clock.
 //
 // All run over the headline's window first. A cell is left out where another that surely costs less

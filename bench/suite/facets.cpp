@@ -64,6 +64,7 @@ std::span<const Facet> facets() {
         {measured::cost, "by the clock; with errors alone: no speed without an error"},
         {measured::spectrogram, "of the tap"},
         {measured::sound, "of cell and reference, to be heard"},
+        {measured::advice, "what two runs advise for 1 %, as a cell, and whether it holds"},
         {measured::share, "of the strings of a population that are solved, and advice on each"},
     };
     return all;

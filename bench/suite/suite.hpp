@@ -9,9 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/compare/advice.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/store/keys.hpp"
 #include "bench/store/records.hpp"
+#include "bench/study/cells.hpp"
 #include "bench/study/job.hpp"
 #include "scenes/scene.hpp"
 
@@ -19,7 +21,7 @@ namespace jvari::bench::suite {
 
 namespace measured {  // facets that more than their own file knows
 inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram",
-                            *sound = "sound", *share = "share";
+                            *sound = "sound", *share = "share", *advice = "advice";
 }
 
 struct SweptKey {
@@ -144,8 +146,17 @@ std::vector<SuitePoint> points_of(const Suite&);
 // The suite spread out to its jobs: each a scheme at its settings on one scene.
 // `plugins` are files whose contents count as part of the program. The suite must outlive the plan.
 // Throws UsageError, SceneFileError, BadScene, Refusal.
+// `advised`: whose settings are cells as well.
+struct Advised {  // on a scene of a set that measures it
+    const CellSet* set;
+    std::string asked, scene;  // as the set has it; its name
+    compare::Advice advice;
+};
 study::Plan plan_of(const Suite&, const compare::Catalogue&,
-                    const std::vector<std::string>& plugins);
+                    const std::vector<std::string>& plugins, std::span<const Advised> = {});
+std::vector<Advised> advice_of(const Suite&, const compare::Catalogue&, const store::Listener&);
+// Of each scene what was advised, and whether it held; a line each.
+std::string verdicts_on(std::span<const Advised>, const study::Cells&);
 
 // ---- What a suite can measure of a cell: errors and cost as compare has them, a spectrogram, and
 // its sound.

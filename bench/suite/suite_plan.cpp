@@ -1,9 +1,12 @@
 #include "bench/suite/suite.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/compare_plan.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
 #include "scenes/modes.hpp"
@@ -96,8 +99,34 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
     return points;
 }
 
+std::vector<Advised> advice_of(const Suite& suite, const compare::Catalogue& catalogue,
+                               const store::Listener& listener) {
+    std::vector<Advised> all;
+    for (const SuitePoint& p : points_of(suite)) {
+        const bool known = std::ranges::any_of(
+            all, [&p](const Advised& a) { return a.set == p.set && a.asked == p.request.scene; });
+        if (known || !p.set->measures(measured::advice)) continue;
+        const Scene scene = compare::load_scene(p.request);
+        if (auto a = compare::advice_on(scene, p.request, catalogue, listener))
+            all.push_back({p.set, p.request.scene, scene.name, *std::move(a)});
+    }
+    return all;
+}
+
+std::string verdicts_on(std::span<const Advised> advised, const study::Cells& cells) {
+    std::string text;
+    for (const Advised& a : advised) {
+        study::Cells own;
+        for (const study::TabledCell& c : cells)
+            if (c.scene == a.scene) own.push_back(c);
+        text += fmt::format("{}advice on {}: {}; {}", text.empty() ? "" : "\n", a.scene,
+                            compare::short_text(a.advice), compare::verdict_on(a.advice, own).text);
+    }
+    return text;
+}
+
 study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
-                    const std::vector<std::string>& plugins) {
+                    const std::vector<std::string>& plugins, std::span<const Advised> advised) {
     study::Plan all;
     for (const SuitePoint& point : points_of(suite)) {
         const CellSet& set = *point.set;
@@ -122,6 +151,12 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
             add_facets(like, set, compare::tap_named(common.scene, set.tap));
             if (set.drawn) add_string(all, r, set, catalogue, common, like);
             else compare::add_jobs(all, r, catalogue, common, like);
+            for (const Advised& a : advised) {
+                if (a.set != &set || a.asked != r.scene || !a.advice.scheme) continue;
+                study::Job& job = all.jobs.emplace_back(like);
+                job.point = &all.points.back();
+                job.cell = {a.advice.scheme, a.advice.settings};
+            }
         } catch (const store::UsageError& e) {
             throw store::UsageError(where + e.what());
         } catch (const Refusal& e) { throw Refusal(where + e.what()); }
