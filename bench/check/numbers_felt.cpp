@@ -13,7 +13,8 @@
 // contact that begins within a step errs by an amount that jumps with the instant, so errors of two
 // runs need not cancel. So does the gap that a scheme reports of its contacts' state. A grid nears
 // the whole string, and the reference has some modes. Nodes of a profile add what they leave out
-// (scenes.hpp).
+// (promise.hpp). A scheme that touches a profile at points has them where the reference with as many
+// has them, so nothing is added there.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -31,6 +32,7 @@
 #include "scenes/modes.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/start.hpp"
+#include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 
 namespace jvari::bench::check {
@@ -38,6 +40,7 @@ namespace jvari::bench::check {
 namespace {
 constexpr int rates[] = {3, 5, 8}, coarse = 3, fine = 8;  // times 44.1 kHz
 constexpr int modes_each = 6;                             // times as many
+constexpr const char* points_of_a_profile = "16";
 // of a tap: so much is as good as no error
 constexpr double as_good_as_the_same = 1e-6;
 constexpr Features with_events =
@@ -46,7 +49,10 @@ constexpr Features with_events =
 Settings at(const Descriptor& d, int times) {
     Settings s{times * contract_tap_rate, contract_tap_rate, times * modes_each, {}};
     if (declares(d, "rtol")) s.options.emplace_back("rtol", "1e-9");
-    if (d.clock == Clock::continuous && declares(d, "nodes")) s.options.emplace_back("nodes", "16");
+    if (has_points_for_a_profile(d))
+        s.options.emplace_back(profile_points_option.name, points_of_a_profile);
+    if (d.clock == Clock::continuous && declares(d, "nodes"))
+        s.options.emplace_back("nodes", points_of_a_profile);
     if (declares(d, "cells")) s.options.emplace_back("cells", std::to_string(256 * times));
     return s;
 }
@@ -141,7 +147,10 @@ double own_error(At at) {
 class Felt {  // of one scene by one scheme
 public:
     Felt(const Descriptor& d, Scene scene, const std::filesystem::path& folder)
-        : d_(d), scene_(std::move(scene)), folder_(folder) {
+        : d_(d),
+          by_points_(has_points_for_a_profile(d) ? Features(Feature::profile_barrier) : Features()),
+          scene_(std::move(scene)),
+          folder_(folder) {
         before_ = levels(scene_);
         if (before_.empty() || !truth_for(d_, scene_)) before_.clear();
         else truth_ = levels_of_truth(scene_);
@@ -176,7 +185,7 @@ private:
         try {
             validate(s);
         } catch (const BadScene&) { return {}; }  // a number that another one bounds
-        if (!is_as_the_scene_says(d_, s)) return {};
+        if (!represents(d_, s) || (needed_by(s) - by_points_).any(approximated(d_))) return {};
         Levels all;
         for (const int times : rates) {
             if (times != fine && d_.clock != Clock::stepped) {
@@ -220,7 +229,8 @@ private:
             if (!itself && d_.clock == Clock::stepped && needed_by(other).any(with_events))
                 for (const Levels* l : {&is, &before_})
                     allowed += own_error([&](int i) { return (*l)[i].trace.column(k); });
-            if (needed_by(other).any(any_profile)) allowed += what_nodes_leave_out * all;
+            if ((needed_by(other) - by_points_).any(any_profile))
+                allowed += what_nodes_leave_out * all;
             // its contacts err by so much, it says
             for (const Levels* l : {&is, itself ? nullptr : &before_})
                 if (const double gap = l ? fact_of((*l)[2].facts, facts::psi_gap) : 0; gap > 0)
@@ -239,6 +249,7 @@ private:
     }
 
     const Descriptor& d_;
+    const Features by_points_;
     Scene scene_;
     const std::filesystem::path& folder_;  // for its tables
     std::vector<const Trace*> truth_;

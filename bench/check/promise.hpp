@@ -109,6 +109,8 @@ Verdict stays_sound_over_a_map(const Case&);
 Settings settings_for(const Descriptor&, const Scene&);
 // it represents it, and approximates nothing of it
 bool is_as_the_scene_says(const Descriptor&, const Scene&);
+// it touches a profile at as many points as its option `points` says, where a reference has `nodes`
+bool has_points_for_a_profile(const Descriptor&);
 // a program by files: of it only rows are known, and it refuses when it runs
 bool is_called(const Descriptor&);
 constexpr const char* in_a_process = "it runs in a process of its own, and gives rows alone";
@@ -147,7 +149,7 @@ std::vector<Scene> scenes_with(Feature);
 // the taps.
 const std::vector<Scene>& scenes_of_numbers();
 
-// As far as a scheme represents it without an approximation.
+// As far as a scheme represents it without an approximation but the points of a profile.
 Scene as_far_as(const Descriptor&, Scene);
 
 // With its tables as files of that folder, the last ones written over: a plugin reads the scene

@@ -7,11 +7,23 @@
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
 #include "scenes/schema.hpp"
+#include "schemes/contact/compliance.hpp"
 
 namespace jvari::bench::check {
 
+bool has_points_for_a_profile(const Descriptor& d) {
+    const auto by_points = [](const Approximation& a) {
+        return a.feature != Feature::profile_barrier ||
+               a.fact.name == std::string(facts::contact_points.name);
+    };
+    return declares(d, profile_points_option.name) &&
+           approximated(d).has(Feature::profile_barrier) &&
+           std::ranges::all_of(d.approximates, by_points);
+}
+
 Scene as_far_as(const Descriptor& d, Scene scene) {
-    const Features f = d.represents - approximated(d);
+    Features f = d.represents - approximated(d);
+    if (has_points_for_a_profile(d)) f = f | Feature::profile_barrier;
     for (String& s : scene.strings) {
         if (!f.has(Feature::bending_stiffness)) s.bending_stiffness = 0;
         if (!f.has(Feature::tension_modulation)) s.axial_stiffness = 0;

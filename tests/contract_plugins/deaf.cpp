@@ -30,6 +30,14 @@ void second(Scene& scene, auto change) {
         if (s.barriers.size() > 1) change(std::get<LumpedBarrier>(s.barriers[1]));
     });
 }
+template <class Kind>
+void curves(Scene& scene, auto change) {
+    strings(scene, [&](String& s) {
+        for (Barrier& b : s.barriers)
+            if (auto* profile = std::get_if<ProfileBarrier>(&b))
+                if (auto* curve = std::get_if<Kind>(&profile->curve)) change(*profile, *curve);
+    });
+}
 template <class Law>
 void laws(Scene& scene, auto change) {
     strings(scene, [&](String& s) {
@@ -151,6 +159,12 @@ constexpr Deaf table_of[] = {
              if (x.masses.size() > 1) x.masses[1].velocity = 0;
          });
      }},
+    {"parabola_of_a_profile_up",
+     [](Scene& s) { curves<ParabolaCurve>(s, [](auto&, auto& c) { c.coefficient *= 1.05; }); }},
+    {"line_of_a_profile_up",
+     [](Scene& s) { curves<LineCurve>(s, [](auto&, auto& c) { c.coefficient *= 1.05; }); }},
+    {"density_of_a_profile_up",
+     [](Scene& s) { curves<ParabolaCurve>(s, [](auto& b, auto&) { b.stiffness.K *= 1.2; }); }},
     {"nut_up_in_contact", [](Scene&) {}, "modal_two_point", 1.01},
 };
 
