@@ -6,14 +6,14 @@
 // Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the
 // thread's force is the average of the outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ -
 // u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al. 2016, eqs
-// 45-48. Leaves out: contacts coupled to each other (spatial_ports.cpp refuses them), two
-// polarisations. On a body that moves (schemes/body) the points of all strings are solved for
-// together, coupled as they may be, and its acceleration is one more force.
+// 45-48; contacts that are no nodes, or have a thread beside them, are coupled and solved for
+// together. Leaves out two polarisations. On a body that moves (schemes/body) the points of all
+// strings are solved for together, and its acceleration is one more force.
 //
 // Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from
 // the string's compliance stands in series with contacts and thread (contact/compliance.hpp,
-// contact/obstacle.hpp), which may then be coupled; profiles are touched at points of their own
-// (option `points`), and contact loss is left out. Refused where the scheme is too soft already.
+// contact/obstacle.hpp); profiles are touched at points of their own (option `points`), and contact
+// loss is left out. Refused where the scheme is too soft already.
 //
 // The string is that of modal/three_point_modes.hpp, its points the nodes. Rows, energy and start
 // are those of driver.hpp.
@@ -41,7 +41,7 @@ ThreePointProblem spatial_problem(const Descriptor& descriptor, const Scene& sce
     if (intervals < 2) throw Refusal("modal_spatial_newton needs one mode at least");
     p.modes = modes_of(p.string(), intervals - 1);
     p.points = points_of(p.scene, p.dt);
-    place_contacts(p, matched || p.on_body);
+    place_contacts(p);
     complete(p, descriptor, settings);
     p.facts.insert(p.facts.begin(),
                    {{facts::interior_nodes, double(p.update.modes())},
@@ -76,9 +76,6 @@ extern const Descriptor modal_spatial_newton = {
     .clock = Clock::stepped,
     .make = make<GradientRule>,
     .options = matched_options,
-    .note =
-        "But on a moving body several contact points only where each is a node of the grid, and a "
-        "thread only with one contact point.",
     .stand_in_rank = 3};
 
 const StringRow modal_spatial_newton_row = {&modal_spatial_newton, {JVARI_RULES(JVARI_MAKER)}};

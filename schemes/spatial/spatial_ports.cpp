@@ -61,7 +61,7 @@ int intervals_for(const String& s, const Settings& settings) {
     return intervals;
 }
 
-void place_contacts(ThreePointProblem& p, bool coupled_may_be) {
+void place_contacts(ThreePointProblem& p) {
     const int intervals = p.update.intervals;
     const std::string scene = " of scene " + p.scene.name;
     std::vector<Place> places = add_contacts(p.points, p.string(), intervals);
@@ -84,16 +84,6 @@ void place_contacts(ThreePointProblem& p, bool coupled_may_be) {
             {place.node != 0 ? node_weights(intervals, place.node)
                              : footprint_weights(p.modes, place.at.position, place.at.width),
              place.node});
-    if (places.size() <= 1 || coupled_may_be) return;
-    if (nodes.size() < places.size())
-        throw Refusal(
-            "modal_spatial_newton solves several contacts only where each is a node of the grid; a "
-            "barrier" +
-            scene + " with a footprint or between nodes is coupled to another contact");
-    if (p.string().thread)
-        throw Refusal("modal_spatial_newton couples a thread to one contact point; the string" +
-                      scene + " has " + std::to_string(places.size()) + " with " +
-                      std::to_string(intervals - 1) + " nodes");
 }
 
 }  // namespace jvari

@@ -12,9 +12,9 @@ namespace jvari {
 // and a profile barrier has 8 nodes.
 int intervals_for(const String&, const Settings&);
 
-// The contacts of p.string() as points and ports. Throws Refusal where they are coupled and may not
-// be: nodes are not (their weights are orthogonal), all else is.
-void place_contacts(ThreePointProblem& p, bool coupled_may_be);
+// The contacts of p.string() as points and ports. Nodes are not coupled to each other (their weights
+// are orthogonal), all else is. Throws Refusal of two contacts on one node.
+void place_contacts(ThreePointProblem& p);
 
 std::vector<double> node_weights(int intervals, int node);  // sin(j pi node/N), j = 1 .. N-1
 

@@ -56,6 +56,31 @@ TEST(ModalSpatialNewton, OverdampedModesAreExactInTheDenseForm) {
             << k;
 }
 
+// Footprints and a thread are no nodes: each force moves every reading.
+TEST(ModalSpatialNewton, SolvesForContactsBetweenNodesAndAThreadTogether) {
+    Scene scene = lasting(c3_release(), 0.01);
+    barrier(scene).stiffness.k = 1e6;
+    scene.strings[0].barriers.push_back(LumpedBarrier{14e-3, 3e-3, -2e-6, {1e6}, 1, 0});
+    scene.strings[0].thread->stiffness = 1e4;
+    const auto truth = play("exact_contact", scene, {0, 44100, 40, {}});
+    const auto at = [&](double rate) {
+        RunOptions options;
+        options.energy = true;
+        return run(named(newton), scene, {rate, 44100, 40, {}}, options);
+    };
+    const auto coarse = at(8 * 44100), fine = at(64 * 44100);
+    for (std::size_t k = 0; k < scene.taps.size(); ++k)
+        EXPECT_LT(apart(fine, truth, k), std::max(1e-6, 0.1 * apart(coarse, truth, k)))
+            << scene.taps[k].name;
+    const auto stored = coarse.trace.energy_column(0), supplied = coarse.trace.energy_column(1),
+               dissipated = coarse.trace.energy_column(2);
+    double held = stored[0];
+    for (long n = 1; n < coarse.trace.rows; ++n) {
+        held += supplied[n] - dissipated[n];
+        EXPECT_NEAR(stored[n], held, 1e-10 * stored[0]) << n;
+    }
+}
+
 TEST(ModalSpatialNewton, AModeAboveNyquistAliases) {
     Scene scene = lasting(lossless(c3_free()), 0.1);
     scene.strings[0].bending_stiffness = 0;

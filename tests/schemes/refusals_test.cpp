@@ -27,7 +27,7 @@ Scene with_string(Scene scene, void (*change)(String&)) {
 std::vector<Refused> refused() {
     const Scene c3 = c3_release(), free = c3_free(), bridge_scene = read_scene("two_point_bridge"),
                 parabola = read_scene("sitar_parabola"), sitar = sitar_scene();
-    const Barrier point = bridge_scene.strings[0].barriers[0], of_c3 = c3.strings[0].barriers[0];
+    const Barrier point = bridge_scene.strings[0].barriers[0];
     LumpedBarrier second = std::get<LumpedBarrier>(point);
     second.position = 14e-3;
     const Scene two_bridges = with_barriers(bridge_scene, {point, second});
@@ -58,13 +58,6 @@ std::vector<Refused> refused() {
         // at 44.1 kHz all 133 modes yield by 1.045 of what they should
         {"modal_quadratised levels=3" + matched, c3, usual, "yields more than the true one"},
         {"modal_three_point" + matched, c3, usual, "yields more than the true one"},
-        {newton, with_barriers(c3, {of_c3, of_c3}), usual, "coupled"},
-        {newton,
-         with_string(parabola,
-                     [](String& s) {
-                         s.thread = Thread{5e-3, 1e-3, 1e5, 1, 0};
-                     }),
-         at(44100, 1001), "thread to one contact point"},
         {newton, parabola, at(44100, 20), "no node"},
         {newton, with_barriers(bridge_scene, {point, point}), at(44100, 1001), "node 6"},
         {newton + " gird=5", c3, usual, "unknown option"},
