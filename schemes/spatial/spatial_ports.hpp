@@ -12,8 +12,8 @@ namespace jvari {
 // and a profile barrier has 8 nodes.
 int intervals_for(const String&, const Settings&);
 
-// The contacts of p.string() as points and ports. Nodes are not coupled to each other (their weights
-// are orthogonal), all else is. Throws Refusal of two contacts on one node.
+// The contacts of p.string() as points and ports. Nodes are not coupled to each other, since their
+// weights are orthogonal; all else is. Throws Refusal of two contacts on one node.
 void place_contacts(ThreePointProblem& p);
 
 std::vector<double> node_weights(int intervals, int node);  // sin(j pi node/N), j = 1 .. N-1

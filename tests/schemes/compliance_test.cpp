@@ -401,9 +401,9 @@ TEST(Compliance, WhatIsMostlyTheStepsIsRefusedAtWideFootprints) {
     }
 }
 
-// A barrier of 3 mm under a string of 60 Hz. Up to 200 modes matched errs less than own, by up to 50
-// times. From 240 modes at 176.4 kHz on it errs by up to 3.6 times as much, at 705.6 kHz from 450
-// on by up to 2.9 times, also with the last mode below half the rate.
+// A barrier of 3 mm under a string of 60 Hz. Up to 200 modes matched errs less than own, by up to
+// 50 times. From 240 modes at 176.4 kHz on it errs by up to 3.6 times as much, at 705.6 kHz from
+// 450 on by up to 2.9 times, also with the last mode below half the rate.
 TEST(Compliance, WhatIsRefusedForANumberOfModesIsRefusedForMore) {
     Scene scene = c3_release();
     String& s = scene.strings.front();
