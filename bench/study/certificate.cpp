@@ -138,8 +138,8 @@ Certificate certificate_plan(const Scene& scene, const CertifySettings& settings
 }
 
 Certificate certify(const Scene& scene, Certificate c, const store::Listener& listener,
-                    const std::filesystem::path& runs) {
-    const TimeLimit limit = first_run(HUGE_VAL);  // of each run
+                    const std::filesystem::path& runs, double seconds) {
+    const TimeLimit limit = first_run(seconds);  // of each run
     const std::size_t count = c.entries.size();
     std::vector<std::optional<Trace>> traces(count);
     const auto work = [&](std::size_t i, store::Done& done) {

@@ -14,6 +14,7 @@
 // twice the modes it has it too, for it is nearer to the scene with the same modes.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -81,9 +82,10 @@ struct CertifySettings {
 Certificate certificate_plan(const Scene&, const CertifySettings& = {});
 
 // Runs it, one reference after the other, for their costs are measured. Runs are kept in that
-// folder and come from there (kept_run.hpp); "": nowhere. Throws as the plan does.
+// folder and come from there (kept_run.hpp); "": nowhere. A run that takes longer than `seconds` of
+// processor, or than ten minutes, is an entry that says so. Throws as the plan does.
 Certificate certify(const Scene&, Certificate plan, const store::Listener& = {},
-                    const std::filesystem::path& runs = {});
+                    const std::filesystem::path& runs = {}, double seconds = HUGE_VAL);
 
 // ---- As files. <scene>.json has what repeats to the last digit on one program and one type of
 // machine; <scene>.cost.json beside it what a clock measured, with date, commit and machine:

@@ -130,6 +130,18 @@ TEST(Certificate, SaysWhatTwiceTheModesAndTwiceThePointsChange) {
     EXPECT_GT(p.pairs.back().taps[0].relative_l2.back(), 0);
 }
 
+TEST(Certificate, EndsARunAtItsTimeLimitAndSaysSo) {
+    const Scene scene = short_scene("tanpura_c3_release", 0.01);
+    const auto reason = [&scene](double seconds) -> std::string {
+        try {
+            certify(scene, certificate_plan(scene, {20, 44100}), {}, {}, seconds);
+        } catch (const Refusal& refusal) { return refusal.what(); }
+        return "";
+    };
+    EXPECT_EQ(reason(HUGE_VAL), "");
+    EXPECT_TRUE(says(reason(1e-9), "it takes longer than 1e-09 s"));
+}
+
 TEST(Certificate, OfASceneThatNoReferenceRepresentsIsTheStandInsOwnEstimate) {
     Scene scene = read_scene("sitar_c5_two_planes", {});
     scene.duration = 1e-3;
