@@ -13,8 +13,8 @@
 // contact that begins within a step errs by an amount that jumps with the instant, so errors of two
 // runs need not cancel. So does the gap that a scheme reports of its contacts' state. A grid nears
 // the whole string, and the reference has some modes. Nodes of a profile add what they leave out
-// (promise.hpp). A scheme that touches a profile at points has them where the reference with as many
-// has them, so nothing is added there.
+// (promise.hpp). A scheme that touches a profile at points has them where the reference with as
+// many has them, so nothing is added there.
 #include <fmt/core.h>
 
 #include <algorithm>

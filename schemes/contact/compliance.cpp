@@ -278,9 +278,9 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
 
 // The mass of the ladder stands for modes above the last one kept. Where a footprint is wider than
 // half a wavelength of that mode, the modes beyond hardly move it. If the step then takes far more
-// from the point than they do, mass and spring would swing below the last mode, where no part of the
-// string does. All modes that are cut count as inertia, those above half the sample rate too: so
-// what is refused for a number of modes is refused for more.
+// from the point than they do, mass and spring would swing below the last mode, where no part of
+// the string does. All modes that are cut count as inertia, also those above half the sample rate,
+// so what is refused for a number of modes is refused for more.
 void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut, int kept,
                      std::span<const Footprint> points) {
     const int n = m.points();
