@@ -276,33 +276,24 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
         refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
-// The mass of the ladder stands for modes above the last one kept. Where a footprint is wider than
-// half a wavelength of that mode, the modes beyond hardly move it. If the step then takes far more
-// from the point than they do, mass and spring would swing below the last mode, where no part of
-// the string does. All modes that are cut count as inertia, also those above half the sample rate,
-// so what is refused for a number of modes is refused for more.
-void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut, int kept,
-                     std::span<const Footprint> points) {
+// The mass of the ladder stands for modes above the last one kept. Where the step takes far more
+// from a point than the cut modes do, mass and spring would swing below it, at a frequency that no
+// part of the string has there.
+void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut,
+                     int kept) {
     const int n = m.points();
     for (int p = 0; p < n && !cut.C.empty(); ++p) {
         const int at = p * n + p;
-        if (!(cut.modes.beta[kept - 1] * points[p].width > pi)) continue;
-        double inertia = 0;  // [m s^2/N]
-        for (int i = cut.modes.count() - 1; i >= kept; --i) {
-            const double square = cut.modes.omega0[i] * cut.modes.omega0[i];
-            inertia += cut.g[p][i] * cut.g[p][i] / (cut.modes.mass * square * square);
-        }
         const double last = cut.modes.omega0[kept - 1],
-                     swings = std::abs(cut.C[at]) / std::sqrt(inertia * m.C[at]);
+                     swings = std::abs(cut.C[at]) / std::sqrt(cut.E[at] * m.C[at]);
         if (swings < last)
             throw Refusal(
-                who + ": the " + (p < m.contacts ? "barrier" : "thread") +
-                " is wider than half a wavelength of the highest mode, and nearly all that the "
-                "string lacks there is due to the step, not to modes that are cut off; what stands "
-                "for those would swing at " +
+                who + ": at the " + (p < m.contacts ? "barrier" : "thread") +
+                " nearly all that the string lacks is due to the step, not to modes that are cut "
+                "off; what stands for those would swing at " +
                 std::to_string(std::lround(swings / (2 * pi))) + " Hz, below the highest mode, " +
                 std::to_string(std::lround(last / (2 * pi))) +
-                " Hz. compliance=own can run, a higher rate or fewer modes may");
+                " Hz. compliance=own can run, another rate or number of modes may");
     }
 }
 
@@ -391,7 +382,7 @@ MissingMatrix missing_matrix(const std::string& who, const String& s, const Site
         if (!step || n == 0) return;
         const double nyquist = *step > 0 ? pi / *step : std::numeric_limits<double>::infinity();
         const CutModes cut = cut_modes(s, std::span(sites.forces).first(n), kept, nyquist);
-        refuse_swinging(who, m, cut, kept, std::span(sites.forces).first(n));
+        refuse_swinging(who, m, cut, kept);
         m.ladder = ladder_of(s, m.C, cut, n, kept, *step);
     };
     if (n <= 1 + (m.thread ? 1 : 0)) {

@@ -178,7 +178,7 @@ void Tally::add(const Tally& t) {
         claims += t.claims;
     estimates += t.estimates, low_estimates += t.low_estimates;
     judged += t.judged;
-    harmed += t.harmed, figures += t.figures, far_worse += t.far_worse;
+    harmed += t.harmed;
     worst_claim = std::max(worst_claim, t.worst_claim);
     worst_estimate = std::max(worst_estimate, t.worst_estimate);
     if (t.slowest > slowest) slowest = t.slowest, slowest_at = t.slowest_at;
@@ -429,9 +429,6 @@ void check_matching(const RandomCase& c, Matching kind, Tally& tally, const Find
             const double uncertain = off[k][whole], unmatched = cells[pair].cell.errors[k][whole],
                          error = cells[pair + 1].cell.errors[k][whole],
                          ratio = (error - uncertain) / (unmatched + uncertain);
-            const double either = std::max(error, unmatched);
-            if (either > harm_matters && uncertain < 0.25 * either)
-                ++tally.figures, tally.far_worse += error > harm_matters && ratio > far_more;
             if (error > harm_matters && ratio > worst)
                 worst = ratio, tap = truth.names[k] + " errs by " + text(error);
         }

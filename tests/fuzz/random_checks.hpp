@@ -39,10 +39,7 @@ struct Tally {
     long estimates = 0;
     long low_estimates = 0;  // how many were below the true error is told, and asserted of none
     double worst_estimate = 0;
-    long harmed = 0;  // runs: matched errs by more than own
-    // figures of taps whose reference is known better than to a quarter of either error, and of
-    // these those where matched errs by more than far_more times what own does
-    long figures = 0, far_worse = 0;
+    long harmed = 0;     // runs: matched errs by more than own
     double slowest = 0;  // CPU seconds of one run
     std::string slowest_at;
     void add(const Tally&);
@@ -64,7 +61,7 @@ void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&,
 // wide footprints own with 4 to 16 times; half of these give its uncertainty. What is refused does
 // no harm.
 // seconds: of CPU, each run of one scene
-constexpr double harm = 1.2, far_more = 1.5, harm_matters = 1e-3, matching_seconds = 10;
+constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;
 void check_matching(const RandomCase&, Matching, Tally&, const Finding&,
                     const std::function<void(const std::string&)>& at);
 

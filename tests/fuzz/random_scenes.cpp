@@ -79,8 +79,8 @@ RandomCase drawn(Asked asked, std::uint64_t seed) {
     std::ostringstream line;
     line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' '
          << t.claims << ' ' << t.judged << ' ' << t.worst_claim << ' ' << t.harmed << ' '
-         << t.figures << ' ' << t.far_worse << ' ' << t.estimates << ' ' << t.low_estimates << ' '
-         << t.worst_estimate << ' ' << t.slowest << ' ' << t.slowest_at;
+         << t.estimates << ' ' << t.low_estimates << ' ' << t.worst_estimate << ' ' << t.slowest
+         << ' ' << t.slowest_at;
     send(pipe, line.str());
     _exit(0);
 }
@@ -115,8 +115,7 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
         t.scenes = 1;
         std::istringstream in(line.substr(1));
         in >> t.runs >> t.ended >> t.refused >> t.failed >> t.claims >> t.judged >> t.worst_claim >>
-            t.harmed >> t.figures >> t.far_worse >> t.estimates >> t.low_estimates >>
-            t.worst_estimate >> t.slowest >> std::ws;
+            t.harmed >> t.estimates >> t.low_estimates >> t.worst_estimate >> t.slowest >> std::ws;
         std::getline(in, t.slowest_at);
         tally.add(t);
     }
@@ -149,10 +148,8 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
     if (asked >= Asked::matched) {
         std::printf(
             "%ld scenes at two rates each, %ld ended by a limit\n%ld runs judged, %ld refused, "
-            "matched does harm in %ld\n%ld figures decided, %ld of them more than 1.5 times as "
-            "large as own\n%ld findings\n",
-            tally.scenes, tally.ended, tally.runs, tally.refused, tally.harmed, tally.figures,
-            tally.far_worse, findings);
+            "matched does harm in %ld\n%ld findings\n",
+            tally.scenes, tally.ended, tally.runs, tally.refused, tally.harmed, findings);
         return findings > 0 || tally.judged == 0;
     }
     std::printf(

@@ -401,32 +401,5 @@ TEST(Compliance, WhatIsMostlyTheStepsIsRefusedAtWideFootprints) {
     }
 }
 
-// A barrier of 3 mm under a string of 60 Hz. Up to 200 modes matched errs less than own, by up to
-// 50 times. From 240 modes at 176.4 kHz on it errs by up to 3.6 times as much, at 705.6 kHz from
-// 450 on by up to 2.9 times, also with the last mode below half the rate.
-TEST(Compliance, WhatIsRefusedForANumberOfModesIsRefusedForMore) {
-    Scene scene = c3_release();
-    String& s = scene.strings.front();
-    s.length = 0.65, s.linear_density = 2e-3, s.tension = 12.2, s.bending_stiffness = 4.8e-5;
-    s.thread.reset();
-    barrier(scene) = {9.27e-3, 2.87e-3, -1e-5, {7.6e6}, 1.3, 0};
-    const auto refused = [&](int times, int modes) {
-        return !refusal("modal_two_point compliance=matched", scene,
-                        {times * 44100.0, 44100, modes, {}})
-                    .empty();
-    };
-    for (const int times : {1, 4, 16}) {
-        const int all = modes_below(s, 0.499 * times * 44100);
-        bool before = false;
-        for (int modes = 10; modes < all; modes += 1 + modes / 40) {
-            const bool now = refused(times, modes);
-            EXPECT_TRUE(now || !before) << times << " " << modes;
-            before = now;
-        }
-        EXPECT_EQ(before, times > 1) << times;
-        EXPECT_EQ(refused(times, all), times > 1) << times;
-    }
-}
-
 }  // namespace
 }  // namespace jvari
