@@ -57,7 +57,7 @@ TEST(Population, TheSameSeedGivesTheSameScenesToTheByteAndAnotherDoesNot) {
     // any other machine too: the record's strings are those that its suite draws
     const fs::path root = JVARI_SOURCE;
     const Suite suite = bench::suite::read_suite((root / "bench/suites/population.toml").string());
-    ASSERT_GE(suite.sets.size(), 300u);
+    ASSERT_GE(suite.sets.size(), 80u);
     for (const auto& set : suite.sets)
         EXPECT_EQ(write_scene(*set.drawn),
                   content(root / "results/population/scenes" / (set.drawn->name + ".toml")));
@@ -140,7 +140,7 @@ TEST(Population, EachStringIsCountedOnceForEachVariantAndRunsAgainToTheLastDigit
 TEST(Population, ThreeStringsOfTheRecordAreWhatTheyWereWhenItWasMade) {
     const fs::path root = JVARI_SOURCE;
     Suite suite = bench::suite::read_suite((root / "bench/suites/population.toml").string());
-    const std::set<std::string> three{"RERUN1", "RERUN2", "RERUN3"};
+    const std::set<std::string> three{"soft-004", "soft-002", "tanpura_c3"};
     std::erase_if(suite.sets, [&](const auto& set) { return !three.contains(set.drawn->name); });
     for (auto& set : suite.sets) std::erase(set.measure, "cost");
     const auto now = tables_of(suite);

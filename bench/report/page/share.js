@@ -31,6 +31,7 @@ function share_panel(within, names, domain, first, width) {
           series,
           x,
           y: k / count,
+          last: k === costs.length && x < domain[1],
           tooltip: tooltip([
             ["scheme", series],
             ["cost", cost_text(x, "cost_s_per_s")],
@@ -41,7 +42,7 @@ function share_panel(within, names, domain, first, width) {
         ? [row(costs[0], 0), ...costs.map((x, k) => row(x, k + 1)), row(domain[1], costs.length)]
         : [];
     });
-  const {color} = encodings_of(names),
+  const {color, shape} = encodings_of(names),
     x = quantity(
       "x",
       {
@@ -84,6 +85,10 @@ function share_panel(within, names, domain, first, width) {
         {strokeWidth: 1.8},
         {color, opacity: brought_out},
       ),
+      {
+        data: {values: steps.filter(s => s.last && s.series !== all_schemes)},
+        ...points({color, shape, opacity: brought_out}, {size: 40}),
+      },
       once({
         type: "text",
         x: 6,
