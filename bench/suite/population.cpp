@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "analysis/sobol.hpp"
 #include "bench/store/fresh_file.hpp"
@@ -27,7 +28,8 @@ namespace fs = std::filesystem;
 using store::key;
 using store::needed;
 
-constexpr double heard = 20e3;  // [Hz]
+constexpr double heard = 20e3;      // [Hz]
+constexpr int most_strings = 2000;  // of a ground
 
 DrawnKey drawn_key(const std::string& name, const store::Entry& e) {
     const std::string expected =
@@ -68,6 +70,8 @@ std::uint64_t seed_of(int seed, const std::string& name) {
 // Heard at the end that the headline errors are of, and as long as the population asks.
 CellSet set_of(const Population& p, Scene scene) {
     CellSet set = p;
+    if (scene.taps.empty())
+        throw store::UsageError(scene.name + ": found no tap, expected one to judge by");
     scene.taps = {scene.taps.at(static_cast<std::size_t>(study::headline_of(scene).nut))};
     double lowest = HUGE_VAL;
     int below = 0;
@@ -77,7 +81,8 @@ CellSet set_of(const Population& p, Scene scene) {
     }
     scene.duration = free_from(scene) + p.periods / lowest;
     for (const double multiple : p.multiples)
-        set.modes.push_back(std::max(1, static_cast<int>(std::lround(multiple * below))));
+        set.modes.push_back(
+            static_cast<int>(std::lround(std::clamp(multiple * below, 1.0, 1.0 * most_modes))));
     set.scenes = {scene.name};
     set.measure = p.measure;
     set.search = false;
@@ -89,7 +94,7 @@ CellSet set_of(const Population& p, Scene scene) {
 std::vector<store::Key<Ground>> ground_keys() {
     return {needed("name", &Ground::name, store::name_of_file(), "what its strings are called"),
             needed("scene", &Ground::scene, store::text(), "the scene whose keys are drawn"),
-            needed("number", &Ground::number, store::count(), "of strings"),
+            needed("number", &Ground::number, store::whole(1, most_strings), "of strings"),
             key("draw", &Ground::draw,
                 store::by_name<DrawnKey>("a table: key = { from, to, log } or values", drawn_key),
                 "keys of the scene, each with a range or with values to choose from", "none")};
@@ -120,6 +125,10 @@ std::vector<CellSet> sets_of(const Population& p, const std::vector<Ground>& gro
         }
     }
     for (const std::string& scene : p.scenes) sets.push_back(set_of(p, read_scene(scene)));
+    std::set<std::string> names;
+    for (const CellSet& set : sets)
+        if (!names.insert(set.drawn->name).second)
+            throw store::UsageError(set.drawn->name + ": found two strings of this name");
     return sets;
 }
 

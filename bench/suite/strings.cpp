@@ -142,9 +142,7 @@ double amplification(const Scene& scene, const study::Truth& truth) {
     try {
         const study::Errors e = study::errors_of(nut(moved), nut(scene), {whole}, free_from(scene));
         return e.at(0)[whole] / nudge;
-    } catch (const Refusal&) { return nan; } catch (const store::PastItsLimit&) {
-        return nan;
-    }
+    } catch (const std::exception&) { return nan; }  // refused, or it takes too long
 }
 
 // Of the advised settings, over the window of the advice.
@@ -171,7 +169,7 @@ Json advice_on(const Scene& scene, double within, const study::Truth* truth,
         j = compare::json_of(a);
         if (a.scheme && truth)
             j["error"] = text_of(true_error(scene, a, truth->reference.run.trace));
-    } catch (const Refusal& e) { j["text"] = e.what(); }
+    } catch (const std::exception& e) { j["text"] = e.what(); }
     return j;
 }
 }  // namespace
@@ -257,7 +255,7 @@ std::vector<std::string> string_row(const StringOf& s, const study::Cells& cells
 // The cheapest cells of a variant, each more accurate than those before it.
 Rows front_of(const study::Cells& cells, Rows rows) {
     std::erase_if(rows, [&](std::size_t i) {
-        return !std::isfinite(error_of(cells[i])) || !(cells[i].processor_s_per_s > 0);
+        return !(error_of(cells[i]) < 1) || !(cells[i].processor_s_per_s > 0);
     });
     std::ranges::stable_sort(rows, {}, [&](std::size_t i) { return cells[i].processor_s_per_s; });
     double best = HUGE_VAL;

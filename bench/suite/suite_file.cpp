@@ -213,6 +213,10 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     store::read_keys(root, keys, suite);
     if (suite.population && (!suite.sets.empty() || !suite.maps.empty()))
         root.need("population").fail("found [[cells]] or [[map]] too, expected a suite of its own");
+    if (suite.population && suite.grounds.empty() && suite.population->scenes.empty())
+        root.need("population").fail("found no strings, expected [[ground]] tables or scenes");
+    if (!suite.grounds.empty() && !suite.population)
+        root.need("ground").fail("expected [population] beside it");
     if (suite.sets.empty() && !suite.population && (suite.maps.empty() || root.at("cells")))
         root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") +
                                              "expected at least one [[cells]]");

@@ -104,6 +104,9 @@ TEST(Population, SaysWhatIsWrongOfIt) {
                      "found share in [[cells]]"));
     EXPECT_TRUE(says(refusal_of(population() + "[[cells]]\nscenes = \"free_string\""),
                      "found [[cells]] or [[map]] too"));
+    EXPECT_TRUE(says(refusal_of("[population]"), "found no strings"));
+    EXPECT_TRUE(says(refusal_of("[[ground]]\nname = \"a\"\nscene = \"free_string\"\nnumber = 1"),
+                     "expected [population] beside it"));
     EXPECT_TRUE(says(refusal_of("[population]\n[[ground]]\nname = \"a\"\nscene = "
                                 "\"free_string\"\nnumber = 1\ndraw = { x = { from = 2, to = 1 } }"),
                      "expected { from = A, to = B }"));
