@@ -51,7 +51,7 @@ void address(Plan& plan, const std::string& of_program) {
         for (Json& r : modeless) r["settings"].erase("modes");
         p.truth_key = std::to_string(*p.truth_modes) + p.true_hash + store::compact(modeless) +
                       limit + (begins(p) ? " " + std::to_string(p.begin) : "") +
-                      store::text_of(p.effort);
+                      store::text_of(p.effort) + (p.settles_whole ? " whole" : "");
     }
     std::set<std::string> seen;
     std::vector<Job> once;
@@ -71,6 +71,7 @@ void address(Plan& plan, const std::string& of_program) {
         if (p.whole) identity["part_of"] = p.true_hash;
         if (!p.in_model) identity["in_model"] = false;
         if (p.alone) identity["reference_alone"] = true;
+        if (p.settles_whole) identity["reference_settles_whole"] = true;
         if (p.effort != 1) identity["reference_effort"] = store::text_of(p.effort);
         if (job.repeats > 0) identity["repeats"] = job.repeats;
         if (!std::isinf(p.time_limit)) identity["time_limit_s"] = p.time_limit;
@@ -173,7 +174,7 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
     if (p.truth_modes)
         truth.make(from, [&] {
             return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit,
-                             p.begin, p.effort);
+                             p.begin, p.effort, p.settles_whole);
         });
     // what is asked for takes as long as it takes
     const TimeLimit limit = p.truth_modes ? first_run(p.time_limit) : TimeLimit{p.time_limit};

@@ -27,9 +27,10 @@ struct Point {
     std::vector<ReferenceChoice> references;
     // 0: found by doubling; none: the reference with the cells' modes is all there is
     std::optional<int> truth_modes = 0;
-    int begin = 0;       // modes that the doubling begins with; 0: those of modes_to_begin_with
-    double effort = 1;   // of the doubling (run_truth)
-    bool alone = false;  // nothing is asked of what the reference is uncertain by
+    int begin = 0;      // modes that the doubling begins with; 0: those of modes_to_begin_with
+    double effort = 1;  // of the doubling (run_truth)
+    bool settles_whole = false;  // likewise
+    bool alone = false;          // nothing is asked of what the reference is uncertain by
     // errors from a string with as many modes are asked for too, where the truth has others
     bool in_model = true;
     // the scene whose motion is the truth, where `scene` is a part of it

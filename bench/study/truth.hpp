@@ -31,7 +31,8 @@ constexpr double settled = 1e-4;
 // with N/4 and N/2 before it, to tell what N leaves out; points of a profile likewise, where they
 // are asked for or N is. A stand-in is left as it is. `description`: how far it went. Throws as
 // run_reference; PastItsLimit also where the first size would take more than ten minutes. `effort`:
-// what all limits are multiplied by that nobody asked for.
+// what all limits are multiplied by that nobody asked for. `settles_whole`: what doubling has to
+// settle is the whole run, not the headline's window.
 struct Truth {
     Reference reference;
     bool matched = false;            // also where no option says so: over a rigid barrier
@@ -46,7 +47,7 @@ struct Truth {
 };
 Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, int jobs,
                 const store::Listener&, double time_limit = HUGE_VAL, int begin = 0,
-                double effort = 1);
+                double effort = 1, bool settles_whole = false);
 
 // What the reference leaves out, by a measure of how far one trace lies from another: what its
 // doublings tell, and where it is matched own modes as well. NaN: unknown. `solved_to`: how far

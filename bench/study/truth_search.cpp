@@ -55,13 +55,14 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
 class Search {
 public:
     Search(const Scene& s, int jobs, const store::Listener& listener, double time_limit, bool find,
-           double effort)
+           double effort, bool settles_whole)
         : scene_(s),
           jobs_(jobs),
           listener_(listener),
           time_limit_(time_limit),
           find_(find),
-          effort_(effort) {}
+          effort_(effort),
+          end_(settles_whole ? HUGE_VAL : headline_window(s)) {}
     Truth of(const std::vector<ReferenceChoice>&, int modes, int begin);
 
 private:
@@ -87,7 +88,8 @@ private:
     const double time_limit_;
     const bool find_;      // and not asked for
     const double effort_;  // of all limits that nobody asked for
-    const double from_ = free_from(scene_), end_ = headline_window(scene_);
+    const double end_;     // of the window that is to be settled [s]
+    const double from_ = free_from(scene_);
     const std::size_t window_ = std::isinf(end_) ? 2 : end_ >= 50e-3 ? 1 : 0;
     Truth t_;
     ReferenceChoice choice_{};
@@ -269,8 +271,9 @@ Truth Search::of(const std::vector<ReferenceChoice>& choices, int modes, int beg
 
 Truth run_truth(const std::vector<ReferenceChoice>& choices, const Scene& scene, int modes,
                 int jobs, const store::Listener& listener, double time_limit, int begin,
-                double effort) {
-    return Search(scene, jobs, listener, time_limit, modes == 0, effort).of(choices, modes, begin);
+                double effort, bool settles_whole) {
+    return Search(scene, jobs, listener, time_limit, modes == 0, effort, settles_whole)
+        .of(choices, modes, begin);
 }
 
 }  // namespace jvari::bench::study

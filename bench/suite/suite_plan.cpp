@@ -40,6 +40,7 @@ void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellS
     common.begin = 0;
     common.in_model = false;
     common.effort = set.effort;
+    common.settles_whole = true;
     like.errors = {study::measure("error_l2_whole")};
     const std::size_t from = plan.jobs.size(), notes = plan.notes.size();
     compare::add_jobs(plan, r, catalogue, common, like);
