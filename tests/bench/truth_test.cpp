@@ -9,6 +9,8 @@
 #include "bench/compare/bound.hpp"
 #include "bench/compare/compare.hpp"
 #include "bench/compare/compare_plan.hpp"
+#include "bench/compare/record/cheapest.hpp"
+#include "bench/compare/record/findings.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
@@ -136,6 +138,45 @@ TEST(Truth, IsKnownToNoLessThanTheRemedyThatItPrintsChanges) {
             }
         }
     }
+}
+
+// `--modes N` of a comparison in which no cell is within 1 %: with as many modes the error falls, by
+// more than what the reference is uncertain by.
+TEST(Cheapest, TheModesThatAreToBeTriedBringTheErrorDown) {
+    using namespace bench::compare;
+    const Catalogue catalogue;
+    struct Least {
+        double error = HUGE_VAL, certificate = 0;
+        int to_try = 0;
+    };
+    const auto least = [&](int modes) {
+        CompareRequest r;
+        r.scene = "tanpura_c3_release";
+        r.schemes = {"modal_two_point"};
+        r.rates = {88200, 176400};
+        r.modes = {modes};
+        r.options = {{"", "compliance", "own"}};
+        r.duration = 0.05;
+        r.reference_modes = 320;
+        r.repeats = 1;
+        r.search = false;
+        const bench::study::Cells cells = cells_of(compare(r, catalogue, bench::store::Listener()));
+        Least found;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const Bound b = bound_of(cells[i], bench::study::measure("error_l2_50ms"));
+            if (b.error < found.error) found.error = b.error, found.certificate = b.certificate;
+        }
+        std::smatch hint;
+        for (const Answer& a : cheapest_of(cells))
+            if (std::string(a.status) == "none" && a.most == 0.01 &&
+                std::regex_search(a.why, hint, std::regex("try `--modes ([0-9]+)`")))
+                found.to_try = std::stoi(hint[1]);
+        return found;
+    };
+    const Least few = least(30);
+    ASSERT_EQ(few.to_try, 60);
+    const Least more = least(few.to_try);
+    EXPECT_LT(more.error + more.certificate, few.error - few.certificate);
 }
 
 // `--reference-modes N`, `smoothing` of a sharp corner, a shorter `--duration`: what each leads to
