@@ -1,24 +1,27 @@
-// What a scheme claims against a reference, on scenes that are smooth enough for a few milliseconds
-// to show it: every tap comes nearer with the rate, and every tap is at its row's instant.
+// Claims of a scheme against a reference, on scenes smooth enough to show them within a few
+// milliseconds. Every tap converges with the sample rate, and every tap belongs to the instant of
+// its row.
 //
-// Forces are held to the reference's, and not to a balance of momentum. The force at the far end is
-// no tap, so a balance would need the momentum of the whole string, and a wrong tap could hide in
-// it.
+// Forces are compared with the forces of the reference, and not with a balance of momentum. The
+// force at the far end is no tap, so a balance would need the momentum of the whole string, and a
+// wrong tap could hide there.
 //
-// Convergence: contact that begins within a step costs an order, and the quadratised forms are of
-// first order in the contact. So what is owed of each tap is a third of its error at 8 times the
-// rate, and of the worst tap less at 8 than at 4 times. An error of 1e-6 is as good as none, and
-// 5e-5 against the whole string, of which 100 modes leave out 1e-5; of a thread at a point they
-// leave out 6e-4 with the missing compliance put back, and there 1e-3 is good enough. On a profile
-// a scheme keeps the error of its nodes at any rate: 4e-3 of the force with 100 of them, so 1e-2 is
-// good enough there. The point thread has displacement taps alone, and on modes: no grid
-// converges to the force of a point. Leaves out scenes that need a feature which the scheme calls
-// approximated: its limit there is not the scene.
+// Convergence: contact that begins within a step costs an order, and the quadratised forms have
+// first order in the contact. A scheme therefore owes a third of each tap's error at 8 times the
+// rate. The worst tap's error must be smaller at 8 times the rate than at 4 times.
 //
-// Instants: on mode 1 alone, and on the string between a soft bridge that it never leaves and a
-// soft thread. A wrong frequency makes an error that grows with time, and a wrong instant one that
-// is there at the start. The fit tells them apart. Of a step the schemes of this tree are 0.06
-// early or late at most (a velocity of the sitar grids), and 0.035 otherwise.
+// Negligible errors: 1e-6 against a reference with equally many modes. Against the whole string
+// 5e-5 is negligible, because 100 modes leave out 1e-5. For a thread at a point 1e-3 suffices:
+// there 100 modes leave out 6e-4 even with the missing compliance put back. On a profile a scheme
+// keeps the error of its nodes at any rate, 4e-3 of the force with 100 nodes, so 1e-2 suffices
+// there. The point thread has only displacement taps, and only schemes with modes run it: no grid
+// converges to the force at a point. Scenes that need an approximated feature are left out: the
+// scheme's limit there is not the scene.
+//
+// Instants: tested on mode 1 alone, and on the string between a soft bridge that it never leaves
+// and a soft thread. A wrong frequency makes an error that grows with time, and a wrong instant
+// makes an error at the start. The fit separates the two. The schemes in this tree are at most 0.06
+// of a step early or late (a velocity of the sitar grids), the others at most 0.035.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -45,17 +48,17 @@ namespace {
 constexpr double as_good_as_none = 1e-6, at_a_point = 1e-3, owed_fall = 1.0 / 3;
 constexpr double error_of_a_reference = 1e-5;
 constexpr int scenes_wanted = 3, claim_modes = 100, truth_modes = 400;
-// [N/m]: the string itself is 160 N/m under a steady force there
+// [N/m]; under a steady force the string itself has 160 N/m there.
 constexpr double soft = 300;
-constexpr double instant_allowed = 0.1;  // of a step
-// error of a mode whose frequency is right to the last digits
+constexpr double instant_allowed = 0.1;  // [steps]
+// Error of a mode whose frequency is right to the last digits.
 constexpr double exact_allowed = 1e-9;
 
 bool has(const Descriptor& d, Feature feature) {
     return (d.represents - approximated(d)).has(feature);
 }
 
-// The string of the contract, without losses, with every kind of tap that it has.
+// The string of the contract, without losses, with one tap of every possible kind.
 Scene string_with(const char* name, const std::optional<LumpedBarrier>& barrier,
                   const std::optional<Thread>& thread) {
     Scene scene = string_at_rest();
@@ -73,8 +76,8 @@ Scene string_with(const char* name, const std::optional<LumpedBarrier>& barrier,
     return scene;
 }
 
-// The scene's truth with these modes: of the first reference that represents it and is not the
-// scheme itself. It is kept: most schemes are held to the same.
+// Returns the solution by the first reference that represents the scene and is not the scheme
+// itself. The solution is cached, because most schemes are compared with the same one.
 const Trace* truth_of(const Descriptor& d, const Scene& scene, int modes) {
     static std::map<std::string, std::optional<Trace>> kept;
     const std::string of_scene = " " + scene_hash(scene) + " " + std::to_string(modes);
@@ -95,9 +98,9 @@ const Trace* truth_of(const Descriptor& d, const Scene& scene, int modes) {
 
 struct Smooth {
     Scene scene;
-    // where the error does not fall: what is good enough at 4 times 44.1 kHz; else 0
+    // Sufficient error at 4 times 44.1 kHz if the error does not fall; else 0.
     double enough = 0;
-    double whole = what_modes_leave_out;  // as good as none against the whole string
+    double whole = what_modes_leave_out;  // negligible error against the whole string
 };
 Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {},
               const std::optional<Thread>& thread = {}) {
@@ -108,11 +111,12 @@ Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {}
     return {scene};
 }
 
-// A wide soft obstacle that the string meets within the run, and a wide soft thread, of these what
-// the scheme has; a soft profile; a pluck; a thread at a point; then strings that touch nothing.
+// Scenes: a wide soft obstacle that the string meets within the run and a wide soft thread, if the
+// scheme represents them; a soft profile; a pluck; a thread at a point; then strings without
+// contact.
 std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     std::vector<Smooth> all;
-    // of a grid with as many nodes as there are modes [m]
+    // Position of a node [m] on a grid with as many nodes as there are modes.
     const double node = 30 * 1.0 / (claim_modes + 1);
     std::optional<LumpedBarrier> bridge;
     std::optional<Thread> thread;
@@ -131,7 +135,8 @@ std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     all.push_back(smooth("plucked"));
     all.back().scene.strings.front().start.reset();
     all.back().scene.strings.front().pluck = Pluck{-0.4, 6e-3, 3.0, 0.0, 0.5, 0.5};
-    // modes: a grid nears a point at first order
+    // Selects modal schemes by their frequency-dependent damping: a grid approaches a point only at
+    // first order.
     if (has(d, Feature::frequency_dependent_damping)) {
         all.push_back(smooth("threaded", {}, Thread{node, 0, soft, 0.1, 0}));
         all.back().scene.taps.resize(2);
@@ -148,7 +153,7 @@ std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     return all;
 }
 
-// Of each tap, at each rate; none where a run fails.
+// Errors by rate and tap; empty if a run fails.
 std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& scene,
                                            std::span<const int> rates, const Trace& truth) {
     std::vector<std::vector<double>> all;
@@ -161,8 +166,8 @@ std::vector<std::vector<double>> errors_of(const Descriptor& d, const Scene& sce
     return all;
 }
 
-// "": every tap does. Its limit is the string of as many modes as it has;
-// or, where it puts back what they lack or is on a grid, the whole string.
+// Returns "" if every tap converges. The limit is the string with the scheme's number of modes. For
+// grids, and for schemes that put back the compliance of the missing modes, it is the whole string.
 std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trace& truth,
                            double as_none) {
     static constexpr int all[] = {1, 2, 4, 8}, once[] = {1}, near[] = {4};
@@ -190,7 +195,7 @@ std::string convergence_to(const Descriptor& d, const Smooth& smooth, const Trac
                : errors_of_tap(static_cast<int>(worst - errors.back().begin()));
 }
 
-// "": it does; nothing: cannot be examined
+// "": converges; nothing: cannot be examined.
 std::optional<std::string> convergence_on(const Descriptor& d, const Smooth& smooth) {
     const Scene& scene = smooth.scene;
     if (!is_as_the_scene_says(d, scene)) return std::nullopt;
@@ -211,9 +216,9 @@ std::optional<std::string> convergence_on(const Descriptor& d, const Smooth& smo
 
 // ---- Instants.
 
-// By how many rows `a` is late against `truth` at the start, where its lateness grows evenly: of
-// a(n) = truth(n - late - growth n) in first order, by least squares. Row 0 has no contact force,
-// and a row beside it no slope. NaN where the truth does not move.
+// Rows by which `a` lags `truth` at the start, if the lag grows linearly: a least-squares fit of
+// a(n) = truth(n - late - growth n) to first order. Row 0 has no contact force, and the row beside
+// it no usable slope. Returns NaN if the truth does not move.
 double lateness(std::span<const double> a, std::span<const double> truth) {
     double s = 0, s_n = 0, s_nn = 0, e = 0, e_n = 0;
     for (std::size_t n = 2; n + 1 < truth.size(); ++n) {
@@ -228,7 +233,7 @@ double lateness(std::span<const double> a, std::span<const double> truth) {
     return (e * s_nn - e_n * s_n) / (s * s_nn - s_n * s_n);
 }
 
-std::vector<Scene> swinging(const Descriptor& d) {  // in mode 1, free and held
+std::vector<Scene> swinging(const Descriptor& d) {  // swings in mode 1, free and held
     std::optional<LumpedBarrier> bridge;
     std::optional<Thread> thread;
     if (has(d, Feature::lumped_barrier)) bridge = LumpedBarrier{0.6, 0.4, 3e-3, {0.1 * soft}, 1, 0};
@@ -243,7 +248,8 @@ std::vector<Scene> swinging(const Descriptor& d) {  // in mode 1, free and held
     return all;
 }
 
-// The free string's first mode has its frequency to the last digits, by the scheme's own account.
+// Tests whether the scheme's own frequency for the first mode of the free string is exact to the
+// last digits.
 bool exact_in_time(const Descriptor& d, const Scene& scene, const Settings& settings) {
     const auto own = make_scheme(d, scene, settings)->free_modes();
     const Modes all = modes_of(scene.strings.front(), 1);

@@ -12,11 +12,11 @@
 #endif
 #endif
 
-// Of the executable, so that no allocation goes with its first use.
+// Belongs to the executable, so that its first use allocates nothing.
 static thread_local long allocations = 0;
 
 #if defined(JVARI_SANITIZED)
-// As in sanitizer/allocator_interface.h, which GCC does not install.
+// Declared in sanitizer/allocator_interface.h, which GCC does not install.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*,
                                                                   std::size_t),
                                                          void (*)(const volatile void*));
@@ -25,8 +25,8 @@ static void on_free(const volatile void*) {}
 static const bool installed = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free) != 0;
 #elif defined(__GLIBC__)
 static const bool installed = true;
-// glibc's own allocator under its public alias; operator new and the aligned forms come through
-// here too.
+// Calls glibc's own allocator under its public alias; operator new and the aligned forms pass
+// through these functions too.
 extern "C" {
 // NOLINTBEGIN(bugprone-reserved-identifier): glibc's own names
 void* __libc_malloc(std::size_t);

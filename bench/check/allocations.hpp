@@ -1,6 +1,6 @@
-// Counts every heap allocation of this thread while one of these lives: malloc itself, not only
-// operator new. A program that uses this has its malloc replaced by one that counts and hands on;
-// on another C library than GNU's nothing is replaced and nothing counted.
+// Counts every heap allocation by this thread during its lifetime: malloc itself, not only operator
+// new. In a program that uses this class, malloc is replaced by a function that counts and
+// forwards. With a C library other than GNU's nothing is replaced and nothing counted.
 #pragma once
 
 namespace jvari::bench::check {
@@ -9,7 +9,7 @@ class Allocations {
 public:
     Allocations();
     long count() const;
-    static bool counted();  // false: this build cannot tell
+    static bool counted();  // false: this build cannot count
 
 private:
     long before_;

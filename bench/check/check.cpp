@@ -68,7 +68,7 @@ constexpr Promise all[] = {
      once_all_before_are_kept, feels_every_number},
 };
 
-// The one list of what is known to be broken.
+// All known breaks.
 constexpr Excuse known[] = {
     {"modal_generalised_alpha", "CarriesNoMoreStateThanTheSceneNeeds",
      "the method's own: it carries each mode's acceleration beside displacement and velocity"}};
@@ -94,11 +94,11 @@ const char* name_of(Verdict::Answer a) {
 
 Settings settings_for(const Descriptor& d, const Scene& scene) {
     Settings s{4 * contract_tap_rate, contract_tap_rate, contract_modes, {}};
-    // a slow reference has few modes, and a few points on a profile: what is owed needs no more
+    // Slow references get few modes, and few points on a profile: the promises need no more.
     if (declares(d, "rtol")) s.modes = modes_of_an_integrator;
     if (d.clock == Clock::continuous && needed_by(scene).any(any_profile) && declares(d, "nodes"))
         s.options = {{"nodes", "6"}};
-    if (declares(d, "cells")) s.options = {{"cells", "64"}};  // of a lattice of its own
+    if (declares(d, "cells")) s.options = {{"cells", "64"}};  // cells in a lattice of its own
     return s;
 }
 
@@ -112,7 +112,7 @@ bool takes(const Descriptor& d, const Scene& scene, const Settings& settings) {
         return true;
     } catch (const Refusal&) {
         return false;
-    } catch (const BadScene&) {  // one made here that cannot be
+    } catch (const BadScene&) {  // a scene made here may be invalid
         return false;
     }
 }
@@ -161,9 +161,9 @@ bool named(const std::vector<std::string>& names, const std::string& name) {
 
 struct Count {
     int kept = 0, broken = 0, excused = 0, not_asked = 0;
-    const Answered* first = nullptr;       // that has this answer, else any
-    std::map<std::string, int> unasked{};  // how many scenes for each reason
-    // that most scenes have
+    const Answered* first = nullptr;  // first scene with the overall answer, else the first scene
+    std::map<std::string, int> unasked{};  // number of scenes for each reason
+    // Returns the most frequent reason.
     std::string why_not_asked() const {
         const auto most = std::ranges::max_element(unasked, {}, [](auto& r) { return r.second; });
         return most == unasked.end() ? "it represents no scene of it" : most->first;
@@ -194,7 +194,7 @@ Count count_of(const Checked& c, const Promise& p) {
 
 std::string scenes_text(const Count& n) {
     if (!n.first || n.first->scene.empty()) return "";
-    const int bad = n.broken + n.excused;  // of one scheme either
+    const int bad = n.broken + n.excused;  // one scheme has only one of the two kinds
     return bad > 0 ? fmt::format("{} of {} scenes", bad, bad + n.kept)
                    : fmt::format("{} scenes", n.kept);
 }
@@ -206,7 +206,7 @@ bool Checked::broken() const {
 }
 
 namespace {
-// Throws UsageError: a name that there is not.
+// Throws UsageError for an unknown name.
 void must_be(const char* what, const std::vector<std::string>& names, const auto& all) {
     std::vector<std::string> known;
     for (const auto& one : all) known.emplace_back(one.name);
@@ -222,7 +222,7 @@ Checked check(const Descriptor& d, const Asked& asked, const store::Listener& li
     Checked c{d.name, d.source, {}, {}};
     const auto progress = listener.begin(std::string("check ") + d.name);
     double done = 0;
-    std::string broken, claim_broken;  // the first promise that is, the first claim
+    std::string broken, claim_broken;  // first broken promise, and first broken claim
     for (const Promise& p : promises()) {
         if (!asked.promises.empty() && !named(asked.promises, p.name)) continue;
         auto cases = cases_of(d, p.scope);
@@ -231,7 +231,7 @@ Checked check(const Descriptor& d, const Asked& asked, const store::Listener& li
             if (cases.empty()) continue;
         }
         c.examined.push_back(&p);
-        // a run of a program is a process and a file
+        // Each run of an external program needs a process and a file.
         const bool too_many = asked.promises.empty() && is_called(d) && p.of == feels_every_number;
         const bool last = p.scope == Scope::once_all_before_are_kept,
                    claim = last || p.scope == Scope::once_all_others_are_kept;

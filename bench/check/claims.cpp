@@ -1,11 +1,12 @@
-// What a scheme claims as a numerical method by itself: its partials are those of its own relation,
-// and it stays sound between settings. What it claims against a reference: against_references.cpp.
+// Claims of a scheme as a numerical method by itself: its partials follow its own dispersion
+// relation, and it stays sound between settings. Claims against a reference are in
+// against_references.cpp.
 //
-// Each bound with its reason. Partials: what the matrix pencil hears of a recursion agrees with it
-// to 2e-8 cents (smoke suite); 1e-3 cents is far from that, and far below any change of an
-// equation. A map: what maps call diverged, not_converged or energy_gaining
-// (bench/study/judgement.hpp), on the side of its stability limit where it is sound. That its
-// contacts do not pull is a promise of its own.
+// Bounds and their reasons. Partials: the matrix pencil agrees with the partials of a recursion to
+// 2e-8 cents (smoke suite); 1e-3 cents is far above that, and far below the effect of any change to
+// an equation. A map: no point on the sound side of the scheme's stability limit may be diverged,
+// not_converged or energy_gaining (bench/study/judgement.hpp). Contacts that do not pull are a
+// separate promise.
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
@@ -20,11 +21,10 @@
 
 namespace jvari::bench::check {
 
-// ---- What a scheme says of itself: which scenes it refuses, which features it has.
+// ---- Declarations by a scheme: refused scenes and represented features.
 
 namespace {
-// Settings at which a scheme may take a scene: as it is, then with each word of each of its
-// options.
+// Settings under which a scheme may take a scene: the defaults, then each word for each option.
 std::vector<Settings> ways(const Descriptor& d, const Scene& scene) {
     std::vector<Settings> all{settings_for(d, scene)};
     for (const Option& o : d.options)
@@ -35,7 +35,7 @@ std::vector<Settings> ways(const Descriptor& d, const Scene& scene) {
     return all;
 }
 
-// Of these features those for which no scene and settings will do.
+// Returns the features for which no scene and no settings pass `will_do`.
 template <class Will>
 Features without(Features asked_of, const Descriptor& d, Will will_do) {
     Features none;
@@ -58,7 +58,7 @@ Features always_refused(const Descriptor& d) {
 Trace trace_of(const Case& c, const Scene& scene) {
     try {
         return run(c.scheme, scene, c.settings).trace;
-    } catch (const std::runtime_error&) {  // refused, or no scene
+    } catch (const std::runtime_error&) {  // refusal or invalid scene
         return {};
     }
 }
@@ -107,7 +107,7 @@ Verdict runs_a_scene(const Case& c) {
 
 Verdict heeds_every_feature(const Case& c) {
     const Descriptor& d = c.scheme;
-    // what is always refused is another promise
+    // Features that are always refused belong to another promise.
     const Features claimed = d.represents - approximated(d) - always_refused(d);
     std::string deaf;
     for (int k = 0; k < feature_count; ++k) {
@@ -126,7 +126,7 @@ Verdict heeds_every_feature(const Case& c) {
     return deaf.empty() ? kept() : broken("its trace is the same whatever the values of " + deaf);
 }
 
-// ---- What it claims in numbers
+// ---- Numerical claims.
 
 namespace {
 constexpr double cents_allowed = 1e-3, decay_allowed = 1e-3;  // [1/s]
@@ -162,7 +162,7 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
     return "";
 }
 
-// ---- A map: five rates x four of what makes a scheme stiff.
+// ---- A map: five rates x four values of each parameter that makes a scheme stiff.
 
 std::vector<suite::Trial> map_of(const Descriptor& d) {
     const auto scene_at = [&d](int level) {
@@ -198,13 +198,14 @@ std::vector<suite::Trial> map_of(const Descriptor& d) {
 std::vector<HeardPartial> heard_partials(const Descriptor& d, const Scene& scene,
                                          const Settings& settings, int tap) {
     constexpr int most = 30;
-    constexpr double heard_below = 0.95;  // of half the rate
+    constexpr double heard_below = 0.95;  // fraction of half the rate
     const String& s = scene.strings.front();
     const int count = std::min(
         {most, modes_for(s, settings), modes_below(s, 0.5 * heard_below * settings.sample_rate)});
     const std::vector<FreeMode> own = make_scheme(d, scene, settings)->free_modes();
     const Trace trace = run(d, scene, settings).trace;
-    const double closest = modes_of(s, 1).omega0[0];  // two partials of a string [rad/s]
+    // smallest distance between two partials [rad/s]
+    const double closest = modes_of(s, 1).omega0[0];
     std::vector<HeardPartial> all;
     for (int i = 0; i < std::min(count, static_cast<int>(own.size())); ++i) {
         if (!(own[i].omega > 0)) continue;
@@ -227,9 +228,9 @@ Verdict partials_are_its_own_relations(const Case& c) {
                : not_asked("it has no relation in closed form, or no free string to hear it on");
 }
 
-// One damped mode, whose energy at any instant is known: that of the start, and what is left of it.
+// Checks the energy in one damped mode, known at any instant: initial energy and remaining energy.
 Verdict stores_the_energy_of_the_scene(const Case& c) {
-    constexpr double allowed = 0.02;  // of the energy at the start
+    constexpr double allowed = 0.02;  // fraction of the initial energy
     const Descriptor& d = c.scheme;
     if (d.balance == Balance::none) return not_asked("it promises no balance");
     const Features f = d.represents - approximated(d);
@@ -272,7 +273,7 @@ Verdict stays_sound_over_a_map(const Case& c) {
     int sound = 0;
     for (const suite::Trial& t : map_of(d)) {
         if (!takes(d, t.scene, t.settings)) continue;
-        // on the unsound side, as it says itself
+        // Skips points that are unsound by the scheme's own limit.
         if (d.limit.margin && d.limit.margin(t.scene, t.settings) < 0) continue;
         const study::Judgement j = trials(t).judgement;
         if (j.verdict == study::Verdict::diverged || j.verdict == study::Verdict::not_converged ||

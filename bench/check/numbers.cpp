@@ -1,4 +1,4 @@
-// The numbers of a scene, changed one by one, and the scenes that have them all.
+// Changes the numbers in a scene separately, and builds scenes that together have all numbers.
 #include <vector>
 
 #include "bench/check/promise.hpp"
@@ -8,8 +8,8 @@ namespace jvari::bench::check {
 
 namespace {
 struct Change : Pass<Change> {
-    int left;      // numbers before the one that is changed
-    double tenth;  // its sign is the direction
+    int left;      // how many numbers precede the changed number
+    double tenth;  // sign gives the direction
     std::string key{};
 
     Change(int which, double by) : left(which), tenth(by) {}
@@ -97,7 +97,8 @@ std::vector<Scene> make_scenes_of_numbers() {
         return s;
     };
     std::vector<Scene> all;
-    const auto add = [&](const char* name, auto... changes) {  // of the played string, each
+    // changes to the played string, separately for each string
+    const auto add = [&](const char* name, auto... changes) {
         std::vector<String> strings;
         (changes(strings.emplace_back(played)), ...);
         all.push_back(scene(name, std::move(strings)));

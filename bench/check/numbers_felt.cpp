@@ -1,20 +1,22 @@
-// A scheme answers a change of each number of a scene as the reference does.
+// Tests whether a scheme responds to a change of each number in a scene as the reference does.
 //
-// Every scene of scenes_of_numbers() is cut down to what the scheme represents. It is run as it is,
-// and then with each number changed by a tenth; the change of each tap is compared with the change
-// of the reference's tap. A wrong number that the motion hardly shows stands out there, because
-// everything else cancels.
+// Every scene of scenes_of_numbers() is reduced to the features that the scheme represents. The
+// scheme runs the scene unchanged, and then with each number changed by a tenth. The change of each
+// tap is compared with the change of the reference's tap. This shows even a wrong number with
+// little effect on the motion, because everything else cancels.
 //
-// What may differ follows from the scheme's own convergence. It runs at 3, 5 and 8 times 44.1 kHz,
-// with modes or nodes in proportion. An error that falls as slowly as ConvergesToTheReference
-// allows, to a third at 8 times the rate, is at most |a(r) - a(8)|/((8/r)^p - 1) at 8 times 44.1
-// kHz, with 8^p = 3. Three rates that are no multiples of each other, because a delay line rounds
-// to the same length at multiples. With contacts the error of the motion itself counts as well: a
-// contact that begins within a step errs by an amount that jumps with the instant, so errors of two
-// runs need not cancel. So does the gap that a scheme reports of its contacts' state. A grid nears
-// the whole string, and the reference has some modes. Nodes of a profile add what they leave out
-// (promise.hpp). A scheme that touches a profile at points has them where the reference with as
-// many has them, so nothing is added there.
+// The tolerance follows from the scheme's own convergence. The scheme runs at 3, 5 and 8 times 44.1
+// kHz, with modes or nodes in proportion. ConvergesToTheReference allows an error that falls to a
+// third at 8 times the rate. Such an error is at most |a(r) - a(8)|/((8/r)^p - 1) at 8 times 44.1
+// kHz, with 8^p = 3. The three rates are no multiples of each other, because a delay line rounds to
+// the same length at multiples.
+//
+// With contacts the error of the motion itself is added: a contact that begins within a step causes
+// an error that jumps with the instant, so the errors of two runs need not cancel. The gap that a
+// scheme reports for the state of its contacts is added too. A grid approaches the whole string,
+// but the reference has a finite number of modes. Nodes on a profile add their discretisation error
+// (promise.hpp). A scheme that touches a profile at points adds nothing, because a reference with
+// equally many points has them at the same places.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -39,9 +41,9 @@ namespace jvari::bench::check {
 
 namespace {
 constexpr int rates[] = {3, 5, 8}, coarse = 3, fine = 8;  // times 44.1 kHz
-constexpr int modes_each = 6;                             // times as many
+constexpr int modes_each = 6;                             // modes per 44.1 kHz
 constexpr const char* points_of_a_profile = "16";
-// of a tap: so much is as good as no error
+// Error relative to a tap that counts as none.
 constexpr double as_good_as_the_same = 1e-6;
 constexpr Features with_events =
     Feature::lumped_barrier | Feature::profile_barrier | Features(Feature::rigid_profile);
@@ -57,19 +59,19 @@ Settings at(const Descriptor& d, int times) {
     return s;
 }
 
-// none where it refuses
+// Returns nothing if the scheme refuses.
 std::optional<jvari::Run> run_where_taken(const Descriptor& d, const Scene& scene, int times) {
     try {
         return run(d, scene, at(d, times));
     } catch (const Refusal&) {
         return std::nullopt;
-    } catch (const BadScene&) {  // one made here that cannot be
+    } catch (const BadScene&) {  // a scene made here may be invalid
         return std::nullopt;
     }
 }
 
-// A limp string without losses whose two planes its end at x = 0 turns at each reflection: both
-// waves of d'Alembert.
+// Exact motion of a limp string without losses whose end at x = 0 rotates the plane of vibration at
+// each reflection: the sum of both d'Alembert waves.
 Trace turning(const Scene& scene, long rows) {
     Trace t;
     t.tap_rate = contract_tap_rate;
@@ -78,7 +80,7 @@ Trace turning(const Scene& scene, long rows) {
     const double speed = std::sqrt(s.tension / s.linear_density);
     const Modes modes = modes_of(s, 400);
     const auto shape = start_of(modes, s).displacement;
-    // of the vertical plane, where the shape is in a plane of angle 0
+    // Vertical component; the shape lies in the plane at angle 0.
     const auto wave = [&](double x) {
         std::complex<double> turned = std::polar(0.5, s.polarisation->pluck_angle);
         for (; x < 0 || x > s.length; turned = -turned)
@@ -98,10 +100,11 @@ Trace turning(const Scene& scene, long rows) {
     return t;
 }
 
-// nullptr: none
+// nullptr: no reference.
 const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine) {
     static std::mutex mutex;
-    static std::map<std::string, std::optional<Trace>> known;  // none: the reference refuses it
+    // nothing: the reference refuses the scene
+    static std::map<std::string, std::optional<Trace>> known;
     const std::scoped_lock lock(mutex);
     const std::string key = scene_hash(scene) + std::to_string(times);
     if (needed_by(scene).has(Feature::polarisation)) {
@@ -121,7 +124,7 @@ const Trace* truth_for(const Descriptor& d, const Scene& scene, int times = fine
     return nullptr;
 }
 
-using Levels = std::vector<jvari::Run>;  // of each of `rates`
+using Levels = std::vector<jvari::Run>;  // one run for each rate in `rates`
 
 double norm(std::span<const double> a) {
     double sum = 0;
@@ -133,7 +136,7 @@ std::vector<double> less(std::span<const double> a, std::span<const double> b) {
     for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n) c.push_back(a[n] - b[n]);
     return c;
 }
-// The error at the last rate, at most.
+// Upper bound for the error at the last rate.
 template <class At>
 double own_error(At at) {
     const double order = std::log(3.0) / std::log(8.0);
@@ -144,7 +147,7 @@ double own_error(At at) {
     return most;
 }
 
-class Felt {  // of one scene by one scheme
+class Felt {  // test of one scheme on one scene
 public:
     Felt(const Descriptor& d, Scene scene, const std::filesystem::path& folder)
         : d_(d),
@@ -157,7 +160,7 @@ public:
     }
     int examined() const { return examined_; }
 
-    std::string wrong() {  // "": nothing
+    std::string wrong() {  // "": nothing is wrong
         if (before_.empty()) return "";
         if (std::string fault = compared(scene_, "as it is", truth_, before_, true); !fault.empty())
             return fault;
@@ -180,11 +183,11 @@ public:
     }
 
 private:
-    // none where it does not take it, or not as it is
+    // Returns no levels if the scheme refuses the scene or approximates it.
     Levels levels(const Scene& s) const {
         try {
             validate(s);
-        } catch (const BadScene&) { return {}; }  // a number that another one bounds
+        } catch (const BadScene&) { return {}; }  // another number bounds the changed one
         if (!represents(d_, s) || (needed_by(s) - by_points_).any(approximated(d_))) return {};
         Levels all;
         for (const int times : rates) {
@@ -198,7 +201,8 @@ private:
         }
         return all;
     }
-    // Of a reference with cells, which errs by about one of them, each; of any other the last.
+    // References with cells, which err by about one cell, run at each level; all others run at the
+    // last.
     std::vector<const Trace*> levels_of_truth(const Scene& s) const {
         std::vector<const Trace*> all;
         for (const int times : rates)
@@ -231,7 +235,7 @@ private:
                     allowed += own_error([&](int i) { return (*l)[i].trace.column(k); });
             if ((needed_by(other) - by_points_).any(any_profile))
                 allowed += what_nodes_leave_out * all;
-            // its contacts err by so much, it says
+            // The scheme reports this error of its contacts.
             for (const Levels* l : {&is, itself ? nullptr : &before_})
                 if (const double gap = l ? fact_of((*l)[2].facts, facts::psi_gap) : 0; gap > 0)
                     allowed += gap * all;
@@ -251,7 +255,7 @@ private:
     const Descriptor& d_;
     const Features by_points_;
     Scene scene_;
-    const std::filesystem::path& folder_;  // for its tables
+    const std::filesystem::path& folder_;  // for the tables of the scene
     std::vector<const Trace*> truth_;
     Levels before_;
     int examined_ = 0;
@@ -265,7 +269,7 @@ Verdict feels_every_number(const Case& c) {
     for (const Scene& whole : scenes_of_numbers()) {
         Scene scene = as_far_as(c.scheme, whole);
         scene.name = "";
-        // what made it another is not represented
+        // Skips a scene whose distinguishing feature is not represented.
         if (!seen.insert(scene_hash(scene)).second) continue;
         scene.name = whole.name;
         Felt felt(c.scheme, scene, folder.path);

@@ -1,11 +1,11 @@
-// What every scheme owes the program: the one list of promises. `jvari check` examines one scheme,
-// the tests examine all.
+// The one list of promises that every scheme makes. `jvari check` examines one scheme, the tests
+// examine all.
 //
-// A promise is examined on every scene that the scheme represents, on every scene that it does not,
-// or once. Claims in numbers rest on all other promises and are examined only where these are kept,
-// so a broken promise fails under its own name. The last two rest on the claims before them too: a
-// scheme that moves otherwise than the scene is at no instant of it, and answers no number of it.
-// tests/contract_plugins has a scheme for each that breaks it and keeps all others.
+// A promise is examined on every scene that the scheme represents, on every other scene, or once.
+// Numerical claims rest on all other promises and are examined only if these are kept, so a broken
+// promise fails under its own name. The last two rest on the claims before them too: a scheme with
+// a wrong motion has no right instants, and responds to no number correctly. For each promise
+// tests/contract_plugins has a scheme that breaks this promise and keeps all others.
 #pragma once
 
 #include <filesystem>
@@ -26,9 +26,9 @@
 namespace jvari::bench::check {
 
 struct Verdict {
-    // excused: broken, as it is known of this scheme
+    // excused: a known break of this scheme
     enum class Answer { kept, broken, excused, not_asked } answer = Answer::kept;
-    // what was measured, or why the promise could not be examined
+    // measured figure, or the reason why the promise could not be examined
     std::string why;
     bool broken() const { return answer == Answer::broken; }
 };
@@ -37,7 +37,7 @@ Verdict broken(std::string fault);
 Verdict not_asked(std::string why);
 const char* name_of(Verdict::Answer);  // "not asked"
 
-struct Case {  // a scheme, a scene, and the settings of its run
+struct Case {  // a scheme, a scene, and the settings for its run
     Descriptor scheme;
     Scene scene;
     Settings settings;
@@ -52,15 +52,15 @@ enum class Scope {
 };
 
 struct Promise {
-    const char* name;      // "AllocatesNothingWhileStepping"
-    const char* sentence;  // what a scheme does that keeps it: "allocates nothing while stepping"
+    const char* name;  // "AllocatesNothingWhileStepping"
+    // behaviour of a scheme that keeps it: "allocates nothing while stepping"
+    const char* sentence;
     Scope scope;
-    Verdict (*of)(const Case&);  // the case has no scene where the promise is examined once
+    Verdict (*of)(const Case&);  // the case has no scene if the promise is examined once
 };
-std::span<const Promise> promises();  // in the order in which they are best read
+std::span<const Promise> promises();  // in reading order
 
-// A scheme of this tree that is known to break a promise: a control, which a comparison has to
-// find.
+// A known break by a scheme of this tree: a control, which a comparison must detect.
 struct Excuse {
     const char *scheme, *promise, *why;
 };
@@ -68,11 +68,11 @@ std::span<const Excuse> excuses();
 
 std::vector<Case> cases_of(const Descriptor&, Scope);
 
-// Never throws: what the scheme throws breaks the promise. A scene that the scheme refuses for a
-// reason of its own gives `not_asked`. A known break (Excuse) gives `excused`.
+// Never throws: an exception from the scheme breaks the promise. A scene that the scheme refuses
+// for its own reason gives `not_asked`. A known break (Excuse) gives `excused`.
 Verdict verdict_on(const Promise&, const Case&);
 
-// ---- One function for each promise, and what several of them need.
+// ---- One function for each promise, and shared helpers.
 
 // Refusals and declarations: declared.cpp.
 Verdict refusals_name_what_is_missing(const Case&);
@@ -94,11 +94,11 @@ Verdict carries_no_more_state(const Case&);
 Verdict never_pulls(const Case&);
 Verdict facts_agree_with_its_rows(const Case&);
 
-// Changes of a scene that leave its motion as it is: symmetries.cpp.
+// Changes of a scene that preserve its motion: symmetries.cpp.
 Verdict is_one_motion_in_all_units(const Case&);
 Verdict plays_later_as_at_once(const Case&);
 
-// Numerical claims of a scheme as a whole: claims.cpp, against_references.cpp.
+// Numerical claims about a scheme as a whole: claims.cpp, against_references.cpp.
 Verdict stores_the_energy_of_the_scene(const Case&);
 Verdict partials_are_its_own_relations(const Case&);
 Verdict writes_rows_at_their_instants(const Case&);
@@ -107,18 +107,21 @@ Verdict feels_every_number(const Case&);
 Verdict stays_sound_over_a_map(const Case&);
 
 Settings settings_for(const Descriptor&, const Scene&);
-// it represents it, and approximates nothing of it
+// Tests whether the scheme represents the scene and approximates no part of it.
 bool is_as_the_scene_says(const Descriptor&, const Scene&);
-// it touches a profile at as many points as its option `points` says, where a reference has `nodes`
+// Tests whether the scheme touches a profile at the number of points in its option `points`, the
+// counterpart of a reference's `nodes`.
 bool has_points_for_a_profile(const Descriptor&);
-// a program by files: of it only rows are known, and it refuses when it runs
+// Tests whether the scheme is an external program that exchanges files. Only its rows are known,
+// and it refuses at run time.
 bool is_called(const Descriptor&);
 constexpr const char* in_a_process = "it runs in a process of its own, and gives rows alone";
-bool takes(const Descriptor&, const Scene&, const Settings&);  // false where it refuses
-Run fresh(const Case&, const RunOptions&);                     // of a scheme made for it
+bool takes(const Descriptor&, const Scene&, const Settings&);  // false if it refuses
+Run fresh(const Case&, const RunOptions&);  // runs a new scheme made for the case
 
-// Of a run whose rows are its steps: the scheme's own partials (Scheme::free_modes), and where the
-// matrix pencil of analysis/dispersion.hpp hears them in a tap. Silent ones are left out.
+// Partials of a run whose rows are its steps: `own` by the scheme's account (Scheme::free_modes),
+// and `heard` in a tap by the matrix pencil of analysis/dispersion.hpp. Silent partials are left
+// out.
 struct HeardPartial {
     int mode;
     FreeMode own;
@@ -126,7 +129,7 @@ struct HeardPartial {
 };
 std::vector<HeardPartial> heard_partials(const Descriptor&, const Scene&, const Settings&, int tap);
 
-// ---- The scenes on which promises are examined
+// ---- Scenes on which promises are examined.
 
 // The C3 string of van Walstijn, Bridges & Mehes 2016, Table 1: alone and at rest, with taps at its
 // nut and at 0.3 m.
@@ -135,52 +138,56 @@ Scene string_at_rest();
 constexpr double contract_tap_rate = 44100;  // [Hz]
 constexpr int contract_modes = 40, modes_of_an_integrator = 12;
 constexpr long contract_rows = 96;
-constexpr double what_modes_leave_out = 5e-5;  // of the whole string, which a grid nears
-constexpr double what_nodes_leave_out = 1e-2;  // of a force on a profile, at any rate
+// relative to the whole string, which a grid approaches
+constexpr double what_modes_leave_out = 5e-5;
+constexpr double what_nodes_leave_out = 1e-2;  // relative to a force on a profile, at any rate
 
-// the library and a few made here, of contract_rows, or until they touch; read once
+// Library scenes and a few made here, contract_rows long, or longer until the string touches; read
+// once.
 const std::vector<Scene>& contract_scenes();
 
 // Test scenes with this feature and displacement taps: two minimal strings, then every contract
-// scene, the feature added where it is missing.
+// scene, with the feature added if missing.
 std::vector<Scene> scenes_with(Feature);
 
-// Short and smooth scenes that together have every number of a scene, each large enough to change
-// the taps.
+// Short and smooth scenes that together have every number of a scene. Each number is large enough
+// to affect the taps.
 const std::vector<Scene>& scenes_of_numbers();
 
-// As far as a scheme represents it without an approximation but the points of a profile.
+// Reduces a scene to the features that a scheme represents without approximation; a profile may be
+// approximated by points.
 Scene as_far_as(const Descriptor&, Scene);
 
-// With its tables as files of that folder, the last ones written over: a plugin reads the scene
-// again from its text.
+// Writes the tables of a scene into files in the folder, replacing earlier ones: a plugin reads the
+// scene again from its text.
 Scene in_files(Scene, const std::filesystem::path& folder);
 
-// The same scene with this one feature otherwise: another value of it, or none. A scheme that heeds
-// the feature tells the two apart.
+// Copies of the scene with only this feature changed: another value, or none. A scheme that heeds
+// the feature distinguishes them.
 std::vector<Scene> otherwise(const Scene&, Feature);
 
-// ---- The numbers of a scene, from the schema of scene files, which a new key of it joins
+// ---- Numbers of a scene, from the schema of scene files, so that new keys are included.
 
 struct Changed {
     std::string key;  // "string.0.barrier.1.height"
     Scene scene;
 };
 
-// The scene with its number `which` changed by a tenth, one that is 0 by a step; each column of a
-// table is one number. Nothing beyond the last.
+// Changes number `which` of the scene by a tenth, or by a step if it is 0; each column of a table
+// is one number. Returns nothing beyond the last.
 std::optional<Changed> changed(const Scene&, int which, bool down = false);
 
-// ---- All promises of one scheme: what `jvari check` prints, writes and returns
+// ---- All promises of one scheme: `jvari check` prints and writes them, and its exit code tells
+// whether they are kept.
 
 struct Answered {
     const Promise* promise;
-    std::string scene;  // "" where it is examined once
+    std::string scene;  // "" if examined once
     Verdict verdict;
     double seconds;  // [s]
 };
 
-struct Asked {  // of promises and scenes those alone that are named; none named: all
+struct Asked {  // selects promises and scenes by name; none named: all
     std::vector<std::string> promises, scenes;
 };
 
@@ -191,16 +198,16 @@ struct Checked {
     bool broken() const;
 };
 
-// Calls `answered` for each promise as soon as all its scenes are examined. Throws UsageError: a
-// promise or a scene that there is not, or no promise that is examined on it.
+// Calls `answered` for each promise once all its scenes are examined. Throws UsageError for an
+// unknown promise or scene, or if no selected promise is examined on the selected scenes.
 Checked check(const Descriptor&, const Asked&, const store::Listener&,
               const std::function<void(const Checked&, const Promise&)>& answered = {});
 
 std::string line_of(const Checked&, const Promise&);
-// whether it keeps them, and how many: "14 kept, 5 not asked: it promises no balance"
+// Verdict and counts: "14 kept, 5 not asked: it promises no balance".
 std::string conclusion_of(const Checked&);
 std::string json_of(const std::vector<Checked>&);
-// a test suite a scheme, a test case a promise and scene
+// JUnit XML: a test suite for each scheme, a test case for each promise and scene.
 std::string junit_of(const std::vector<Checked>&);
 
 }  // namespace jvari::bench::check

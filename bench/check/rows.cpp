@@ -1,4 +1,5 @@
-// What stands in row 0: the scene's shape, and no contact force.
+// Checks rows: row 0 holds the scene's shape and no contact force, contacts push, facts agree with
+// forces, and the energy ledger balances.
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ Verdict starts_from_the_scenes_shape(const Case& c) {
         }
     }
     Settings settings = c.settings;
-    settings.modes = contract_modes;  // which a shape takes
+    settings.modes = contract_modes;  // enough for the shape
     const jvari::Run r = run(c.scheme, scene, settings);
     for (std::size_t k = 0; k < expected.size(); ++k) {
         const double y = r.trace.column(static_cast<int>(k))[0];
@@ -63,7 +64,7 @@ Verdict starts_without_contact_forces(const Case& c) {
     return kept();
 }
 
-// ---- Contacts push and never pull, except by a loss: a Hunt-Crossley law may pull where the
+// ---- Contacts push and never pull, except through a loss: a Hunt-Crossley law may pull while the
 // string leaves fast.
 
 Verdict never_pulls(const Case& c) {
@@ -78,7 +79,7 @@ Verdict never_pulls(const Case& c) {
     const jvari::Run r = fresh(one, {});
     double least = fact_of(r.facts, facts::smallest_contact_force),
            largest = fact_of(r.facts, facts::largest_contact_force);
-    // what it says of single steps and of their means has to be so
+    // Tests both the reported forces of single steps and the means in the rows.
     for (const double force : r.trace.column(0)) {
         least = std::fmin(least, force);
         largest = std::fmax(largest, force);
@@ -90,9 +91,9 @@ Verdict never_pulls(const Case& c) {
                                     largest));
 }
 
-// ---- What a scheme says of its contact forces is so in its rows: a row's force is a mean, which
-// lies between the least and the greatest. With a loss as well, where it represents one: then the
-// force is not that of the penetration.
+// ---- Reported contact forces agree with the rows: a row's force is a mean, which lies between the
+// smallest and the largest. Tested with a loss too, if the scheme represents one: the force then
+// depends on more than the penetration.
 
 Verdict facts_agree_with_its_rows(const Case& c) {
     if (is_called(c.scheme)) return not_asked(in_a_process);
@@ -101,10 +102,10 @@ Verdict facts_agree_with_its_rows(const Case& c) {
     for (int k = 0; k < static_cast<int>(c.scene.strings.size()); ++k)
         if (c.scene.strings[k].barriers.size() == 1 &&
             std::holds_alternative<LumpedBarrier>(c.scene.strings[k].barriers[0]))
-            // of several contacts rows are sums
+            // With several contacts a row is a sum.
             one.scene.taps.push_back({"contact" + std::to_string(k), Quantity::bridge_force, k, 0});
     if (one.scene.taps.empty()) return not_asked("no string has one contact");
-    // a reference knows the forces at its steps, and between them by interpolation
+    // A reference knows the forces at its own steps, and interpolates between them.
     const double rounding = c.scheme.clock == Clock::stepped ? 1e-9 : 1e-6;
     bool reported = false;
     for (const double loss : {0.0, 0.5}) {
@@ -120,7 +121,7 @@ Verdict facts_agree_with_its_rows(const Case& c) {
                      largest = fact_of(r.facts, facts::largest_contact_force);
         reported = reported || !std::isnan(largest) || !std::isnan(least);
         for (int k = 0; k < r.trace.taps(); ++k) {
-            // a force that pulls is the promise above
+            // Pulling forces belong to the promise above.
             const double most = std::fmax(std::abs(least), std::abs(largest));
             for (const double force : r.trace.column(k))
                 if (std::abs(force) > most * (1 + rounding))

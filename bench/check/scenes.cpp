@@ -6,7 +6,7 @@
 namespace jvari::bench::check {
 
 namespace {
-// as long as it takes to touch what there is
+// Shortens scenes to the time until the string touches everything in reach.
 std::vector<Scene> shortened(std::vector<Scene> scenes) {
     for (Scene& s : scenes) {
         const bool late = s.name == "guitar_over_fret" || s.name == "prepared_piano";
@@ -28,7 +28,7 @@ Scene lossless(Scene scene) {
     return scene;
 }
 
-Scene least(bool plucked) {  // a string without stiffness and losses
+Scene least(bool plucked) {  // string without stiffness and losses
     Scene scene = named(lossless(string_at_rest()), "string");
     String& s = scene.strings.front();
     s.bending_stiffness = 0;
@@ -37,11 +37,11 @@ Scene least(bool plucked) {  // a string without stiffness and losses
     return scene;
 }
 
-Scene released() {  // over bridge and thread, let go from its first mode
+Scene released() {  // first mode, released over bridge and thread
     return read_scene("tanpura_c3_release");
 }
 
-// a point, on a node where the modes have as many nodes between the ends
+// Point bridge on a grid node; the grid has as many nodes between the ends as there are modes.
 LumpedBarrier bridge_at(const String& s, int node) {
     return {node * s.length / (contract_modes + 1), 0, 0, {4.39e8}, 1, 0};
 }
@@ -53,7 +53,7 @@ LumpedBarrier soft_bridge(const String& s, int node, double height = 0) {
     return b;
 }
 
-// The scene with a feature that it has not; where it cannot have it, or has it, as it is.
+// Adds a missing feature. The scene is returned unchanged if it has the feature, or cannot have it.
 Scene with(Feature feature, Scene scene) {
     String& s = scene.strings.front();
     const auto on_its_barriers = [&s](auto change) {
@@ -79,11 +79,12 @@ Scene with(Feature feature, Scene scene) {
         case Feature::profile_barrier:
             s.barriers.emplace_back(ProfileBarrier{FlatCurve{}, 0, 0.2 * s.length, {1e9}, 1, 0});
             break;
-        // soft: a force known before the step explodes on a stiff one before the other acts
+        // Soft bridges: a force computed before the step explodes on a stiff bridge before the
+        // other acts.
         case Feature::several_barriers: s.barriers = {soft_bridge(s, 1), soft_bridge(s, 3)}; break;
         case Feature::power_law_contact: on_its_barriers([](auto& b) { b.exponent = 1.5; }); break;
         case Feature::contact_loss: on_its_barriers([](auto& b) { b.contact_loss = 0.5; }); break;
-        case Feature::clipped_loss:  // that pulls where the string leaves at more than 0.02 m/s
+        case Feature::clipped_loss:  // pulls if the string leaves at more than 0.02 m/s
             if (s.barriers.empty()) s.barriers = {soft_bridge(s, 3)};
             on_its_barriers([](auto& b) {
                 b.contact_loss = 50;
@@ -107,12 +108,12 @@ Scene with(Feature feature, Scene scene) {
             break;
         case Feature::tension_modulation: s.axial_stiffness = 5e3; break;
         case Feature::initial_velocity: s.velocity = ModeShape{1, s.length}; break;
-        case Feature::equilibrium:  // on a bridge that lifts it
+        case Feature::equilibrium:  // rests on a bridge that lifts the string
             if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
             s.start = RestStart{};
             s.barriers = {soft_bridge(s, 3, 1e-3 * s.length)};
             break;
-        case Feature::free_mass:  // that strikes the string at once
+        case Feature::free_mass:  // strikes the string at once
             if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
             s.masses = {{2e-3, 6 * s.length / (contract_modes + 1), 0, 2 * s.length, 0, 1e4, 1, 0}};
             break;
@@ -123,7 +124,7 @@ Scene with(Feature feature, Scene scene) {
     return scene;
 }
 
-// what all modes have in common stays; false where there is nothing to change
+// Changes the frequency-dependent part of the losses; false if there is nothing to change.
 bool with_other_losses_of_high_modes(String& s) {
     if (auto* p = std::get_if<PolynomialDamping>(&s.damping))
         return p->sigma1 = p->sigma3 = 0, true;
@@ -197,7 +198,7 @@ std::vector<Scene> scenes_with(Feature feature) {
     }
     std::erase_if(scenes, [feature](const Scene& s) { return !needed_by(s).has(feature); });
     for (Scene& s : scenes) {
-        s.taps.clear();  // a string without the feature may have taps as well
+        s.taps.clear();  // taps also serve strings without the feature
         for (const double x : {0.3, 0.4375})
             s.taps.push_back({"y" + std::to_string(s.taps.size()), Quantity::displacement,
                               static_cast<int>(s.strings.size()) - 1, x * s.strings.back().length});
@@ -207,7 +208,7 @@ std::vector<Scene> scenes_with(Feature feature) {
 
 std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
     std::vector<Scene> all;
-    // of a string, where there are several of one of them: false where there is nothing to change
+    // Applies `change` to the last string; `change` returns false if there is nothing to change.
     const auto add = [&](auto change) {
         Scene other = scene;
         if (change(other.strings.back())) all.push_back(std::move(other));

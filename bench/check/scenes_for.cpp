@@ -1,4 +1,4 @@
-// A scene as a scheme can take it: without what it does not represent, with its tables as files.
+// Adapts a scene to a scheme: unrepresented features are removed, and tables become files.
 #include <fmt/core.h>
 
 #include <algorithm>

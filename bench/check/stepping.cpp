@@ -1,4 +1,4 @@
-// How a scheme steps: without allocating, to the last row, the same whether or not it is probed.
+// Checks stepping: no allocation, all rows to the last, identical with and without probing.
 #include <fmt/core.h>
 #include <algorithm>
 #include <bit>
@@ -15,7 +15,7 @@
 namespace jvari::bench::check {
 
 namespace {
-// "" where the rows that both have are the same bits, and both have as many.
+// Returns "" if both traces have equally many rows and taps with identical bits.
 std::string apart(const Trace& a, const Trace& b) {
     if (a.rows != b.rows) return fmt::format("{} rows in place of {}", b.rows, a.rows);
     if (a.taps() != b.taps()) return fmt::format("{} taps in place of {}", b.taps(), a.taps());
@@ -73,9 +73,9 @@ Verdict same_bits_whatever_the_block(const Case& c) {
 }
 
 namespace {
-// A run looks at the energy of some rows alone (schemes/looks.hpp).
+// Tests a run that probes the energy of only some rows (schemes/looks.hpp).
 Verdict stores_the_same_probed_now_and_then(const Case& c, const Trace& probed) {
-    constexpr int each = 7;  // row
+    constexpr int each = 7;  // rows between two probes
     const auto scheme = make_scheme(c.scheme, c.scene, c.settings);
     std::vector<double> tap(c.scene.taps.size());
     double energy[3];
@@ -99,7 +99,7 @@ Verdict same_bits_with_energy_probed(const Case& c) {
     const jvari::Run bare = fresh(c, {.timed = true});
     jvari::Run probed = fresh(c, {.energy = true});
     if (c.scheme.balance == Balance::none)
-        // it is seen to diverge sooner
+        // Probed runs detect divergence sooner.
         probed.trace.rows = std::min(probed.trace.rows, bare.trace.rows);
     jvari::Trace seen = bare.trace;
     if (c.scheme.balance == Balance::none) seen.rows = probed.trace.rows;
@@ -120,10 +120,10 @@ Verdict starts_anew_after_a_reset(const Case& c) {
                : broken("its energy columns are others the second time");
 }
 
-// ---- How much a scheme carries from step to step.
+// ---- Size of the state that a scheme carries from step to step.
 
 namespace {
-std::optional<int> dofs_of(const Case& c) {  // none where it refuses
+std::optional<int> dofs_of(const Case& c) {  // nothing if it refuses
     try {
         return make_scheme(c.scheme, c.scene, c.settings)->dofs();
     } catch (const Refusal&) { return std::nullopt; } catch (const BadScene&) {
@@ -131,10 +131,10 @@ std::optional<int> dofs_of(const Case& c) {  // none where it refuses
     }
 }
 
-// Displacement and velocity of each mode, or of each node of a grid, whose spacing no wave passes
-// within a step; then a value for each contact at two levels, and a few for a filter at an end. A
-// second plane has as many again. A profile has a contact at each node on it, or at the points of
-// its own that a scheme says it has.
+// State bound: displacement and velocity for each mode, or for each node of a grid no finer than a
+// wave travels in a step. Each contact adds a value at two levels, and a filter at an end a few
+// values. A second plane doubles the count. A profile has a contact at each of its nodes, or at the
+// points declared by the scheme.
 double contacts_on(const ProfileBarrier& profile, double length, double nodes, const Case& c) {
     const bool own = std::ranges::any_of(c.scheme.options, [](const Option& o) {
         return o.name == std::string(profile_points_option.name);
@@ -167,7 +167,7 @@ Verdict carries_no_more_state(const Case& c) {
     more.settings.modes *= 2;
     const int most = most_state(c, dofs_of(more).value_or(0) > dofs);
     if (dofs > most) return broken(fmt::format("carries {} doubles, where {} do", dofs, most));
-    Case bare = c;  // without what it listens to, is struck by and rests on
+    Case bare = c;  // without pluck, barriers, thread, second plane and extra taps
     bare.scene.taps.resize(1);
     for (String& s : bare.scene.strings) {
         s.pluck.reset();

@@ -1,13 +1,13 @@
-// Two changes of a scene that leave its motion as it is: other units, and a later beginning.
+// Two changes that preserve the motion of a scene: other units, and a later beginning.
 //
-// Units of mass, length and time: every tap and every energy differ by the factor of their unit
-// alone. The unit of each number of a scene stands in the schema of scene files, so a new key is
-// scaled as well. Factors are powers of two, which round nothing; a power law does. Stiffnesses of
-// the library become soft and soft ones stiff, so a scheme that compares with a length, a time or a
-// force of its own is seen.
+// Units of mass, length and time: every tap and every energy changes only by the factor of its
+// unit. The unit of each number stands in the schema of scene files, so new keys are scaled too.
+// Factors are powers of two, which cause no rounding; power laws do round. Stiff parts of the
+// library become soft and soft parts stiff, which exposes schemes that compare with a fixed length,
+// time or force.
 //
-// A later beginning: a string at rest that is plucked after a second moves as one that is plucked
-// at once. What a long run changes is seen, without a reference for it.
+// A later beginning: a string at rest that is plucked after a second moves like a string plucked at
+// once. This exposes effects of a long run without needing a reference.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 namespace jvari::bench::check {
 
 namespace {
-// of what the largest value of a tap is; a reference keeps to a tolerance of its own
+// Relative to the largest value of a tap; a reference has its own tolerance.
 constexpr double stepped_alike = 1e-7, continuous_alike = 1e-4;
 
-struct Units {  // how many new ones are an old one
+struct Units {  // new units in one old unit
     double kilogram, metre, second;
     double newton() const { return kilogram * metre / (second * second); }
     double of(char symbol) const {
@@ -36,10 +36,10 @@ struct Units {  // how many new ones are an old one
         }
     }
 };
-// by N/m 2^28 softer, and as much stiffer
+// N/m becomes 2^28 times softer, or equally stiffer.
 constexpr Units others[] = {{0x1p-20, 0x1p6, 0x1p4}, {0x1p20, 0x1p-6, 0x1p-4}};
 
-// The factor of "N/m^(exponent+1)" or "kg/(m s)".
+// Conversion factor for a unit, for example "N/m^(exponent+1)" or "kg/(m s)".
 double factor_of(std::string_view unit, const Units& in, double exponent) {
     double all = 1;
     for (bool over = false; !unit.empty();) {
@@ -59,7 +59,7 @@ double factor_of(std::string_view unit, const Units& in, double exponent) {
 
 struct Rescale : Pass<Rescale> {
     const Units& in;
-    double exponent = 1;  // of the contact in hand
+    double exponent = 1;  // exponent of the current contact
 
     explicit Rescale(const Units& units) : in(units) {}
     double factor(std::string_view unit) const { return factor_of(unit, in, exponent); }
@@ -72,7 +72,7 @@ struct Rescale : Pass<Rescale> {
     }
     void tension(String& s) { s.tension *= in.newton(); }
     void column(std::string_view name, std::vector<double>& values) {
-        const double by = factor(name.ends_with("_m") ? "m" : "1/s");  // or _hz, _per_s
+        const double by = factor(name.ends_with("_m") ? "m" : "1/s");  // else _hz or _per_s
         for (double& x : values) x *= by;
     }
     void columns(const char*, const std::string&, const Column& first, std::vector<double>& a,
@@ -127,7 +127,8 @@ double largest(std::span<const double> x) {
     for (const double one : x) most = std::max(most, std::abs(one));
     return most;
 }
-// The largest value among all taps of this unit: a tap that nothing has reached holds rounding.
+// Largest value among all taps with this unit: a tap that the motion has not reached contains only
+// rounding errors.
 double scale_of(const Trace& t, const Scene& scene, Quantity q) {
     double most = 0;
     for (int k = 0; k < t.taps(); ++k)
@@ -137,7 +138,7 @@ double scale_of(const Trace& t, const Scene& scene, Quantity q) {
     return most;
 }
 
-// The first row in which b is not `factor` times a; "" where there is none.
+// Describes the first row in which b is not `factor` times a; "" if there is none.
 std::string first_apart(std::span<const double> a, std::span<const double> b, double factor,
                         double allowed) {
     for (std::size_t n = 0; n < a.size(); ++n)
@@ -148,7 +149,8 @@ std::string first_apart(std::span<const double> a, std::span<const double> b, do
 }  // namespace
 
 Verdict is_one_motion_in_all_units(const Case& c) {
-    // in a range of frequencies of its own, as losses on a grid; nodes on a profile have no unit
+    // Approximations may use a fixed range of frequencies, for example losses on a grid. Nodes on a
+    // profile have no unit.
     if ((needed_by(c.scene) - any_profile).any(approximated(c.scheme)))
         return not_asked("it approximates the scene");
     const bool energy = c.scheme.balance != Balance::none;
@@ -184,7 +186,8 @@ namespace {
 constexpr long later_stepped = 44100, later_continuous = 4410 + 441;  // rows
 constexpr double later_alike = 1e-6;
 
-// At rest until the pluck at `start` [s], above a soft bridge and on a soft thread where it may be.
+// String at rest until the pluck at `start` [s], above a soft bridge and on a soft thread if the
+// scheme represents them.
 Scene plucked_at(const Descriptor& d, double start) {
     const Features f = d.represents - approximated(d);
     Scene scene = string_at_rest();
@@ -210,7 +213,7 @@ Verdict plays_later_as_at_once(const Case& c) {
     const Descriptor& d = c.scheme;
     const bool steps = d.clock == Clock::stepped;
     const long later = steps ? later_stepped : later_continuous;
-    constexpr double soon = 4 / contract_tap_rate;  // [s]: steps that end before it are empty
+    constexpr double soon = 4 / contract_tap_rate;  // [s]: steps that end earlier are empty
     const Scene now = plucked_at(d, soon),
                 then = plucked_at(d, soon + static_cast<double>(later) / contract_tap_rate);
     Settings settings = settings_for(d, now);

@@ -7,7 +7,7 @@
 
 #include "bench/store/encoding.hpp"
 
-#define XXH_INLINE_ALL  // the header alone: nothing to link
+#define XXH_INLINE_ALL  // header only: there is nothing to link
 #include <xxhash.h>
 
 #include <fstream>

@@ -19,7 +19,7 @@ namespace jvari::bench::store {
 namespace fs = std::filesystem;
 
 namespace {
-// a file on its way: sixteen random digits between them
+// Names a temporary file: sixteen random digits stand between the two parts.
 constexpr const char *part_begin = ".jvari-", *part_end = ".part";
 constexpr auto forsaken = std::chrono::hours(24);
 
@@ -48,7 +48,7 @@ void must_be_writable(const fs::path& named) {
     if (access(folder.c_str(), W_OK) != 0)
         throw UsageError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
     const bool there = fs::exists(path, error);
-    // its name is too long
+    // The name is too long.
     if (error) throw UsageError(fmt::format("cannot write {}: {}", path.string(), error.message()));
     if (there && !fs::is_regular_file(path, error))
         throw UsageError(

@@ -1,5 +1,5 @@
-// JSON for people and programs: two spaces a level. Bytes that are no UTF-8, as a file's name may
-// hold, become U+FFFD. The library's reader and writer are compiled once, in json.cpp.
+// JSON for people and programs: two spaces a level. Bytes that are not UTF-8, which a file's name
+// may contain, become U+FFFD. The library's reader and writer are compiled once, in json.cpp.
 #pragma once
 
 #include <filesystem>
@@ -16,19 +16,20 @@
 
 namespace jvari::bench::store {
 
-std::string as_utf8(const std::string& bytes);  // what is none becomes U+FFFD
+std::string as_utf8(const std::string& bytes);  // invalid bytes become U+FFFD
 std::string indented(const nlohmann::ordered_json&);
-std::string compact(const nlohmann::ordered_json&);  // in one line
-// Throws std::exception for what is no JSON, or nested deeper than any of ours (certificates have
-// six levels): who copies or writes that calls himself once per level, to the stack's end.
+std::string compact(const nlohmann::ordered_json&);  // on one line
+// Throws std::exception for text that is not JSON, or is nested deeper than any JSON we write
+// (certificates have six levels). Copying or writing JSON recurses once per level, and deep nesting
+// would exhaust the stack.
 nlohmann::ordered_json parsed(const std::string& text);
-// Text as it stands in HTML and XML.
+// Escapes text for HTML and XML.
 std::string escaped(const std::string& text);
 
-// ---- Whole numbers of JSON, looked at before they are converted: the library makes an int of
-// 1e300 as C++ does, and that is undefined.
+// ---- Whole numbers of JSON are checked before they are converted: the library converts 1e300 to
+// an int as C++ does, with undefined behaviour.
 
-// Throws std::runtime_error where it is no whole number that an Int can hold.
+// Throws std::runtime_error unless the value is a whole number that fits an Int.
 template <class Int>
 Int whole(const nlohmann::ordered_json& j) {
     constexpr auto least = std::numeric_limits<Int>::min(), most = std::numeric_limits<Int>::max();
@@ -42,20 +43,20 @@ Int whole(const nlohmann::ordered_json& j) {
     throw std::runtime_error("found no whole number where one was expected");
 }
 
-// ---- An outcome by its name, as files hold it.
+// ---- Outcomes by name, as files store them.
 
-// throws std::runtime_error where there is none
+// Throws std::runtime_error for an unknown name.
 Outcome outcome_named(const std::string& name);
 
-// ---- What was computed, in a file beside all that it was computed from:
-// the one format of cells, clocks, points of maps, models of trim, and certificates.
+// ---- Results in files, each beside everything that it was computed from. Cells, timings, points
+// of maps, models of trim, and certificates share this one format.
 
-// `identity`: JSON, all that the content depends on. `content`: an object.
+// `identity`: JSON, everything that the content depends on. `content`: an object.
 std::string kept_text(const std::string& identity, const nlohmann::ordered_json& content,
                       int indent = -1);
 
-// What `read` makes of the whole object; nothing where the file is not there or not whole, or where
-// `read` throws.
+// Reads the whole object through `read` and returns the result. Returns nothing if the file is
+// missing or damaged, or if `read` throws.
 template <class Read>
 auto read_kept(const std::filesystem::path& file, Read read)
     -> std::optional<std::invoke_result_t<Read, const nlohmann::ordered_json&>> {
@@ -63,12 +64,12 @@ auto read_kept(const std::filesystem::path& file, Read read)
     if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
     try {
         return read(parsed(unsealed(read_whole(file))));
-    } catch (const std::exception&) {  // it is computed again
+    } catch (const std::exception&) {  // the caller computes the result again
         return std::nullopt;
     }
 }
 
-// The same, and nothing where the content is of another identity.
+// Also returns nothing if the content has another identity.
 template <class Read>
 auto read_kept(const std::filesystem::path& file, const std::string& identity, Read read) {
     return read_kept(file, [&](const nlohmann::ordered_json& j) {

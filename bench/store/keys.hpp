@@ -1,6 +1,6 @@
-// What the tables of a suite file may say. Each key is declared once, by its kind of value, what
-// holds where it is absent, and its meaning: from there it is read, refused with file and line,
-// listed by `jvari list keys`, and documented.
+// Keys of the tables of a suite file. Each key is declared once, with its kind of value, its
+// default and its meaning. The declaration serves the reader, error messages with file and line,
+// `jvari list keys`, and the documentation.
 #pragma once
 
 #include <array>
@@ -18,35 +18,35 @@
 
 namespace jvari::bench::store {
 
-// A value of a suite file and the way to it, so that what is wrong is said with file, line and key
-// as in scenes.
+// A value of a suite file together with its path, so that error messages name file, line and key as
+// they do for scenes.
 class Entry {
 public:
     Entry(const Document& document, const Value& value, std::string key)
         : document_(&document), value_(&value), key_(std::move(key)) {}
 
-    // "a.toml:3: cells.0.rates: found -1, expected a number > 0 [Hz]"
+    // Throws, for example, "a.toml:3: cells.0.rates: found -1, expected a number > 0 [Hz]".
     [[noreturn]] void refuse(const std::string& expected) const;
-    // "a.toml:3: cells.0: the key scenes is missing"
+    // Throws, for example, "a.toml:3: cells.0: the key scenes is missing".
     [[noreturn]] void fail(const std::string& why) const;
 
-    std::optional<Entry> at(const std::string& name) const;  // of a table
+    std::optional<Entry> at(const std::string& name) const;  // member of a table
     Entry need(const std::string& name) const;
-    // it is a table, with these keys alone
+    // Requires a table with no other keys than these.
     void only(const std::vector<std::string>& known) const;
-    std::vector<std::pair<std::string, Entry>> members() const;  // of a table
-    // one value, or an array of at least one
+    std::vector<std::pair<std::string, Entry>> members() const;  // members of a table
+    // Returns one value, or the elements of a non-empty array.
     std::vector<Entry> items() const;
-    std::vector<Entry> tables(const std::string& expected) const;  // an array, whatever its length
+    std::vector<Entry> tables(const std::string& expected) const;  // array of any length
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
     bool is_array() const { return std::holds_alternative<Array>(value_->content); }
 
     std::string text() const;
-    std::optional<double> number() const;  // nothing where it is none
+    std::optional<double> number() const;  // nothing if the value is no number
     std::optional<std::int64_t> whole() const;
     bool truth() const;
-    std::string toml() const;         // as it could stand behind --set key=
-    std::string option_text() const;  // as a scheme reads its option
+    std::string toml() const;         // text for the command line, behind --set key=
+    std::string option_text() const;  // text for a scheme's option
 
 private:
     std::string below(const std::string& name) const {
@@ -55,18 +55,18 @@ private:
 
     const Document* document_;
     const Value* value_;
-    std::string key_;  // "" of the whole file
+    std::string key_;  // "" for the whole file
 };
 
 struct KeyWords {
-    std::string name, value, absent, meaning;  // absent: "" where there is nothing then
+    std::string name, value, absent, meaning;  // absent: the default, "" if there is none
     bool needed = false;
-    std::vector<KeyWords> below = {};  // of a table
+    std::vector<KeyWords> below = {};  // keys of a table
 };
 
 template <class T>
-struct Kind {          // of value
-    std::string says;  // what a refusal expects and a list names
+struct Kind {          // kind of value
+    std::string says;  // for messages ("expected ...") and lists
     std::function<T(const Entry&)> read;
     std::vector<KeyWords> below = {};
 };
@@ -74,7 +74,7 @@ Kind<std::string> text();
 Kind<std::string> name_of_file();              // lower-case letters, digits, _ and -
 Kind<double> positive(const char* unit = "");  // finite, as all numbers here
 Kind<double> not_negative(const char* unit = "");
-constexpr int most_counted = 9'999'999;  // modes, repeats, jobs
+constexpr int most_counted = 9'999'999;  // upper bound for modes, repeats and jobs
 Kind<int> whole(int least, int most);
 Kind<int> count();  // 1 ... most_counted
 Kind<bool> yes_or_no();
@@ -107,7 +107,7 @@ Kind<T> one_of(const char* what, std::vector<std::pair<std::string, T>> words) {
 }
 Kind<std::string> word(const char* what, const std::vector<std::string>& known);
 
-// Whatever a table holds under keys of the writer's own, each read by `one`.
+// A table whose keys the author of the file chooses; `one` reads each value.
 template <class T>
 Kind<std::vector<T>> by_name(std::string says,
                              std::function<T(const std::string& name, const Entry&)> one) {
@@ -144,7 +144,7 @@ Key<Part> needed(const char* name, Member Part::*member, const Kind<T>& kind, co
     return detail::key(name, member, kind, meaning, "", true);
 }
 template <class Part, class Member, class T>
-// absent: as a Part begins
+// The default is the initial value of the member in Part.
 Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning) {
     return detail::key(name, member, kind, meaning, detail::default_text(Part{}.*member), false);
 }
@@ -173,7 +173,7 @@ void read_keys(const Entry& e, const std::vector<Key<Part>>& keys, Part& part) {
         else if (const auto v = e.at(k.words.name)) k.read(part, *v);
 }
 
-// A table with these keys; `check` is what no key can tell alone.
+// A table with these keys; `check` applies rules that involve several keys.
 template <class Part>
 Kind<Part> table(std::vector<Key<Part>> keys, void (*check)(Part&, const Entry&) = nullptr) {
     std::vector<KeyWords> words = words_of(keys);
@@ -187,7 +187,7 @@ Kind<Part> table(std::vector<Key<Part>> keys, void (*check)(Part&, const Entry&)
             std::move(words)};
 }
 
-// [[name]] tables. No two may have one name.
+// [[name]] tables. No two may have the same name.
 template <class Part>
 Kind<std::vector<Part>> tables(const std::string& name, Kind<Part> one) {
     return {"[[" + name + "]] tables",

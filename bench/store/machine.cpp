@@ -53,7 +53,7 @@ namespace {
 nlohmann::ordered_json identity_of(const std::string& sources, const Machine& m) {
     return {"jvari", sources, m.compiler, m.flags, m.build, m.vectors};
 }
-// of a plugin's file, or of what a scheme from outside says
+// Hashes a plugin's file, or the contents that an external scheme declares.
 std::string contents_hash(const std::string& guest) {
     const Guest* known = find_guest(guest);
     return hash_of(known && !known->contents.empty() ? known->contents : read_whole(guest));
@@ -73,7 +73,7 @@ std::string program_identity(const std::vector<std::string>& plugins, const Mach
 }
 
 namespace {
-std::string command() {  // as typed, by the kernel's account
+std::string command() {  // command line as typed, from the kernel
     std::ifstream words("/proc/self/cmdline", std::ios::binary);
     std::string text, word;
     for (bool first = true; std::getline(words, word, '\0'); first = false) {
@@ -119,7 +119,7 @@ nlohmann::ordered_json made_by() {
         {"sources", m.cell_sources}, {"vectors", m.vectors}, {"cpu", m.cpu},
         {"cores", m.cores},          {"system", m.system},   {"date", now_utc()}};
     provenance["command"] = command();
-    // of the last minute
+    // average load over the last minute
     if (double load[3]; getloadavg(load, 3) > 0)
         provenance["load"] = std::round(100 * load[0]) / 100;
     for (const Guest* g : guests())

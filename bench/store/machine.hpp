@@ -1,4 +1,4 @@
-// What a result depends on beside its scene: the program, its compiler and the machine.
+// Everything a result depends on besides its scene: the program, its compiler and the machine.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,41 +8,42 @@
 namespace jvari::bench::store {
 
 struct Machine {
-    // commit: git describe when built, "unknown" outside git
+    // commit: git describe at build time, "unknown" outside git
     std::string version, commit;
-    // hashes of the sources that a run's numbers depend on, and of those that measure it too
+    // hashes: run_sources covers the sources that determine a run's numbers, cell_sources also
+    // those that measure
     std::string run_sources, cell_sources;
     std::string compiler, flags, build;  // build: CMake's build type
-    std::string vectors;                 // the instructions that the kernels chose
+    std::string vectors;                 // instruction set chosen by the kernels
     std::string cpu, system;
     int cores;
 };
 const Machine& machine();
 
-// What numbers depend on beside scene and settings, as JSON: sources, compiler, flags, build type,
-// vector instructions, plugins by their contents. What was recorded by another is not this
-// program's. Commit and version say nothing here: they may change with a word of the documentation,
-// and two builds of uncommitted changes share them.
-// of a run, with the plugins loaded
+// Identity of a run's program and loaded plugins, as JSON: everything numbers depend on besides
+// scene and settings. This is sources, compiler, flags, build type, vector instructions, and the
+// contents of plugins. A record with a different identity was made by another program. Commit and
+// version are not included: an edit of the documentation may change them, and two builds of
+// uncommitted changes share them.
 std::string run_identity(const Machine& = machine());
-// of a cell
+// Identity of a cell's program.
 std::string program_identity(const std::vector<std::string>& plugins, const Machine& = machine());
 
-// What a clock's figures depend on beside that. `name` is the same on machines of one kind with one
-// program: costs compare there alone.
+// Conditions that timings additionally depend on. `name` is the same for all machines of one kind
+// with the same program; costs are comparable only under the same name.
 struct Stamp {
     std::string name;      // "AMD EPYC 7763, 2 cores, AVX2, GNU 12.2.0 -O3 -ffp-contract=off"
     std::string host, at;  // at: now_utc
-    // the average number of running processes over a minute, "" where it is not known
+    // average number of running processes over a minute, "" if unknown
     std::string load;
-    std::string governor;  // of the clock of its processors: "performance"; "" likewise
+    std::string governor;  // frequency governor of the processors: "performance"; "" if unknown
 };
 Stamp stamp_now();
 nlohmann::ordered_json json_of(const Stamp&);
-Stamp stamp_of(const nlohmann::ordered_json&);  // throws std::exception where it is none
+Stamp stamp_of(const nlohmann::ordered_json&);  // throws std::exception if invalid
 
-// All of it, the date and the plugins loaded (file, hash, compiler, flags) as an object: what a
-// manifest begins with.
+// Provenance for the start of a manifest: all of the above, the date and the loaded plugins (file,
+// hash, compiler, flags) in one object.
 nlohmann::ordered_json made_by();
 std::string now_utc();  // "2016-05-04T12:00:00Z"
 

@@ -61,7 +61,7 @@ Table Table::only(const std::vector<std::string>& names) const {
 }
 
 namespace {
-bool is_marked(const std::string& field) {  // in a file: "'=1+1"
+bool is_marked(const std::string& field) {  // marked field in a file: "'=1+1"
     return field.size() > 1 && field[0] == '\'' &&
            std::string_view("=+-@'\t").find(field[1]) != std::string_view::npos;
 }
@@ -168,7 +168,7 @@ namespace {
     throw UsageError(fmt::format("{}/{}: {}", folder.path.string(), file, why));
 }
 
-std::optional<std::string> content(const fs::path& file) {  // nothing where there is none
+std::optional<std::string> content(const fs::path& file) {  // nothing for a missing file
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return std::nullopt;
     return read_whole(file);

@@ -1,6 +1,6 @@
-// Results are rows: a table of text with named columns, and CSV (RFC 4180) to and fro. A text that
-// a spreadsheet would take for a formula, because it begins with = + - @ and is no number, has an
-// apostrophe in front in the file; so has one that begins with an apostrophe.
+// Results are rows: a table of text with named columns, written and read as CSV (RFC 4180). A
+// spreadsheet would take a text that begins with = + - @ and is no number for a formula, so the
+// file puts an apostrophe in front. Texts that begin with an apostrophe get another one.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 
 namespace jvari::bench::store {
 
-// A number as the shortest text that reads back as itself; "" for NaN, "inf" for an infinity.
+// Shortest text that reads back as the same number; "" for NaN, "inf" for an infinity.
 std::string text_of(double);
-double number_of(const std::string&);  // NaN for "" and for what is no number
+double number_of(const std::string&);  // NaN for "" and for any text that is no number
 
-// of a scheme: name, value
+// Options of a scheme: name, value.
 using Options = std::vector<std::pair<std::string, std::string>>;
 // "control=none tolerance=1e-9"
 std::string options_text(const Options&);
@@ -29,28 +29,28 @@ struct Table {
     std::vector<std::vector<std::string>> rows;
 
     int column(const std::string& name) const;  // -1: absent
-    // "" where the column is absent
+    // "" for an absent column
     const std::string& at(std::size_t row, const std::string& name) const;
     double number(std::size_t row, const std::string& name) const {
         return number_of(at(row, name));
     }
-    // those columns, in that order; absent ones are left out
+    // Selects columns in the given order; absent ones are left out.
     Table only(const std::vector<std::string>& names) const;
 };
 
-std::string quoted(const std::string& field);    // as CSV writes it
+std::string quoted(const std::string& field);    // CSV form
 nlohmann::ordered_json rows_json(const Table&);  // one object per row, numbers as numbers
 std::string csv(const Table&);
-// throws std::runtime_error with the line where a row has too few or too many fields
+// Throws std::runtime_error with the line if a row has too few or too many fields.
 Table read_csv(const std::string& text);
 
-// A folder of results: its manifest and its tables. What cannot be read throws UsageError with the
-// folder's name, the file and why.
+// A folder of results: its manifest and its tables. An unreadable file throws UsageError with the
+// folder's name, the file and the reason.
 struct Folder {
     std::filesystem::path path;
 
     nlohmann::ordered_json manifest() const;
-    Table table(const std::string& file) const;  // FILE.csv; empty where there is none
+    Table table(const std::string& file) const;  // FILE.csv; empty if there is none
 };
 
 }  // namespace jvari::bench::store

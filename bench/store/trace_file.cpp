@@ -32,7 +32,7 @@ Sound sound_of(std::span<const double> signal, double rate) {
         if (!std::isfinite(v)) return {};
         peak = std::max(peak, std::abs(v));
     }
-    // what players take
+    // Players accept only these rates [Hz].
     if (!(peak > 0) || rate != std::round(rate) || rate < 3000 || rate > 768000) return {};
     Sound s{rate, peak, {}};
     for (const double v : signal)
@@ -61,7 +61,7 @@ Signal read_signal(const fs::path& path,
     struct Close {
         void operator()(SNDFILE* f) const { sf_close(f); }
     };
-    std::error_code error;  // a pipe would be waited for
+    std::error_code error;  // opening a pipe would block
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("which is no file");
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, Close> file(sf_open(path.c_str(), SFM_READ, &info));

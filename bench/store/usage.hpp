@@ -1,4 +1,4 @@
-// What a caller asked for and cannot have.
+// Errors for requests that cannot be met.
 #pragma once
 
 #include <stdexcept>
@@ -9,17 +9,17 @@
 
 namespace jvari::bench::store {
 
-// The caller asked for something that cannot be: the message says what was expected.
+// The request is invalid; the message says which input was expected.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What was to be written could not be: a full disk, a reader that went away.
+// The output could not be written: a full disk, or a reader that went away.
 struct Unwritable : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// "unknown scheme "modal_two": did you mean modal_two_point?", or what there is.
+// "unknown scheme "modal_two": did you mean modal_two_point?", or the list of known names.
 inline std::string unknown(const std::string& kind, const std::string& word,
                            const std::vector<std::string>& known) {
     const std::string near = nearest(word, known);

@@ -17,7 +17,7 @@ namespace jvari::bench::store {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char* nobody = "another process";  // of a file that holds no words
+constexpr const char* nobody = "another process";  // stands for the name if the file is empty
 
 enum class Taken { here, elsewhere, impossible };
 
@@ -37,7 +37,7 @@ std::string printable(std::string text) {
     return text;
 }
 
-std::string name_in(int file) {  // of its holder, who may be about to write it
+std::string name_in(int file) {  // holder's name; the holder may not have written it yet
     char text[300];
     const ssize_t n = pread(file, text, sizeof text, 0);
     const std::string name = printable({text, n > 0 ? static_cast<std::size_t>(n) : 0});
@@ -50,7 +50,8 @@ std::string own_name() {
     return fmt::format("process {} on {}", getpid(), host);
 }
 
-// a holder removes its lock: who then gets it has what nobody else will find
+// Compares the open file with the file at `path`. A holder removes its lock file at the end, so
+// another process may lock a file that nobody else will find.
 bool stands_at(const fs::path& path, int file) {
     struct stat own = {}, there = {};
     return fstat(file, &own) == 0 && stat(path.c_str(), &there) == 0 &&
@@ -62,7 +63,7 @@ FileLock::FileLock(const fs::path& file, const std::string& doing, bool wait)
     : path_(file.string() + ".lock") {
     constexpr int most_removed = 100;
     constexpr std::chrono::milliseconds shortest{20}, longest{250};
-    // no fcntl waits for a limited time: a cancelled task would wait on
+    // Polls, because no fcntl call waits for a limited time and a cancelled task would wait on.
     std::optional<Wait> waits;
     auto pause = shortest;
     for (int removed = 0; removed < most_removed && !file.empty();) {
@@ -88,7 +89,7 @@ FileLock::FileLock(const fs::path& file, const std::string& doing, bool wait)
     }
     if (!locked()) return;
     const std::string who = own_name();
-    // a full disk: it holds without a name
+    // On a full disk the lock holds without a name.
     if (ftruncate(file_, 0) != 0 || pwrite(file_, who.data(), who.size(), 0) < 0) errno = 0;
     removed_too_.emplace([this] { unlink(path_.c_str()); });
 }
@@ -126,7 +127,7 @@ bool SharedLock::take(const std::string& doing) {
         taken = store::take(file, F_RDLCK);
         there = name_in(file);
     } else if (stands_at(path_, file)) {
-        // a full disk: it holds without words
+        // On a full disk the lock holds without text.
         if (ftruncate(file, 0) != 0 || pwrite(file, doing.data(), doing.size(), 0) < 0) errno = 0;
         taken = store::take(file, F_RDLCK);
     }

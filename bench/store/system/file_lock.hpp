@@ -1,11 +1,12 @@
-// One process at a time computes what several want. The lock is an open-file-description lock
-// (fcntl, F_OFD_SETLK) on FILE.lock: the system releases it when its holder dies, network file
-// systems ask their server for it, and it holds between threads as well.
+// Locks let one process at a time compute a result that several processes want. The lock is an
+// open-file-description lock (fcntl, F_OFD_SETLK) on FILE.lock. The system releases the lock when
+// its holder dies, network file systems ask their server for it, and it works between threads as
+// well.
 //
-// No two can wait for each other: who waits for a lock holds none but of an earlier kind in this
-// order: the tables of a folder, a certificate, the costs of a folder, a boundary or a failure of a
-// map, a reference of a study, a reference of the user's cache, a job. The holder of a job waits
-// for nothing.
+// Deadlock is impossible, because locks are taken in one order: the tables of a folder, a
+// certificate, the costs of a folder, a boundary or a failure of a map, a reference of a study, a
+// reference in the user's cache, a job. While waiting for a lock a process holds only locks of
+// earlier kinds. The holder of a job waits for nothing.
 #pragma once
 
 #include <filesystem>
@@ -20,12 +21,14 @@ namespace jvari::bench::store {
 
 class FileLock {
 public:
-    // Takes the lock of `file`. Where another process or thread has it, waits until it is free, or
-    // does without (`elsewhere`). `doing` is what the holder does: "runs free_string:
-    // modal_two_point". Where no lock can be had, there is none: in a folder that cannot be
-    // written, on a file system without locks, where something stands in its place that is no
-    // file, or for the file "". So a lock saves work: what it guards appears by rename, and two
-    // who compute it write the same.
+    // Takes the lock for `file`. If another process or thread holds the lock, waits until it is
+    // free, or continues without a lock (`elsewhere`). `doing` says what the holder does: "runs
+    // free_string: modal_two_point".
+    //
+    // No lock is taken if none is possible: in a folder without write permission, on a file system
+    // without locks, if something other than a file stands at the path, or for the file "". A lock
+    // therefore only saves work: results appear by rename, and two processes that compute the same
+    // result write the same file.
     FileLock(const std::filesystem::path& file, const std::string& doing, bool wait = true);
     ~FileLock();
     FileLock(const FileLock&) = delete;
@@ -40,23 +43,25 @@ private:
     std::optional<WhenInterrupted> removed_too_;
 };
 
-// For who is not within side_by_side: the listener hears for whom it waits, and can end that.
+// For callers outside side_by_side: the listener is told who holds the lock, and can end the wait.
 std::unique_ptr<FileLock> lock_of(const std::filesystem::path& file, const std::string& doing,
                                   const Listener&);
 
-// A lock that several hold at once who do the same, by its words. The file at that path holds them,
-// and goes with its last holder.
+// Lock shared by all holders that do the same work, identified by the text `doing`. The file at the
+// path contains the text, and its last holder removes the file.
 class SharedLock {
 public:
-    // Of "" none, as of a FileLock.
+    // No lock is taken for the file "", as in FileLock.
     SharedLock(std::filesystem::path file, const std::string& doing);
     ~SharedLock();
     SharedLock(const SharedLock&) = delete;
     SharedLock& operator=(const SharedLock&) = delete;
-    const std::string& others() const { return others_; }  // do what, if not the same; else ""
+    // work of the other holders if different, else ""
+    const std::string& others() const { return others_; }
 
 private:
-    bool take(const std::string& doing);  // false: another was just taking or removing it
+    // false: another process was just taking or removing the lock
+    bool take(const std::string& doing);
     void remove_if_last() const noexcept;
 
     const std::filesystem::path path_;

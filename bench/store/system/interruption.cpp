@@ -15,30 +15,30 @@ namespace jvari::bench::store {
 
 namespace {
 struct Heeded {
-    std::mutex mutex;  // of what follows
+    std::mutex mutex;  // guards the members below
     std::condition_variable changed;
     int undisturbed = 0;
     bool ending = false;
     std::list<std::function<void()>> last_words;  // newest first
 };
 Heeded& heeded() {
-    // outlives the end of main, during which there may still be an interruption
+    // Never destroyed, because an interruption may still arrive after the end of main.
     static Heeded& h = *new Heeded;
     return h;
 }
 
 [[noreturn]] void end_by(int signal, const sigset_t& signals) {
-    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);  // a second one does what it does by default
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);  // a second signal has its default effect
     Heeded& h = heeded();
     std::unique_lock lock(h.mutex);
     h.ending = true;
     h.changed.wait(lock, [&h] { return h.undisturbed == 0; });
     for (const auto& word : h.last_words) try {
             word();
-        } catch (const std::exception&) {  // said or not, this is the end
+        } catch (const std::exception&) {  // ignored: the program ends in any case
         }
     raise(signal);
-    _exit(128 + signal);  // the first process of a container is not ended by a signal
+    _exit(128 + signal);  // signals do not end the first process of a container
 }
 }  // namespace
 
@@ -67,7 +67,7 @@ Undisturbed::~Undisturbed() {
     Heeded& h = heeded();
     std::unique_lock lock(h.mutex);
     if (--h.undisturbed == 0) h.changed.notify_all();
-    h.changed.wait(lock, [&h] { return !h.ending; });  // that is the end
+    h.changed.wait(lock, [&h] { return !h.ending; });  // never returns
 }
 
 WhenInterrupted::WhenInterrupted(std::function<void()> word) {
@@ -81,7 +81,7 @@ WhenInterrupted::~WhenInterrupted() {
 }
 
 namespace {
-thread_local double waited = 0;  // [s], for programs that have ended
+thread_local double waited = 0;  // [s] waited for programs that have ended
 thread_local const WaitsForAnother* waits = nullptr;
 }  // namespace
 

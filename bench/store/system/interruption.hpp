@@ -1,6 +1,6 @@
-// Ctrl-C and its like (SIGINT, SIGTERM, SIGHUP): a file that is being written is finished and no
-// further one is begun, last words are said, and the program ends by that same signal, so that its
-// caller sees why. A second one ends it where it stands.
+// Handles Ctrl-C and similar signals (SIGINT, SIGTERM, SIGHUP). A file in progress is finished and
+// no further file is begun; then the registered functions run. The program ends by the same signal,
+// so its caller sees the reason. A second signal ends the program at once.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@
 
 namespace jvari::bench::store {
 
-// Once, before there is any other thread: blocks these signals in this thread and so in all to
-// come, and waits for them in one of its own. A signal that the caller has set to be ignored
-// (nohup, a script's job in the background) stays ignored.
+// Called once, before any other thread starts. Blocks these signals in this thread, and so in all
+// later threads, and waits for them in a thread of its own. A signal that the caller has set to be
+// ignored (nohup, a script's job in the background) stays ignored.
 void heed_interruptions();
 
-// While one lives an interruption waits. Once there is one, whoever ends an Undisturbed or would
-// begin one waits for the program's end. Never one within another.
+// Delays interruptions during its lifetime. After an interruption, the end or the start of any
+// Undisturbed blocks until the program ends. Instances must not be nested.
 class Undisturbed {
 public:
     Undisturbed();
@@ -26,8 +26,8 @@ public:
     Undisturbed& operator=(const Undisturbed&) = delete;
 };
 
-// Called by an interruption within its life, on another thread, the newest first. It may write to a
-// terminal, not to a file.
+// Registers a function that an interruption calls on another thread, the newest first. The function
+// may write to a terminal, but not to a file.
 class WhenInterrupted {
 public:
     explicit WhenInterrupted(std::function<void()>);
@@ -39,16 +39,16 @@ private:
     std::list<std::function<void()>>::iterator place_;
 };
 
-// ---- A limit of a run's own processor time, which does not depend on what else the machine does.
-// Of a program that a run waits for (program.hpp) it is the time on the clock.
+// ---- Limits a run's own processor time, which does not depend on other programs. While a run
+// waits for another program (program.hpp), elapsed time counts instead.
 
 struct PastItsLimit : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-double processor_seconds();  // that this thread has computed, and has waited for other programs
+double processor_seconds();  // this thread's computing time, plus its waits for other programs [s]
 
-class WaitsForAnother {  // one at a time on a thread: its life counts as computing
+class WaitsForAnother {  // lifetime counts as computing; at most one per thread
 public:
     WaitsForAnother();
     ~WaitsForAnother();
@@ -60,9 +60,9 @@ private:
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// `progress`, which throws PastItsLimit once this thread has computed `seconds` more; or, once it
-// has computed `judged_after` more, where at this pace its end would take longer than `seconds`. To
-// be called on the thread that it was made on.
+// Wraps `progress` and throws PastItsLimit once this thread has computed for `seconds` more. After
+// `judged_after` more seconds of computing, it also throws if the run would take longer than
+// `seconds` at its present pace. Must be called on the thread that created it.
 std::function<void(long done, long rows)> within(double seconds,
                                                  std::function<void(long done, long rows)> progress,
                                                  double judged_after = HUGE_VAL);

@@ -1,5 +1,5 @@
-// Who is told how a long computation goes. This one hears nothing: a program that calls jvari as a
-// library passes it, or one of its own.
+// Receives the progress of a long computation. This base class ignores everything: a program that
+// uses jvari as a library passes this class, or derives from Listener.
 #pragma once
 
 #include <memory>
@@ -7,22 +7,23 @@
 
 namespace jvari::bench::store {
 
-// How far one job of several parts is; it ends with the job. Called by one thread at a time.
+// Progress of one job with several parts. Progress ends with its lifetime. One thread at a time
+// makes the calls.
 class Progress {
 public:
     Progress() = default;
     virtual ~Progress() = default;
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    // The part that is done, from 0 to 1, and what is going on. As often as one likes: a listener
-    // shows what it can.
+    // Shows the finished fraction, from 0 to 1, and the present activity. May be called at any
+    // frequency: a listener shows only as much as it can.
     virtual void show(double /*fraction*/, const std::string& /*what*/ = {}) {}
 };
 
 class Listener {
 public:
     virtual ~Listener() = default;
-    // a message of one line or more, without its last line's end
+    // The message has one line or more, without a final line break.
     virtual void note(const std::string& /*text*/) const {}
     virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const {
         return std::make_unique<Progress>();

@@ -17,11 +17,13 @@
 namespace jvari::bench::store {
 
 namespace {
-constexpr int look_ms = 20;                 // between two looks at a program that says nothing
-constexpr std::size_t most_text = 1 << 16;  // of what it says, and as much as a pipe holds
+constexpr int look_ms = 20;  // interval between two polls of a silent program
+// the last bytes kept from the output, also the capacity of a pipe
+constexpr std::size_t most_text = 1 << 16;
 
-// This program blocks Ctrl-C (interruption.hpp) and ignores the signals of failed writing, which
-// are errors to it: not so the other.
+// Restores the default signal handling for the other program. This program blocks Ctrl-C
+// (interruption.hpp) and ignores the signals of failed writing, and handles failed writing by error
+// codes.
 void unblock_signals() {
     sigset_t none;
     sigemptyset(&none);
@@ -30,10 +32,11 @@ void unblock_signals() {
     signal(SIGXFSZ, SIG_DFL);
 }
 
-// In the child of a program with threads: calls alone that are safe in a signal handler.
+// Runs in the forked child of a program with threads, where only calls that are safe in a signal
+// handler are allowed.
 [[noreturn]] void become(char* const* argv, int out, pid_t parent) {
     setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // until its watcher runs
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // protects until the watcher runs
     if (getppid() != parent) _exit(127);
     unblock_signals();
     dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), 0);
@@ -43,7 +46,7 @@ void unblock_signals() {
     _exit(127);
 }
 
-class Group {  // of a program and what that starts
+class Group {  // process group: a program and its descendants
 public:
     Group(char* const* argv, int out) {
         const pid_t parent = getpid();
@@ -51,7 +54,7 @@ public:
         leader_ = fork();
         if (leader_ == 0) become(argv, out, parent);
         if (leader_ < 0) return;
-        setpgid(leader_, leader_);  // whichever of the two comes first
+        setpgid(leader_, leader_);  // called in parent and child, because either may run first
         killed_too_.emplace([leader = leader_] { kill(-leader, SIGKILL); });
     }
     ~Group() {
@@ -62,13 +65,14 @@ public:
     bool runs() const { return leader_ > 0; }
     pid_t leader() const { return leader_; }
 
-    // its leader, which is not waited for yet: until then nobody else gets the number of the group
+    // Tests the leader without reaping the process: until then no other group can get the same
+    // number.
     bool has_ended() const {
         siginfo_t info{};
         return waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
                info.si_pid == leader_;
     }
-    int end() {  // the exit code of its leader
+    int end() {  // returns the leader's exit code
         kill(-leader_, SIGKILL);
         killed_too_.reset();
         const pid_t leader = std::exchange(leader_, -1);
@@ -83,8 +87,8 @@ private:
     std::optional<WhenInterrupted> killed_too_;
 };
 
-// Ends a group where this program dies, however it dies: a shell that reads from a pipe whose other
-// end this program alone has. (PR_SET_PDEATHSIG reaches the leader, and none that it starts.)
+// Kills a group if this program dies in any way. A shell reads from a pipe, and only this program
+// holds the other end. (PR_SET_PDEATHSIG reaches the leader, but not its children.)
 class Watcher {
 public:
     explicit Watcher(pid_t leader) {
@@ -139,9 +143,10 @@ public:
 
     void wait() const {
         pollfd there{ends_[0], POLLIN, 0};
-        poll(&there, open_ ? 1 : 0, open_ ? look_ms : 1);  // closed: most likely it ends
+        // a closed pipe usually means that the program ends soon
+        poll(&there, open_ ? 1 : 0, open_ ? look_ms : 1);
     }
-    void take(std::string& text) {  // what it holds
+    void take(std::string& text) {  // appends available output
         char part[most_text];
         const ssize_t n = open_ ? read(ends_[0], part, sizeof part) : 0;
         open_ = n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));

@@ -1,4 +1,4 @@
-// Runs another program and waits for it: node for pictures, a scheme from outside.
+// Runs another program and waits for it: node for pictures, or an external scheme.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,19 @@
 namespace jvari::bench::store {
 
 struct Said {
-    // its exit code, 127 where it could not be found, 128 + the signal that ended it, or -errno
-    // where none was started
+    // Exit code, 127 if the program was not found, 128 + the signal that ended it, or -errno if it
+    // could not be started.
     int code;
-    std::string text;  // what it wrote to its standard output and error: the last 64 kB of it
+    std::string text;  // last 64 kB of standard output and error
 };
 
-// `words` begin with a name to be found on the PATH. Its input is empty.
-// Ctrl-C and signals of failed writing are to it what they are to any program.
+// `words` begin with a program name, which is searched on the PATH. The program's input is empty.
+// Ctrl-C and the signals of failed writing have their default effects on the program.
 //
-// It leads a process group, which is killed when it has ended, when `unwanted`, which is asked
-// every few hundredths of a second, is true, and at an interruption; it is killed itself however
-// else this program ends. What it started and left behind is not waited for. The time that it takes
-// counts as computed by this thread (interruption.hpp).
+// The program leads a process group. The group is killed when its leader has ended, when `unwanted`
+// returns true (polled every few hundredths of a second), and at an interruption; it is also killed
+// if this program ends in any other way. Processes left behind by the leader are not waited for.
+// The elapsed time counts as computing time of this thread (interruption.hpp).
 Said run_program(std::vector<std::string> words, const std::function<bool()>& unwanted = {});
 
 }  // namespace jvari::bench::store

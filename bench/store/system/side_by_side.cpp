@@ -14,7 +14,7 @@ namespace jvari::bench::store {
 using namespace std::chrono_literals;
 
 namespace {
-thread_local Done* own_task = nullptr;  // of this thread
+thread_local Done* own_task = nullptr;  // task on this thread
 }
 
 class Pool {
@@ -104,7 +104,8 @@ private:
         if (failure_ || finished_ == count()) changed_.notify_all();
     }
 
-    // For which process every task waits that is under way; "" where one does not wait.
+    // Returns the process that all tasks in progress wait for; "" if at least one task does not
+    // wait.
     std::string awaited() const {
         std::string who;
         std::size_t waiting = 0;
@@ -115,7 +116,7 @@ private:
         }
         return waiting == under_way_ ? who : "";
     }
-    void note(const std::string& who) {  // once
+    void note(const std::string& who) {  // reports each process once
         if (std::exchange(awaited_, who) != who) since_ = Clock::now();
         if (who.empty() || Clock::now() - since_ < 2s || who == noted_) return;
         noted_ = who;
@@ -131,7 +132,7 @@ private:
         for (std::size_t i = 0; i < count(); ++i) {
             all += sizes_[i];
             so_far += sizes_[i] * done_[i];
-            // negative: when it began
+            // Negative while the task runs: minus its start time.
             const double s = seconds_[i], taken = s < 0 ? elapsed + s : s;
             if (taken > longest) longest = taken, slowest = i;
         }
@@ -154,7 +155,7 @@ private:
     std::atomic<bool> cancelled_ = false;
     std::string awaited_, noted_;
     Clock::time_point since_;
-    std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // guards the members below
     std::condition_variable changed_;
     std::deque<std::size_t> postponed_;
     std::size_t next_ = 0, under_way_ = 0, finished_ = 0, failed_ = static_cast<std::size_t>(-1);
