@@ -1,5 +1,5 @@
-// What the module does: run, run_many, compare, report, suite, trim. Each hands its arguments to
-// the engine and its result back.
+// Functions of the module: run, run_many, compare, report, suite, trim. Each passes its arguments
+// to the engine and returns the result.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -40,13 +40,13 @@ namespace jvari::python {
 
 using namespace bench;
 
-// files; read and written by who has the interpreter's lock
+// Plugin paths; accessed only with the interpreter's lock.
 inline std::vector<std::string>& all_plugins() {
     static std::vector<std::string> paths;
     return paths;
 }
 
-inline std::vector<std::string> plugins() {  // those whose schemes can run here
+inline std::vector<std::string> plugins() {  // plugins with schemes that can run here
     std::vector<std::string> here = all_plugins();
     if (in_a_scheme())
         std::erase_if(here, [](const std::string& p) { return p.starts_with("scheme "); });
@@ -85,7 +85,7 @@ inline Job job_of(const std::string& scheme, double rate, std::optional<double> 
                                          options_of(options))};
 }
 
-// With `within`, or without a scheme, the settings are those of compare::advise.
+// Chooses settings by compare::advise, with `within` or without a scheme.
 inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string& scheme,
                                          std::optional<double> rate, int modes,
                                          std::optional<double> duration,
@@ -124,7 +124,8 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
     });
 }
 
-// Relative L2 of each tap over the windows of Trust, None where it is unknown; and by what.
+// Relative L2 uncertainty for each tap over the windows of Trust, None if unknown; and how it was
+// determined.
 inline std::string uncertainty_of(const study::Trust& t, const Scene& scene) {
     constexpr std::size_t certificate = std::string_view("certificate_").size();
     nlohmann::ordered_json j{{"against", t.against}, {"doubled", t.doubled}};
@@ -137,7 +138,7 @@ inline std::string uncertainty_of(const study::Trust& t, const Scene& scene) {
     return store::indented(j);
 }
 
-// The motion that compare measures errors against.
+// Returns the reference solution that compare uses for errors.
 inline std::shared_ptr<TakenRun> reference_of(const py::object& of, const std::string& reference,
                                               int modes, std::optional<double> duration,
                                               std::optional<double> tap_rate,
@@ -211,7 +212,8 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
     return out;
 }
 
-// The rows that compare or judge give are a list that can be reported: it keeps what they are of.
+// Rows returned by compare or judge are a list that `report` can draw: the list keeps its
+// comparison.
 struct Compared {
     compare::Comparison comparison;
     compare::CompareRequest request;

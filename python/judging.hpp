@@ -1,5 +1,5 @@
-// What the module does for schemes of one's own: problem, judge, check, and registering a class as
-// a scheme.
+// Module functions for schemes of one's own: problem, judge, check, and registering a class as a
+// scheme.
 #pragma once
 
 #include "bench/check/promise.hpp"
@@ -32,7 +32,7 @@ inline py::object problem_of(const py::object& of, double rate, int modes,
             .arrays());
 }
 
-// jvari.scheme("mine", ...): what it gives takes the class, registers it and gives it back.
+// Decorator jvari.scheme("mine", ...): takes the class, registers it and returns it unchanged.
 inline py::object scheme_decorator(const std::string& name,
                                    const std::vector<std::string>& represents,
                                    const std::string& balance, const std::string& source,
@@ -64,8 +64,8 @@ inline py::list check_rows_of(const std::string& scheme) {
     return rows;
 }
 
-// A trace: rows x taps, or rows of the only tap; or {tap: rows}, of which further names are not
-// looked at.
+// Reads a trace: rows x taps, or rows of the only tap; or {tap: rows}, in which further names are
+// ignored.
 inline Trace trace_of(const py::object& given, const Scene& scene, double tap_rate, double rate) {
     const std::string what = "trace at " + store::text_of(rate) + " Hz";
     std::vector<Numbers> columns;
@@ -123,7 +123,7 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces,
     const judge::Rows rows = judge::rows_for(r, judged);
     judge::Candidate c;
     c.name = name;
-    struct Lent {  // the candidate stays to the end of the process, not what it was judged by
+    struct Lent {  // the candidate lives until the process ends, but its traces are freed here
         std::vector<std::shared_ptr<Trace>> traces;
         ~Lent() {
             for (const auto& t : traces) *t = {};

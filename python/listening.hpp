@@ -1,4 +1,5 @@
-// The engine at work for Python: the interpreter's lock released, Ctrl-C heard, notes as warnings.
+// Runs the engine for Python: releases the interpreter's lock, handles Ctrl-C, and issues notes as
+// warnings.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -18,22 +19,22 @@ namespace jvari::python {
 
 namespace py = pybind11;
 
-// What Python wants to raise, and the module raises there. No std::exception: nothing on the way
-// takes it for a failure of its own.
+// Carries a Python exception through the engine to the module, which raises it. Not derived from
+// std::exception, so no code in between mistakes it for its own failure.
 struct Raised {
     explicit Raised(py::error_already_set e) : error(std::move(e)) {}
     py::error_already_set error;
 };
 
-// Of calls that compute. The interpreter waits for them before it leaves: their threads could not
-// end without it.
+// Calls that compute. Before exit the interpreter waits for them: their threads could not end
+// without the interpreter.
 struct Calls {
     int under_way = 0;
     bool leaving = false;
-    // within a scheme, where nothing can be thrown: the next look raises it
+    // Exception from within a scheme, where throwing is impossible: the next check raises it.
     std::optional<Raised> raised;
 };
-inline Calls& calls() {  // read and written by who has the interpreter's lock
+inline Calls& calls() {  // accessed only with the interpreter's lock
     static Calls c;
     return c;
 }
@@ -45,15 +46,15 @@ inline void wait_for_calls() {
     }
 }
 
-// Whether Python code of a scheme runs on this thread: a scheme in Python cannot run one, or it
-// might run itself without end.
+// True if Python code of a scheme runs on this thread: a scheme in Python cannot run another,
+// because it might run itself without end.
 inline bool& in_a_scheme() {
     thread_local bool inside = false;
     return inside;
 }
 
-// Ctrl-C and other signals of Python, on the thread that called; on any other that the interpreter
-// leaves.
+// Raises Ctrl-C and other Python signals on the calling thread; on any other thread only the exit
+// of the interpreter.
 inline void look_for_signals() {
     const py::gil_scoped_acquire lock;
     if (auto& there = calls().raised) throw Raised(*std::exchange(there, {}));
@@ -69,7 +70,7 @@ class PythonListener : public bench::store::Listener {
 public:
     void note(const std::string& text) const override {
         const py::gil_scoped_acquire lock;
-        // warnings are errors here
+        // Warnings may be set to be errors.
         if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0)
             throw Raised(py::error_already_set());
     }
@@ -84,7 +85,7 @@ auto unlocked(Work work) {
     struct UnderWay {
         UnderWay() { ++calls().under_way; }
         ~UnderWay() {
-            if (calls().under_way > 0) --calls().under_way;  // 0 in the child of a fork
+            if (calls().under_way > 0) --calls().under_way;  // 0 in a forked child
         }
     } const under_way;
     const auto at_work = [&] {
@@ -101,12 +102,12 @@ auto unlocked(Work work) {
             return done;
         }
     } catch (...) {
-        look_for_signals();  // what was raised comes first
+        look_for_signals();  // raised Python exceptions come first
         throw;
     }
 }
 
-// The same; KeyboardInterrupt says what `kept` says.
+// Runs unlocked; KeyboardInterrupt gets the text of `kept`.
 template <class Work, class Kept>
 auto unlocked(Work work, Kept kept) {
     try {

@@ -1,6 +1,6 @@
 // The Python module: scenes, runs, comparisons, suites and trims as values. jvari.pyi has the
-// types; shapes and units stand in the docstrings. What the engine refuses is an exception with its
-// sentence.
+// types; shapes and units stand in the docstrings. Refusals by the engine become exceptions with
+// the same sentence.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -15,7 +15,8 @@ namespace py = pybind11;
 using namespace jvari;
 
 namespace {
-// What the module alone makes: without a constructor, and without an object that was never made.
+// Forbids construction from Python: only the module creates objects of the class, so none is left
+// uninitialised.
 template <class Class>
 void has_no_constructor(const Class& c) {
     reinterpret_cast<PyTypeObject*>(c.ptr())->tp_new = [](PyTypeObject* type, PyObject*,
@@ -30,7 +31,7 @@ void raise_as(const py::handle& type, const std::exception& e) {
     PyErr_SetString(type.ptr(), e.what());
 }
 
-// The types lie in the module, which outlives all its callers.
+// Exception types belong to the module, which outlives all its callers.
 void translate_exceptions(py::module_& m) {
     static const py::handle usage =
         py::exception<bench::store::UsageError>(m, "UsageError", PyExc_ValueError).release();
@@ -287,7 +288,7 @@ PYBIND11_MODULE(jvari, m) {
     m.attr("__version__") = bench::store::machine().version;
     translate_exceptions(m);
     py::module_::import("atexit").attr("register")(py::cpp_function(&python::wait_for_calls));
-    // the threads of its calls are not in the child of a fork
+    // A forked child does not have the threads of the parent's calls.
     py::module_::import("os").attr("register_at_fork")(
         py::arg("after_in_child") = py::cpp_function([] { python::calls() = {}; }));
     add_scene(m);

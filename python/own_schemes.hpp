@@ -1,6 +1,6 @@
-// Schemes written in Python, and what they are made from: the problem as NumPy arrays. A class is
-// instantiated once for a problem and advanced block by block. What it raises ends that run
-// and stands in its row as the reason.
+// Schemes written in Python, and their input: the problem as NumPy arrays. A class is instantiated
+// once per problem and advanced block by block. An exception ends the run and stands in its row as
+// the reason.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -47,14 +47,14 @@ inline py::object namespace_of(const jvari_problem& p) {
     return py::module_::import("types").attr("SimpleNamespace")(**members);
 }
 
-struct PythonClass {  // of a scheme, kept for the life of the process as its guest is
+struct PythonClass {  // class of a scheme, kept until the process ends because its guest is
     std::string name, source;
     py::object python_class;
 };
 
-// The one way into the code of a scheme: with the interpreter's lock. What it raises is a failure
-// of that scheme, BadScheme with its sentence; what is no Exception of Python, KeyboardInterrupt or
-// SystemExit, ends the study.
+// Calls the code of a scheme, always through this function and with the interpreter's lock. A
+// Python Exception becomes a failure of the scheme: BadScheme with the same sentence.
+// KeyboardInterrupt and SystemExit are no Exception and end the study.
 template <class Act>
 auto in_scheme(const std::string& name, Act act) {
     const py::gil_scoped_acquire lock;
@@ -96,8 +96,8 @@ public:
         });
     }
 
-    // Its own reset(), where it has one; else it is made anew. What it has raised stays the reason
-    // of this run.
+    // Calls the scheme's own reset() if it has one; otherwise creates a new instance. An earlier
+    // exception stays the reason for this run.
     void reset() noexcept override {
         row_ = 0;
         if (!std::exchange(used_, false)) return;
@@ -134,7 +134,7 @@ public:
     }
 
 private:
-    // where it is what ends the study: no row is to be kept of it
+    // Waits while a raised exception ends the study, so that no row of the run is kept.
     static void wait_for_end(const Block& out) {
         const auto ends = [] {
             const py::gil_scoped_acquire lock;
@@ -147,13 +147,13 @@ private:
             of_.name, [this] { return shared(of_.python_class(namespace_of(problem_.arrays()))); });
     }
     template <class Act>
-    void attempt(Act act) noexcept {  // nothing more once it has failed
+    void attempt(Act act) noexcept {  // does nothing after a failure
         if (failure_) return;
         try {
             act();
         } catch (...) { failure_ = std::current_exception(); }
     }
-    static std::shared_ptr<py::object> shared(py::object o) {  // to be let go of on any thread
+    static std::shared_ptr<py::object> shared(py::object o) {  // may be released on any thread
         return {new py::object(std::move(o)), [](py::object* it) {
                     const py::gil_scoped_acquire lock;
                     delete it;
@@ -190,7 +190,7 @@ private:
     std::exception_ptr failure_;
 };
 
-// Registers the class in place of one of the same name; returns the path that its guest has.
+// Registers the class and replaces a class with the same name; returns the path of its guest.
 inline std::string add_class(const py::object& python_class, const std::string& name,
                              const std::vector<std::string>& represents, const std::string& balance,
                              const std::string& source, bool compiled) {
@@ -211,7 +211,7 @@ inline std::string add_class(const py::object& python_class, const std::string& 
     try {
         text += py::module_::import("inspect").attr("getsource")(python_class).cast<std::string>();
     } catch (py::error_already_set&) {
-        // typed into a console: nothing is kept of it but by its name and this process
+        // A class typed into a console has no source: only its name and this process identify it.
         text += std::to_string(reinterpret_cast<std::uintptr_t>(kept.get()));
     }
     std::string path = "scheme " + name;

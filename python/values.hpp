@@ -1,5 +1,5 @@
-// Python's values and the engine's: keys and options as text, scenes, tables as rows, columns of a
-// trace as arrays on its memory.
+// Converts between Python and the engine: keys and options as text, scenes, tables as rows, columns
+// of a trace as arrays on its memory.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -21,7 +21,7 @@ namespace jvari::python {
 
 namespace py = pybind11;
 
-// What cannot be is refused with what was found: repr(), shortened.
+// Refuses an invalid value and quotes it: repr(), shortened.
 [[noreturn]] inline void refuse(const std::string& what, const py::handle& found,
                                 const std::string& expected) {
     throw bench::store::UsageError(what + ": found " +
@@ -40,9 +40,9 @@ inline std::string path_text(const py::handle& value) {
     return py::module_::import("os").attr("fspath")(value).cast<std::string>();
 }
 
-// as an override or an option has it
+// Text for an override or an option.
 inline std::string text_of(const py::handle& value, int level = 0) {
-    constexpr int deepest = 16;  // as in scene files
+    constexpr int deepest = 16;  // same limit in scene files
     if (level > deepest)
         throw bench::store::UsageError("found lists nested deeper than " + std::to_string(deepest));
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
@@ -77,7 +77,7 @@ inline std::vector<bench::compare::SchemeOption> options_of(const py::dict& opti
     return all;
 }
 
-struct NamedScene {  // a scene with the name and overrides that it was read by
+struct NamedScene {  // a scene with its name and overrides
     std::string name;
     std::vector<std::string> set;  // "key.path=value"
     Scene scene;
@@ -113,7 +113,8 @@ inline py::object rows_of(const bench::store::Table& t) {
 
 using Column = py::array_t<double>;
 
-// Real numbers without a mask. Others are refused: a conversion would lose a part of them silently.
+// Accepts real numbers without a mask. Others are refused, because a conversion would silently lose
+// a part of them.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 inline Numbers numbers_of(const py::object& given, const std::string& what) {
     const bool masked = py::module_::import("numpy.ma").attr("isMaskedArray")(given).cast<bool>();
@@ -128,11 +129,11 @@ inline Numbers numbers_of(const py::object& given, const std::string& what) {
     return all.cast<Numbers>();
 }
 
-struct TakenRun {  // a run, and what its columns are in
+struct TakenRun {  // a run with the units of its columns
     Run run;
-    // of each column: taps, then what of the energy was probed
+    // Names and units by column: taps, then the probed energies.
     std::vector<std::pair<std::string, std::string>> units;
-    // as JSON, or "": how the settings were chosen; what a reference is uncertain by
+    // JSON, or "": how the settings were chosen; the uncertainty of a reference.
     std::string advice{}, uncertainty{};
     double processor_seconds = std::numeric_limits<double>::quiet_NaN();
 
@@ -144,7 +145,7 @@ struct TakenRun {  // a run, and what its columns are in
     }
 };
 
-// A column as it lies in the trace: the array keeps the run alive.
+// Returns a column as an array on the trace's memory: the array keeps the run alive.
 inline Column column(const py::object& self, const std::string& name) {
     const auto& taken = self.cast<const TakenRun&>();
     const Trace& trace = taken.run.trace;

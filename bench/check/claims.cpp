@@ -162,7 +162,8 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
     return "";
 }
 
-// ---- A map: five rates x four values of each parameter that makes a scheme stiff.
+// ---- A map: five rates x four stiffnesses of a bridge, or of the string if the scheme has no
+// bridge.
 
 std::vector<suite::Trial> map_of(const Descriptor& d) {
     const auto scene_at = [&d](int level) {

@@ -1,5 +1,5 @@
-// jvari certify: every reference that represents a scene against every other one. What it found
-// goes to a file, a table, and from there to the errors of compare and suite.
+// jvari certify: compares the references that represent a scene with one another. The result goes
+// to a file and a table, and compare and suite add it to their errors.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct CertifyRequest : Running {
     std::vector<std::string> set;
 };
 
-// a changed scene does not take the place of the one it was made from
+// The default name for a changed scene differs from the name for the original scene.
 fs::path path_for(const CertifyRequest& r, const Scene& scene) {
     if (!r.out.empty()) {
         if (fs::path(r.out).extension() != ".json" || r.out.ends_with(".cost.json"))
@@ -153,8 +153,8 @@ std::string text_of(const Certificate& c) {
            "\nnoise floor: the first against itself, started a relative 1e-12 apart";
 }
 
-// What lies there says more of the same scene than the one that is asked for would: it lasts
-// longer.
+// Tests whether the old certificate says more about the same scene than the requested one would: it
+// covers a longer duration.
 bool covers_more(const Certificate& old, const Certificate& fresh) {
     if (old.scene_hash != fresh.scene_hash || old.modes != fresh.modes ||
         old.tap_rate != fresh.tap_rate)
@@ -162,7 +162,7 @@ bool covers_more(const Certificate& old, const Certificate& fresh) {
     const auto is_stand_in = [](const Certificate& c) {
         return c.entries.front().reference.starts_with("oversampled ");
     };
-    // the scene has become representable
+    // A reference has learned to represent the scene.
     if (is_stand_in(old) && !is_stand_in(fresh)) return false;
     return old.duration > fresh.duration * (1 + 1e-9);
 }
@@ -182,7 +182,7 @@ int certify_command(const CertifyRequest& r) {
 
     bool cached = false;
     std::error_code error;
-    // another process may be making the same
+    // Another process may be making the same certificate.
     const auto lock = store::lock_of(path, "makes " + path.string(), console);
     if (fs::exists(path, error)) {
         auto found = study::read_certificate(path);

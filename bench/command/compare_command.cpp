@@ -1,5 +1,5 @@
-// jvari compare: the main job. What it found goes to a folder and a page; then, that nothing is
-// lost where nobody reads it, to a table.
+// jvari compare: the main command. Results go to a folder and a page first and to the terminal
+// last, so that nothing is lost if nobody reads the terminal.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -27,11 +27,11 @@ namespace fs = std::filesystem;
 
 struct CompareCall : Running, compare::CompareRequest {
     bool resume = false;
-    std::vector<std::string> option_lists, costs;  // NAME=S,... of a cost
+    std::vector<std::string> option_lists, costs;  // costs: NAME=S,...
     std::string modes_of_reference = "0";
 };
 
-// Of each scheme that --cost names.
+// Costs by scheme, from --cost.
 std::map<std::string, judge::Costs> costs_of(const CompareCall& r, const compare::Catalogue& all) {
     std::map<std::string, judge::Costs> costs;
     for (const compare::SchemeOption& o : scheme_options(r.costs)) {
@@ -76,8 +76,8 @@ std::string floor_text(const compare::Comparison& c) {
     return text;
 }
 
-// What the reference is, and from when on waveforms cannot be compared, where that is before the
-// end.
+// Describes the reference, and the time after which waveforms cannot be compared, if that is before
+// the end.
 std::string truth_text(const compare::Comparison& c) {
     std::string text =
         "reference: " + (c.against.doubling.empty() ? fmt::format("{} modes, those of the schemes",

@@ -35,28 +35,27 @@ using namespace std::chrono_literals;
 
 void clear_line() { std::fputs("\r\033[K", stderr); }
 
-// On a terminal that wants colours (https://no-color.org): what stands out by its mark stands out
-// by its colour as well.
+// Colours repeat the marks of a line on a terminal that accepts colours (https://no-color.org).
 bool in_colour(int stream) {
     const char *no = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
     return isatty(stream) != 0 && !(no && *no) && !(terminal && std::strcmp(terminal, "dumb") == 0);
 }
 
 const char* colour_of(std::string_view line) {
-    // on the front
+    // front
     if (line.starts_with("* ")) return "\033[32m";
-    // not to be trusted
+    // untrustworthy
     if (line.starts_with("! ") || line.starts_with("warning")) return "\033[33m";
-    // an error
+    // error
     if (line.starts_with("jvari: ")) return "\033[31m";
-    // the answer
+    // answer
     if (line.starts_with("the cheapest") || (line.starts_with("  ") && line.find(" within ") == 18))
         return "\033[1m";
     return "";
 }
 
-// Names and notes come from files and plugins: what would steer the terminal is shown as a question
-// mark.
+// Replaces control characters by question marks, because names and notes come from files and
+// plugins and could steer the terminal.
 std::string harmless(std::string text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto c = static_cast<unsigned char>(text[i]),
@@ -96,7 +95,7 @@ std::optional<std::size_t> columns_of(int terminal) {
     return size.ws_col;
 }
 
-// On a terminal a line that renews itself, elsewhere a line every ten seconds.
+// Progress line: rewritten in place on a terminal, elsewhere printed every ten seconds.
 class Line : public store::Progress {
 public:
     explicit Line(std::string job) : job_(std::move(job)) {}
@@ -116,7 +115,7 @@ public:
     }
 
 private:
-    void write() {  // text_, where it is time to
+    void write() {  // writes text_ if it is due
         const auto now = std::chrono::steady_clock::now();
         if (text_.empty() || now - start_ < 2s || now - last_ < pause_) return;
         last_ = now;
@@ -126,7 +125,7 @@ private:
         if (!terminal_) return write_error(line);
         const store::Undisturbed whole;
         if (!shown_) shown_.emplace(clear_line);
-        // a line that wraps could not be renewed
+        // A wrapped line could not be rewritten in place.
         std::fputs(
             ("\r\033[K" + line.substr(0, columns_of(STDERR_FILENO).value_or(80) - 1)).c_str(),
             stderr);
@@ -137,11 +136,11 @@ private:
     const bool terminal_ = isatty(STDERR_FILENO) != 0;
     const std::chrono::milliseconds pause_ = terminal_ ? 200ms : 10000ms;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
-    std::optional<store::WhenInterrupted> shown_;  // the line is cleared at an interruption, too
-    std::mutex mutex_;                             // of all above
+    std::optional<store::WhenInterrupted> shown_;  // clears the line at an interruption
+    std::mutex mutex_;                             // guards the members above
     std::condition_variable end_;
     bool ended_ = false;
-    // for a job that shows nothing while a long part of it runs
+    // Updates the line for a job that reports nothing during a long part.
     std::thread clock_{[this] {
         std::unique_lock lock(mutex_);
         while (!end_.wait_for(lock, pause_, [this] { return ended_; })) write();
@@ -198,12 +197,12 @@ int fail(bool json, int code, const char* status, const std::string& message) {
         Console(json, false)
             .print_json(
                 store::indented({{"status", status}, {"message", message}, {"exit_code", code}}));
-    } catch (const store::Unwritable&) {  // the code says it
+    } catch (const store::Unwritable&) {  // the exit code reports the failure
     }
     return code;
 }
 
-// ---- The program: its help, and the verb of its command line.
+// ---- The program: its help, and the verb on its command line.
 
 namespace {
 constexpr std::size_t widest = 100;  // columns of help
@@ -249,7 +248,7 @@ constexpr const char* welcome =
     "\n"
     "`jvari --help` lists every verb, `jvari help compare` teaches one.";
 
-// `jvari help run` asks what `jvari run --help` asks.
+// `jvari help run` is the same request as `jvari run --help`.
 std::vector<std::string> words_of(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
     if (words.empty() || words.front() != "help") return words;
@@ -298,7 +297,7 @@ int call(int argc, const char* const* argv) {
     if (!verb.empty() && chosen == names.end())
         throw store::UsageError(store::unknown("verb", verb, names));
     try {
-        std::ranges::reverse(words);  // as CLI11 takes them
+        std::ranges::reverse(words);  // CLI11 expects reverse order
         program.parse(std::move(words));
     } catch (const CLI::Success& help) {
         std::ostringstream text, nothing;

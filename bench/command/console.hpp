@@ -13,60 +13,61 @@ namespace jvari::bench::command {
 
 namespace exit_code {
 constexpr int done = 0, bad_usage = 2, refused = 3, run_failed = 4;
-constexpr const char* status(int code) {  // as --json says it
+constexpr const char* status(int code) {  // status in the JSON output
     return code == done ? "ok" : code == refused ? "refused" : "failed";
 }
 }  // namespace exit_code
 
-// Before any file is opened: none takes the number of a standard stream that the caller closed; and
-// what cannot be written, to a pipe that nobody reads or past a limit of file size, is an error of
-// writing (Unwritable) where by default it would be a signal and the end.
-void keep_standard_output();  // for print_json alone: what a plugin prints goes to standard error
+// Called before any file is opened. Standard streams that the caller closed are filled, so that no
+// file gets their numbers. Signals of failed writing, to a pipe without a reader or beyond a limit
+// of file size, become an error (Unwritable); by default they would end the program.
+// Reserves standard output for print_json: the output of plugins goes to standard error.
+void keep_standard_output();
 void hold_standard_streams();
-// A line to standard error. A failure to write it is ignored.
+// Writes a line to standard error and ignores a failure.
 void write_error(const std::string& line);
 
-// Lines of at most 100 columns; one that is broken goes on below its own second column.
+// Wraps lines at 100 columns; continuation lines start below the second column of the broken line.
 std::string wrapped(const std::string& text);
 
 class Console : public store::Listener {
 public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
     bool json() const { return json_; }
-    void note(const std::string&) const override;  // standard error, unless --quiet
-    // standard output, unless --json or --quiet: the result as text; throws Unwritable
+    void note(const std::string&) const override;  // to standard error, unless --quiet
+    // Prints the result as text to standard output, unless --json or --quiet; throws Unwritable.
     void print(const std::string&) const;
-    // standard output, with --json only: one object; throws Unwritable
+    // Prints one object to standard output, only with --json; throws Unwritable.
     void print_json(const std::string&) const;
 
-    // Columns of standard output: $COLUMNS, else those of the terminal, else as many as are wanted.
+    // Columns of standard output: $COLUMNS, else the width of the terminal, else unlimited.
     static std::size_t width();
 
-    // Once the job has taken 2 s: a line that renews itself on a terminal, elsewhere a line every
-    // ten seconds. Nothing with --quiet.
+    // Starts a progress line, shown once the job has taken 2 s: rewritten in place on a terminal,
+    // elsewhere printed every ten seconds. With --quiet nothing is shown.
     std::unique_ptr<store::Progress> begin(const std::string& job) const override;
 
 private:
     bool json_, quiet_;
 };
 
-// A line to standard error and, with --json, an object to standard output; returns `code`.
+// Writes a line to standard error and, with --json, an object to standard output; returns `code`.
 int fail(bool json, int code, const char* status, const std::string& message);
 
-// ---- The program: reads its arguments and does what they ask for.
+// ---- The program: reads its arguments and runs the verb.
 
 // Returns the exit code, or throws: UsageError, BadScene, SceneFileError (2), Refusal (3).
 int call(int argc, const char* const* argv);
 
-// ---- A table for the terminal: columns as wide as what stands in them.
+// ---- A table for the terminal, with columns as wide as their contents.
 //
-// Where it is wider than the terminal, columns are left out, those of the highest rank first; one
-// of rank 0 stays.
+// If the table is wider than the terminal, columns are left out, the highest rank first; columns
+// with rank 0 stay.
 
 struct TextTable {
     struct Column {
         std::string head;
-        bool left = false;  // where its fields stand in it
+        bool left = false;  // alignment
         int rank = 0;
     };
     struct Row {
@@ -76,14 +77,14 @@ struct TextTable {
     std::vector<Column> columns;
     std::vector<Row> rows;
 
-    // each line with its end; a last one says what was left out
+    // Lines end with a line break; a last line lists the omitted columns.
     std::string text(std::size_t width) const;
 };
 
 // ---- The table of a comparison for the terminal.
 
-// The front marked, and what is not to be trusted; in lines of that width, cost and headline error
-// always.
+// Marks the front and untrustworthy rows. Lines fit the width; cost and headline error are always
+// shown.
 std::string headline_text(const study::Cells&, std::size_t width);
 
 }  // namespace jvari::bench::command

@@ -1,4 +1,5 @@
-// jvari list: what exists, and which scheme represents which scene. The text is made of the JSON.
+// jvari list: everything available, and which scheme represents which scene. The text is generated
+// from the JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,10 +28,10 @@ const std::vector<std::string> kinds{"schemes", "scenes", "references", "options
                                      "taps",    "suites", "keys",       "columns"};
 
 struct ListRequest : Common {
-    std::string what;  // "": everything; one of the lists; a name that stands in one
+    std::string what;  // "": everything; a list; or a name in a list
 };
 
-// ---- The lists as JSON
+// ---- Lists as JSON
 
 Json schemes_json(const Schemes& schemes) {
     Json all = Json::array();
@@ -63,7 +64,7 @@ Json pairings_json() {
     return all;
 }
 
-// Schemes that have the same option share its entry.
+// Schemes with the same option share its entry.
 Json options_json(const Schemes& schemes) {
     Json all = Json::array();
     for (const Descriptor* d : schemes)
@@ -176,7 +177,7 @@ Json matrix_json(const Scenes& scenes, const Schemes& schemes) {
     return all;
 }
 
-// The scenes that a scheme represents in one entry.
+// Merges the scenes that a scheme represents into one entry.
 Json by_scheme(const Json& matrix) {
     Json scenes = Json::object(), all = Json::array();
     for (const Json& m : matrix)
@@ -214,7 +215,7 @@ Json table_json(const std::vector<store::KeyWords>& keys) {
     return all;
 }
 
-Json keys_json() {  // of a suite file
+Json keys_json() {  // keys in a suite file
     Json all = Json::object();
     for (const suite::TableWords& t : suite::suite_keys())
         all[t.table.empty() ? "file" : t.table] = table_json(t.keys);
@@ -223,7 +224,7 @@ Json keys_json() {  // of a suite file
     return all;
 }
 
-// ---- The same as text
+// ---- Lists as text
 
 std::string field_text(const std::string& key, const Json& value) {
     if (value.is_boolean() || value.is_null()) return value == true ? key : "";
@@ -248,10 +249,10 @@ void add_rows(Rows& rows, const Json& list, const std::string& above) {
     }
 }
 
-// A line for each entry: its fields as far as `source`, in columns. What follows a source is for
-// --json. The keys of a table within a table stand below it, behind its name and a dot.
+// Prints a line for each entry: its fields up to `source`, in columns. Fields after `source` appear
+// only with --json. Keys of a nested table stand below the table, prefixed by its name and a dot.
 std::string text_of(const std::string& title, const Json& list) {
-    constexpr std::size_t widest = 32;  // a longer field moves the rest of its line
+    constexpr std::size_t widest = 32;  // a longer field shifts the rest of its line
     std::string text;
     if (list.is_object()) {
         for (const auto& [name, inner] : list.items())
@@ -266,7 +267,7 @@ std::string text_of(const std::string& title, const Json& list) {
         for (std::size_t k = 0; k < row.size(); ++k)
             widths[k] = std::max(widths[k], std::min(row[k].size(), widest));
     }
-    std::string first;  // stands once above those that have the same
+    std::string first;  // printed once above equal ones
     for (auto& row : rows) {
         std::string line;
         if (std::exchange(first, row[0]) == row[0]) row[0] = "";
@@ -275,15 +276,15 @@ std::string text_of(const std::string& title, const Json& list) {
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     if (rows.empty()) return title + "\n  none\n";
-    std::vector<std::string> fields;  // of the first entry
+    std::vector<std::string> fields;  // fields in the first entry
     for (const auto& [key, value] : list.front().items())
         if (fields.size() < rows.front().size()) fields.push_back(key);
     return fmt::format("{}: {}\n{}", title, fmt::join(fields, ", "), text);
 }
 
-// ---- One thing by its name
+// ---- One thing by name
 
-template <class Visit>  // each entry of a list, with the list's name
+template <class Visit>  // visits each entry in a list, with the list's name
 void each_entry(const std::string& list, const Json& entries, const Visit& visit) {
     for (const auto& [key, entry] : entries.items()) {
         if (entries.is_object()) each_entry(list + " of " + key, entry, visit);
@@ -292,15 +293,15 @@ void each_entry(const std::string& list, const Json& entries, const Visit& visit
     }
 }
 
-std::vector<std::string> names_of(const Json& entry) {  // "a, b" are two
+std::vector<std::string> names_of(const Json& entry) {  // "a, b" are two names
     std::istringstream text(entry.value("name", entry.value("key", "")));
     std::vector<std::string> names;
     for (std::string name; std::getline(text >> std::ws, name, ',');) names.push_back(name);
     return names;
 }
 
-// The entries of that name, each with its list; of a scheme the scenes that it represents, of a
-// scene the schemes.
+// Finds the entries with this name, each with its list. A scheme comes with the scenes it
+// represents, a scene with its schemes.
 Json named(const Json& lists, const std::string& name) {
     Json found = Json::array();
     std::vector<std::string> known = kinds;
@@ -337,7 +338,7 @@ std::string described(const Json& found, const std::string& name) {
 }
 
 int list_command(ListRequest r) {
-    const Console console(r.json, false);  // --quiet leaves the list, which is all there is
+    const Console console(r.json, false);  // --quiet keeps the list, the only output
     const bool one = !r.what.empty() && std::ranges::find(kinds, r.what) == kinds.end();
     const std::string name = one ? std::exchange(r.what, "") : "";
     const compare::Catalogue catalogue;

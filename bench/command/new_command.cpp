@@ -1,5 +1,5 @@
-// jvari new: a scene of one's own, from one of the library that is explained for it; below it what
-// else a scene can say. Writes no file over another.
+// jvari new: writes a scene to begin with, from a library scene with comments. Further keys of
+// scene files follow below as comments. Never overwrites a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -98,8 +98,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-// The library's text under another name, without its source: a paper on the library's string says
-// nothing of this one.
+// Renames the library's text and removes its source: a paper on the library's string says nothing
+// about this string.
 std::string renamed(std::string text, const std::string& name) {
     const auto replace_line = [&text](const char* begin, const std::string& by) {
         if (const auto at = text.find(begin); at != std::string::npos)
@@ -110,8 +110,8 @@ std::string renamed(std::string text, const std::string& name) {
     return text;
 }
 
-// Mass and stiffness of the string that is asked for, as lines of its table: a plain wire of a
-// material, or one of a series as it is sold, which is as stiff as its core.
+// Lines with mass and stiffness for the requested string. It is either a plain wire made from a
+// material, or a string from a commercial series; such a string is as stiff as its core.
 std::string of_that_string(const NewRequest& r) {
     constexpr const char* instead = "in place of the string that is described above";
     std::vector<std::string> known(std::begin(material_names), std::end(material_names));
@@ -135,12 +135,12 @@ std::string of_that_string(const NewRequest& r) {
                : "none is assumed, for its core is not known. A steel core of d m has 9.82e9 d^4");
 }
 
-// The same scene with each string such a one, at the pitch that it had.
+// Replaces each string of the scene by the requested string at the same pitch.
 std::string strung(const std::string& text, const Scene& scene, const NewRequest& r) {
     std::istringstream lines(text);
     std::string strung;
     std::size_t strings = 0;
-    bool of_string = false;  // in the table [[string]] itself, and in none below it
+    bool of_string = false;  // in the table [[string]] itself, not in a table below
     for (std::string line; std::getline(lines, line);) {
         const auto is = [&](const char* key) {
             return of_string && line.starts_with(std::string(key) + " = ");
@@ -168,7 +168,7 @@ int new_body(const std::string& name, const Console& console) {
     const fs::path bridge = name + "_bridge.wav", nut = name + "_nut.wav";
     must_be_free(bridge);
     must_be_free(nut);
-    const Body body = read_scene("tanpura_drone").body.value();  // the library's made-up pair
+    const Body body = read_scene("tanpura_drone").body.value();  // the library's synthetic pair
     store::write_fresh(bridge, store::read_whole(body.bridge));
     store::write_fresh(nut, store::read_whole(body.nut));
     console.print(

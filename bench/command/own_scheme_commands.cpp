@@ -1,4 +1,4 @@
-// The verbs for a scheme of one's own: export and judge, where it is another program, and check.
+// Verbs for a scheme of one's own: export and judge for an external program, and check.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace jvari::bench::command {
 
-// ---- jvari export: the problem that a scheme of one's own solves, as arrays.
+// ---- jvari export: writes the problem for a scheme of one's own as arrays.
 
 namespace {
 struct ExportRequest : Common, compare::CompareRequest {
@@ -73,7 +73,7 @@ Act export_verb(CLI::App& program) {
                   "`jvari judge` says how wrong their traces are.");
 }
 
-// ---- jvari judge: how wrong is a trace that any program made?
+// ---- jvari judge: measures the error in a trace made by any program.
 
 namespace {
 struct JudgeRequest : Running, compare::CompareRequest {
@@ -185,11 +185,12 @@ Act judge_verb(CLI::App& program) {
                   "`jvari export` writes the problem.");
 }
 
-// ---- jvari check: does a scheme, of this tree or of a plugin, keep what every scheme promises?
+// ---- jvari check: tests whether a scheme, built in or from a plugin, keeps the promises every
+// scheme makes.
 
 namespace {
 struct CheckRequest : Running {
-    std::vector<std::string> schemes;  // none: those of the plugins
+    std::vector<std::string> schemes;  // none: the plugins' schemes
     check::Asked asked;
     std::string junit;
 };

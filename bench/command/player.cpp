@@ -20,8 +20,7 @@ namespace jvari::bench::command {
 
 namespace {
 constexpr double longest = 10;  // [s]
-// rows of silence at both ends, for what the resampler rings ahead of a response that begins at
-// once
+// Rows of silence at both ends: the resampler rings ahead of a response that starts abruptly.
 constexpr int margin = 64;
 
 std::vector<float> resampled(std::vector<float> x, double ratio) {
@@ -41,9 +40,9 @@ std::vector<float> resampled(std::vector<float> x, double ratio) {
     return y;
 }
 
-struct RadiatingEnd {  // where strings pull at a body
+struct RadiatingEnd {  // end at which strings pull on a body
     Quantity force;
-    const char* key;  // of a scene
+    const char* key;  // scene file key
     std::string Body::*response;
 };
 constexpr RadiatingEnd ends[] = {{Quantity::driving_force, "body.bridge", &Body::bridge},
@@ -86,9 +85,9 @@ std::vector<std::vector<double>> body_responses(const Scene& scene, double rate)
 }
 
 namespace {
-// [Hz], a whole number: what players take
+// [Hz]; players accept whole numbers in this range.
 constexpr double slowest_played = 3000, fastest_played = 384000;
-// a .wav counts its bytes in 32 bits
+// Limit by the 32-bit byte count in a .wav file.
 constexpr double most_bytes = 4e9;
 constexpr double steady = 20;              // [Hz]
 constexpr double de_emphasis = 50e-6;      // [s]
@@ -111,7 +110,7 @@ Scene audible(Scene scene) {
     if (scene.body && !scene.body->bridge.empty() && is_driven(scene)) scene.taps.push_back(bridge);
     if (scene.body && !scene.body->nut.empty()) scene.taps.push_back(nut);
     if (!scene.taps.empty()) return scene;
-    // its one response, if any, is of a bridge that nothing touches
+    // Unfilters the scene: its only response, if any, belongs to a bridge that no string touches.
     scene = unfiltered(std::move(scene));
     scene.taps = {is_driven(scene) ? bridge : nut};
     return scene;
@@ -191,7 +190,8 @@ void write_frames(const std::filesystem::path& path, double rate,
     SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
     if (!file) throw std::runtime_error(sf_strerror(nullptr));
     sf_command(file, SFC_SET_CLIPPING, nullptr, SF_TRUE);
-    sf_command(file, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it holds the time of writing
+    // the chunk would contain the time of writing
+    sf_command(file, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
     const std::size_t rows = channels.front().size();
     std::vector<double> frames;
     for (std::size_t n = 0; n < rows; ++n)

@@ -1,12 +1,15 @@
-// What a player plays of a run, a .wav of 24 bit, the largest sample 1 dB below full scale.
+// Plays a run into a .wav file with 24 bits, with the largest sample 1 dB below full scale.
 //
-// Through the body where the scene has one: the driving force of all strings by its response at the
-// bridge on the left, the force on the nut by that at the nut on the right (van Walstijn et al.
-// 2016, Section 4.4); a body of one response gives one channel. Without a body: the driving force
-// where a string has a barrier or a thread, else the force on the nut, its highs lowered as radio
-// lowers them (a low pass of first order at 3183 Hz, the de-emphasis of 50 us), for a force that is
-// flat to 20 kHz is no sound that a body lets out. In both the steady part is taken away (a high
-// pass of first order at 20 Hz). Left out: dither. The signals as they are go to .csv.
+// With a body: the driving force of all strings is filtered by the response at the bridge into the
+// left channel, and the force on the nut by the response at the nut into the right channel (van
+// Walstijn et al. 2016, Section 4.4). A body with one response gives one channel.
+//
+// Without a body: the driving force if a string has a barrier or a thread, else the force on the
+// nut. High frequencies are lowered as in radio (a first-order low pass at 3183 Hz, the de-emphasis
+// of 50 us), because no body radiates a force that is flat to 20 kHz.
+//
+// In both cases a first-order high pass at 20 Hz removes the steady part. There is no dither. The
+// unprocessed signals go to .csv.
 #pragma once
 
 #include <filesystem>
@@ -18,51 +21,52 @@
 
 namespace jvari::bench::command {
 
-bool is_audio(const std::filesystem::path&);  // by its extension
+bool is_audio(const std::filesystem::path&);  // decided by the extension
 
-Scene audible(Scene);  // with the taps that are played in place of its own
+Scene audible(Scene);  // replaces the taps by the taps to be played
 
-// What plays a run of audible(scene) into a file, made before the run.
+// Plays a run of audible(scene) into a file; constructed before the run.
 class Player {
 public:
-    // Throws UsageError for a path that cannot be written, what the format cannot hold and a body
-    // that cannot be read.
+    // Throws UsageError for a path that cannot be written, a sound that does not fit the format, or
+    // a body that cannot be read.
     Player(std::filesystem::path, const Scene&, double tap_rate);
-    // Returns how loud it is. Throws Unwritable.
+    // Returns the level as text. Throws Unwritable.
     std::string write(const Trace&) const;
 
 private:
     std::filesystem::path path_;
-    std::vector<std::vector<double>> body_;  // its response for each tap; none: no body
+    std::vector<std::vector<double>> body_;  // response for each tap; empty: no body
 };
 
-// ---- In parts.
+// ---- Stages.
 
 struct Played {
-    std::vector<std::vector<double>> channels;  // of full scale 1
-    // what 1 stands for [N], with a body by its response; 0: silence
+    std::vector<std::vector<double>> channels;  // relative to full scale 1
+    // Value of full scale [N], with a body after its response; 0: silence.
     double full_scale = 0;
-    double peak = 0, rms = 0;  // of full scale, over all channels
-    long clipped = 0;          // samples beyond it
+    double peak = 0, rms = 0;  // relative to full scale, over all channels
+    long clipped = 0;          // samples beyond full scale
 };
 std::vector<double> without_body(std::span<const double> force, double rate);
 std::vector<double> without_steady(std::span<const double> force, double rate);
 Played levelled(std::vector<std::vector<double>> channels);
 // "full scale 1.2 N, peak -1.0 dB, rms -20.3 dB, 0 samples clipped"
 std::string level_text(const Played&);
-// throws Unwritable
+// Throws Unwritable.
 void write_audio(const std::filesystem::path&, double rate,
                  const std::vector<std::vector<double>>& channels);
 
 // ---- The body
 
-// The impulse response in a .wav of one channel, at `rate` [Hz]. A file holds h[n] = h(n T) T, so
-// that its sum is the response to a steady force at any rate. One of another rate is resampled by
-// libsamplerate, and comes later by 64 rows of its own. Throws UsageError naming `key`.
+// Reads the impulse response from a .wav file with one channel, at `rate` [Hz]. The file contains
+// h[n] = h(n T) T, so its sum is the response to a steady force at any sample rate. A file with
+// another sample rate is resampled by libsamplerate, and is delayed by 64 of its own rows. Throws
+// UsageError naming `key`.
 std::vector<double> impulse_response(const std::string& file, double rate, const std::string& key);
 
-// The body's response for each tap that it answers: the driving force, and the force on the nut, of
-// all strings. Throws UsageError.
+// Responses of the body for the taps it filters: the driving force and the force on the nut, summed
+// over all strings. Throws UsageError.
 std::vector<std::vector<double>> body_responses(const Scene&, double rate);
 
 }  // namespace jvari::bench::command

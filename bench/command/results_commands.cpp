@@ -38,7 +38,7 @@ int code_of(const std::vector<study::Record>& records) {
     return std::ranges::all_of(records, is("refused")) ? exit_code::refused : exit_code::run_failed;
 }
 
-// ---- jvari report: the page and the pictures of a folder of results.
+// ---- jvari report: makes the page and the pictures for a folder of results.
 
 namespace {
 using Json = nlohmann::ordered_json;
@@ -76,7 +76,7 @@ Act report_verb(CLI::App& program) {
     return v.does(report_command, "Example: jvari report report");
 }
 
-// ---- jvari diff: what changed between two folders of results.
+// ---- jvari diff: lists the changes between two folders of results.
 
 namespace {
 struct DiffRequest : Common {

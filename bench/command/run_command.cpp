@@ -1,4 +1,5 @@
-// jvari run: one scheme on one scene, its trace to a file, its summary to standard output.
+// jvari run: runs one scheme on one scene. The trace goes to a file, the summary to standard
+// output.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -42,7 +43,8 @@ struct RunRequest : Running {
     std::string out, impacts, plot, width, state;
 };
 
-// What of a run is dear beyond its modes or nodes and its steps, as its facts have it.
+// Names the most expensive part of a run besides its modes or nodes and its steps, according to its
+// facts.
 std::string dearest(const std::vector<Fact>& facts) {
     const double coupled = fact_of(facts, facts::coupled_contact_points);
     if (!(coupled > 8)) return "";
@@ -52,9 +54,9 @@ std::string dearest(const std::vector<Fact>& facts) {
         coupled);
 }
 
-// Without `all` only those that tell how the scene is approximated.
+// Lists all facts, or without `all` only the facts about approximations.
 std::string facts_text(const Descriptor& d, const Scene& scene, const study::Summary& s, bool all) {
-    // of one of several strings: behind the last dot
+    // With several strings the name of the fact follows the last dot.
     const auto approximates = [&](const std::string& name) {
         return std::ranges::any_of(d.approximates, [&](const Approximation& a) {
             return name.substr(name.rfind('.') + 1) == a.fact.name &&
@@ -108,7 +110,7 @@ Json json_of(const study::Summary& s) {
     Json j{{"scheme", s.scheme}, {"scene", s.scene}, {"status", name_of(s.status.outcome)}};
     if (s.status.outcome != Outcome::ok) j["step"] = s.status.step;
     each_figure(s, [&j](const std::string& name, auto figure) {  // NaN becomes null
-        if (name != "processor_seconds")                         // nobody took them
+        if (name != "processor_seconds")                         // not measured here
             j[name] = figure;
     });
     j["flags"] = Json::object();
@@ -118,14 +120,15 @@ Json json_of(const study::Summary& s) {
     return j;
 }
 
-// Before a long run: that what it gives can be written. The sound of it where --out names one.
+// Tests before a long run that its output can be written. Returns the player if --out names a sound
+// file.
 std::optional<Player> checked_output(const RunRequest& r, const Scene& scene, double tap_rate) {
     if (is_audio(r.out)) return Player(r.out, scene, tap_rate);
     if (!r.out.empty()) store::check_trace_file(r.out);
     return std::nullopt;
 }
 
-// Before a long run: that its end can be kept.
+// Tests before a long run that its final state can be written.
 void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, Settings settings) {
     if (r.state.empty()) return;
     store::must_be_writable(r.state);
@@ -139,11 +142,11 @@ void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, S
                         d.name));
 }
 
-// One row per contact, in the order of their starts. Where it lasts beyond the run it has no end,
-// no speed out and no loss, where it was on before no speed in.
+// Table with one row per contact, in the order of their starts. A contact that lasts beyond the run
+// has no end, no speed out and no loss; a contact that began earlier has no speed in.
 store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& scene,
                            double until) {
-    std::vector<std::pair<int, Impact>> all;  // string
+    std::vector<std::pair<int, Impact>> all;  // string number, impact
     for (const Impacts& of : of_strings)
         for (Impact i : of.all()) {
             if (i.end >= until) i.end = i.speed_out = i.energy_lost = nan;
@@ -165,7 +168,7 @@ store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& 
     return t;
 }
 
-// The taps of one scene in a trace of a scene that has more.
+// Extracts the taps for one scene from the trace of a scene with more taps.
 Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
     Trace part = all;
     part.names.clear();
@@ -175,12 +178,12 @@ Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
     return part;
 }
 
-// Before a long run: that its picture can be drawn.
+// Tests before a long run that its picture can be drawn.
 std::optional<report::Vega> vega_for(const RunRequest& r) {
     if (r.plot.empty() && !r.width.empty())
         throw store::UsageError("--width goes with --plot FILE");
     if (r.plot.empty()) return std::nullopt;
-    if (!r.width.empty()) report::width_of(r.width);  // refused before the run
+    if (!r.width.empty()) report::width_of(r.width);  // throws UsageError before the run
     const std::string extension = std::filesystem::path(r.plot).extension();
     if (extension != ".svg" && extension != ".html")
         throw store::UsageError("--plot " + r.plot +
@@ -211,7 +214,7 @@ void draw(const std::string& file, const Descriptor& d, const Scene& scene, cons
     store::write_fresh(file, drawn.svgs.front().second);
 }
 
-// Scheme, rate and modes where they are to be chosen, by the last of these.
+// Chooses scheme, rate and modes if the request asks for advice; the last advice counts.
 std::vector<compare::Advice> advised(const RunRequest& r, const Scene& scene,
                                      const compare::Catalogue& catalogue, const Console& console) {
     const compare::AdviceRequest request{r.within, r.measure,  r.tap,
@@ -228,8 +231,8 @@ int run_command(RunRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    // The picture shows the scene's own taps, the sound is made of others: a run of both has the
-    // former first.
+    // Picture and sound need different taps: the picture shows the scene's own taps, the sound uses
+    // others. A run for both has the scene's own taps first.
     const bool played = is_audio(r.out);
     const Scene own = compare::load_scene(r.scene, r.set, r.duration),
                 sounding = played ? audible(own) : own;

@@ -1,4 +1,4 @@
-// jvari suite: a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv,
+// jvari suite: runs a declared set of comparisons and spectrograms. DIR gets cells/, cells.csv,
 // errors.csv, cost.csv, sounds/, manifest.json and the report.
 #include <fmt/core.h>
 
@@ -31,12 +31,12 @@ namespace fs = std::filesystem;
 struct SuiteRequest : Running {
     std::string suite, out;
     bool resume = false;
-    int jobs = 0;  // 0: as many as there are cores
+    int jobs = 0;  // 0: one per core
 };
 
 Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
     std::map<std::string, std::string> sources;
-    std::map<std::string, std::string> scenes;  // of what is swept the first
+    std::map<std::string, std::string> scenes;  // in a sweep the first scene
     for (const study::Job& c : plan.jobs) {
         sources[c.cell.scheme->name] = c.cell.scheme->source;
         if (!scenes.contains(c.point->scene.name))
@@ -96,7 +96,7 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
                      "run every cell: start only one");
 }
 
-// Of a population its strings are shown, and not its cells.
+// Reports a population by its strings, not by its cells.
 int end_population(const SuiteRequest& r, const suite::Suite& suite, const study::Plan& plan,
                    const study::Study& run, const Console& console) {
     const suite::StringTables strings = suite::string_tables(suite, plan, run.records);
@@ -109,7 +109,7 @@ int end_population(const SuiteRequest& r, const suite::Suite& suite, const study
                                       {"fronts.csv", &strings.fronts}})
         results.add(name, store::csv(*table));
     Json manifest = manifest_of(suite, plan);
-    manifest.erase("scenes");  // those in scenes/ are frozen
+    manifest.erase("scenes");  // scenes/ already contains them, frozen
     manifest["strings"] = suite.sets.size();
     results.add_manifest(manifest);
     results.add_report();
@@ -158,7 +158,7 @@ int suite_command(const SuiteRequest& r) {
     if (results) suite::write_sounds(folder, plan, run.records);
     results.add_manifest(manifest);
     if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
-    // Files first: nothing is lost where nobody reads this.
+    // Print after writing the files, so that nothing is lost if nobody reads the terminal.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     if (!cheapest.empty()) console.print(compare::cheapest_text(cheapest, cells));

@@ -12,7 +12,7 @@
 namespace jvari::bench::command {
 
 namespace {
-std::size_t shown(const std::string& text) {  // characters of UTF-8
+std::size_t shown(const std::string& text) {  // counts UTF-8 characters
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](unsigned char c) { return (c & 0xc0) != 0x80; }));
 }
@@ -62,7 +62,7 @@ std::string formatted(double x, const char* format) {
     return std::isnan(x) ? "-" : fmt::format(fmt::runtime(format), x);
 }
 
-// "x 1.3 %": half the distance of the quartiles over the median.
+// Half the distance between the quartiles over the median: "+-1%".
 std::string spread_text(const study::TabledCell& c) {
     const double half = 0.5 * (c.wall_seconds_upper - c.wall_seconds_lower);
     return std::isnan(half / c.wall_seconds)

@@ -1,5 +1,5 @@
-// jvari trim: no more than a scene needs. DIR gets trimmed.toml, needs.csv, path.csv,
-// manifest.json, the report and cells/.
+// jvari trim: finds the cheapest sufficient model for a scene. DIR gets trimmed.toml, needs.csv,
+// path.csv, manifest.json, the report and cells/.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,8 +80,8 @@ std::string verdict_text(const trim::Trimmed& t, trim::Judge& judge) {
     return text;
 }
 
-// Sounds of the whole scene and of the trimmed model, for the player: sounds.csv, sounds/*.wav.
-// The whole stands as what the other is against.
+// Writes sounds of the whole scene and of the trimmed model for the player: sounds.csv,
+// sounds/*.wav. The sound of the whole scene is the reference for the other.
 void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Judge& judge) {
     constexpr double longest = 2;  // [s]
     std::vector<store::Sound> sounds;

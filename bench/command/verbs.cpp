@@ -16,8 +16,8 @@
 namespace jvari::bench::command {
 
 namespace {
-// "" where it is one, and the text becomes what CLI11 reads as the same: of 010 it would make 8, of
-// 1e3 1. Else what was expected.
+// Returns "" for a number, and rewrites the text so that CLI11 reads the same number: CLI11 would
+// read 010 as 8 and 1e3 as 1. Otherwise returns the expected input.
 std::string a_number(std::string& text) {
     const auto x = number_of(text);
     if (!x || !std::isfinite(*x) || !(*x > 0))
@@ -35,7 +35,8 @@ std::string a_count(std::string& text, int least) {
     return {};
 }
 
-CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {  // "44.1k", "10ms"
+// reads "44.1k", "10ms"
+CLI::Validator in_units(std::vector<std::pair<std::string, double>> units) {
     return CLI::Validator(
         [units = std::move(units)](std::string& text) {
             for (const auto& [unit, scale] : units) {

@@ -1,5 +1,5 @@
-// The verbs. A verb is a file: its arguments, which it adds to the command line with their help,
-// and what it does with them.
+// Verbs. Each verb is a file: it adds its arguments with their help to the command line, and runs
+// the command.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,25 +18,25 @@
 
 namespace jvari::bench::command {
 
-// ---- The arguments of a verb: those that several verbs have, and what the text of one may be.
+// ---- Arguments: shared by several verbs, with checks of their text.
 
 struct Common {
     bool json = false, quiet = false;
 };
-struct Running : Common {  // of a verb that runs schemes
+struct Running : Common {  // base for verbs that run schemes
     std::vector<std::string> plugins;
 };
 
-struct Value {  // of an option: what help calls it, and what it may be
+struct Value {  // value of an option: its name in the help, and its check
     const char* type;
     CLI::Validator check = {};
 };
-// A number > 0; a whole one; one that may be 0; then such that may have a unit behind them: the
-// text becomes the number in SI units.
+// Number > 0; whole number > 0; whole number >= 0; then numbers > 0 with an optional unit. The
+// check replaces the text by the number in SI units.
 extern const Value positive, counting, counting_or_0, hertz, seconds, metres;
 
-// Runs a verb once its arguments are read, and returns the exit code of the program.
-// Throws UsageError, BadScene, SceneFileError (2), Refusal (3).
+// Runs a verb once its arguments are read, and returns the exit code of the program. Throws
+// UsageError, BadScene, SceneFileError (2), Refusal (3).
 using Act = std::function<int()>;
 
 class Arguments {
@@ -59,7 +59,7 @@ public:
     void schemes(std::vector<std::string>&, const char* help);
     void comparison_folder(std::string&);
 
-    void group();  // under headings
+    void group();  // groups options under headings
 
 protected:
     CLI::App& verb_;
@@ -72,7 +72,7 @@ class Verb : public Arguments {
 public:
     Verb(CLI::App& program, const char* name, const char* about)
         : Arguments(*program.add_subcommand(name, about)) {}
-    Request& r = *request_;  // the arguments; an `act` gets them once they are read
+    Request& r = *request_;  // arguments; `act` gets them once they are read
     Act does(auto act, const std::string& footer) {
         common(r);
         group();
@@ -82,10 +82,10 @@ public:
 };
 
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts);
-// Each value of a list for itself; UsageError where an option is named twice.
+// Splits the values of a list; throws UsageError if an option is named twice.
 std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts);
 
-// The files of a scene, and other files that a call reads.
+// Lists the files of a scene, and other files that a call reads.
 std::vector<store::NamedFile> files_read(const Scene&, const std::string& scene,
                                          const std::vector<std::string>& plugins);
 
@@ -104,17 +104,17 @@ Act check_verb(CLI::App& program);
 Act export_verb(CLI::App& program);
 Act judge_verb(CLI::App& program);
 
-// as --help lists them
+// Order in --help.
 constexpr Act (*verbs[])(CLI::App&) = {new_verb,   list_verb,  run_verb,     compare_verb,
                                        suite_verb, trim_verb,  certify_verb, report_verb,
                                        diff_verb,  check_verb, export_verb,  judge_verb};
 
-// ---- What the verbs that compare schemes say of their results.
+// ---- Output of the verbs that compare schemes.
 
-// The exit code of a study: done where a run of it was, or where there was nothing to run.
+// Exit code of a study: done if at least one run succeeded, or if there was nothing to run.
 int code_of(const std::vector<study::Record>&);
 
-// What `compare`, `judge` and `suite` say of their results as JSON, behind what is their own.
+// JSON results of `compare`, `judge` and `suite`, appended to the verb's own members.
 std::string with_results(nlohmann::ordered_json own, const report::Written&);
 
 }  // namespace jvari::bench::command

@@ -30,7 +30,7 @@ std::unique_ptr<Scheme> row_player(const Descriptor& d, const Scene&, const Sett
     return played(found->second);
 }
 
-std::string enter(Candidate candidate) {  // as a guest; returns its path
+std::string enter(Candidate candidate) {  // adds a guest; returns its path
     const std::string path = "trace " + candidate.name;
     const auto kept = std::make_shared<const Candidate>(std::move(candidate));
     Descriptor d{kept->name.c_str(), "traces of another program",
@@ -45,13 +45,13 @@ std::string enter(Candidate candidate) {  // as a guest; returns its path
     return path;
 }
 
-const Trace& trace_of(const study::Cell& cell) {  // of a candidate
+const Trace& trace_of(const study::Cell& cell) {  // for a candidate's cell
     return *static_cast<const Candidate*>(cell.scheme->own)->traces.at(cell.settings.sample_rate);
 }
 
-// A trace does not say what compliance its string has. Where it is nearer to the scene than to a
-// string of as many modes with its own compliance, it is not of such a string, and its error in the
-// model is unknown.
+// Removes errors in the model that may be wrong. A trace does not say which compliance its string
+// has. If the trace is closer to the scene than to a string with the same number of modes and their
+// own compliance, it does not belong to such a string, and its error in the model is unknown.
 void forget_errors_in_other_models(compare::Comparison& c) {
     const std::size_t whole = study::measure("error_l2_whole"),
                       nut = static_cast<std::size_t>(c.headline.nut);
@@ -94,7 +94,7 @@ std::string sentence_of(const study::Cells& cells, const study::TabledCell& cell
                                   : text;
 }
 
-// Whether a tap is louder in the last quarter of the trace than in the first.
+// Tests whether a tap is louder in the last quarter of the trace than in the first.
 bool rises(const Trace& trace, double from) {
     constexpr double louder = 1.05;
     for (int k = 0; k < trace.taps(); ++k) {
@@ -108,8 +108,8 @@ bool rises(const Trace& trace, double from) {
     return false;
 }
 
-// The cause of the whole trace, of which a run that diverges has the first rows alone: that of the
-// headline's tap, else of the first tap that has one.
+// Cause for the whole trace, because a diverged run has only its first rows. The cause at the
+// headline's tap is preferred, then the first tap with a cause.
 std::string cause_in(const study::Ran& ran) {
     const Scene& scene = ran.point.true_scene();
     const auto at = [&](int tap) {
@@ -121,7 +121,7 @@ std::string cause_in(const study::Ran& ran) {
     return text;
 }
 
-// Stands behind the error. What grows is told from the energy of the scene.
+// Sentence after the error. Growth is detected by comparison with the energy of the scene.
 std::string cause_sentence(const study::Cell& cell, const Scene& scene) {
     constexpr double beyond_doubt = 1.05;
     const study::Summary& s = cell.summary;
@@ -140,7 +140,7 @@ std::string cause_sentence(const study::Cell& cell, const Scene& scene) {
                                    s.largest_over_bound));
 }
 
-// How far the trace is from each scheme that ran beside it at its rate, tap by tap: whether two
+// Distance between the trace and each scheme at the same rate, tap by tap: shows whether two
 // programs compute the same.
 std::string beside(const compare::Comparison& c, const study::Record& own) {
     const Trace& trace = trace_of(own.cell);

@@ -28,7 +28,7 @@ namespace jvari::bench::judge {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int refuses = 3;  // the exit code of a program that does not represent what it was asked
+constexpr int refuses = 3;  // exit code if the program cannot represent the problem
 
 struct External {
     std::string command, name;
@@ -70,8 +70,8 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of,
         read_trace(given, of.scene, of.settings.tap_rate, rows_of(of.scene, of.settings)));
 }
 
-// Each problem is computed once, with a trace, a refusal or a failure: a cell is run by the search,
-// for its errors, and once more where it is looked at again.
+// Computes each problem only once and stores its trace, refusal or failure: the search runs a cell,
+// then its errors are measured, and some cells are run again.
 std::shared_ptr<const Trace> known(const External& e, const Exported& of,
                                    const Unwanted& unwanted) {
     struct Each {
@@ -79,17 +79,17 @@ std::shared_ptr<const Trace> known(const External& e, const Exported& of,
         std::shared_ptr<const Trace> trace;
         std::exception_ptr failure;
     };
-    static std::mutex mutex;  // of `all`
+    static std::mutex mutex;  // guards `all`
     static std::map<std::string, Each> all;
     const std::string problem = problem_json(of, nullptr);
     std::unique_lock lock(mutex);
     Each& each = all[store::hash_of(e.command + problem)];
     lock.unlock();
-    std::call_once(each.once, [&] {  // whoever asks for it meanwhile waits
+    std::call_once(each.once, [&] {  // other callers wait meanwhile
         try {
             each.trace = computed(e, of, problem, unwanted);
         } catch (const std::exception&) {
-            if (unwanted()) throw;  // it was ended: the next who asks calls it anew
+            if (unwanted()) throw;  // the call was stopped: the next caller repeats it
             each.failure = std::current_exception();
         }
     });
@@ -140,8 +140,7 @@ std::unique_ptr<Scheme> called(const Descriptor& d, const Scene& scene, const Se
     return std::make_unique<Called>(*static_cast<const External*>(d.own), scene, settings);
 }
 
-// As the shell reads them, its operators aside; none where the command has what only the shell can
-// know.
+// Splits the command into words like a shell, operators excluded. Empty if only the shell can tell.
 std::vector<std::string> words_in(std::string command) {
     char quote = 0;
     for (std::size_t k = 0; k < command.size(); ++k) {
@@ -158,7 +157,7 @@ std::vector<std::string> words_in(std::string command) {
     return words;
 }
 
-// The file that a word names, or the program that is found by it; "" where there is neither.
+// Finds the file that a word names, or the program on the PATH; "" if there is neither.
 fs::path file_of(const std::string& word) {
     std::error_code error;
     if (fs::is_regular_file(word, error)) return word;
@@ -180,7 +179,7 @@ std::string enter_external(const std::string& command) {
             fmt::format("\n{}: {}", word, file.empty() ? "no file" : store::hash_of_file(file));
         if (!file.empty() && file == fs::path(word)) name = file.stem().string();
     }
-    // a misspelt file, as a command's last word
+    // Refuses a misspelt file name in the last word of the command.
     const std::vector<std::string> words = words_in(command);
     const std::string ending = words.empty() ? "" : fs::path(words.back()).extension().string();
     if (name == "external" && ending.size() > 1 && ending.size() < 5 &&

@@ -14,7 +14,7 @@
 namespace jvari::bench::judge {
 
 namespace {
-constexpr double near_row = 0.1;  // of a row: other programs print six digits
+constexpr double near_row = 0.1;  // fraction of a row: other programs print six digits
 
 double number_in(const std::string& field, const std::string& where) {  // NaN and inf are numbers
     const auto from = field.find_first_not_of(" \t\r"), to = field.find_last_not_of(" \t\r");
@@ -107,7 +107,7 @@ Trace from_csv(const std::filesystem::path& path, const Scene& scene, double tap
             "there is none",
             path.string(), store::energy_names[at / t.rows.size()], at % t.rows.size()));
     } else if (odd != trace.energy.end()) {
-        trace.energy.clear();  // of a scheme that failed
+        trace.energy.clear();  // trace of a failed scheme
     }
     return trace;
 }
@@ -158,11 +158,10 @@ std::string no_number_in(const Trace& trace) {
 }
 
 namespace {
-// Before it is read whole: 64 characters a number and a few columns more than are asked for are
-// taken.
+// Checks the size before reading: at most 64 characters a number, and a few additional columns.
 void check_size(const std::filesystem::path& path, std::size_t taps, double tap_rate, long rows) {
     constexpr double number = 64, header = 1e6;
-    std::error_code error;  // said by whoever reads it
+    std::error_code error;  // the reader reports the error
     const double size = static_cast<double>(std::filesystem::file_size(path, error));
     const double most = header + number * static_cast<double>(taps + 8) * static_cast<double>(rows);
     if (!error && size > most)

@@ -20,7 +20,7 @@ namespace jvari::bench::judge {
 namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* format = "jvari problem 1";
-constexpr double most_steps = 1e7;  // of plucks: 200 MB of text
+constexpr double most_steps = 1e7;  // steps for plucks: 200 MB of text
 
 Json numbers(const double* data, std::int64_t n) { return std::vector<double>(data, data + n); }
 Json json_of(const Matrix& m) {
@@ -76,7 +76,7 @@ Exported exported(const compare::CompareRequest& request) {
         throw store::UsageError(
             fmt::format("--tap-rate: found {:.12g}; {:.12g} Hz is no whole multiple of it",
                         e.settings.tap_rate, e.settings.sample_rate));
-    double steps = 0;  // each holds a force of every pluck
+    double steps = 0;  // each step has a force for every pluck
     for (const String& s : e.scene.strings)
         if (s.pluck)
             steps += e.settings.sample_rate *
@@ -106,7 +106,7 @@ std::string problem_json(const Exported& e, const study::Truth* truth) {
     each_member(problem.arrays(),
                 [&j](const char* name, const auto& value) { j[name] = json_of(value); });
     if (truth) j["reference"] = reference_json(e.scene, *truth);
-    std::string text;  // a member a line
+    std::string text;  // one member per line
     for (const auto& [key, value] : j.items())
         text += (text.empty() ? "{\n" : ",\n") + store::compact(key) + ": " + store::compact(value);
     return text + "\n}\n";

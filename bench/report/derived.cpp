@@ -15,11 +15,12 @@ using store::Table;
 using study::Rows;
 using Cell = study::TabledCell;
 
-// beyond, orders are of the headline errors alone
+// Beyond this number of cells, orders are computed only for headline errors.
 constexpr std::size_t most_cells_with_taps = 600;
 
-// Of a scheme with several numbers of modes at one rate the cells that none of its others beats are
-// one line: what modes and rate come to together.
+// Names the line for each cell. If a scheme ran with several numbers of modes at one rate, its
+// cells that no other of its cells beats form one line, which shows the combined effect of modes
+// and rate.
 std::vector<std::string> lines_of(const Results& r) {
     const std::size_t headline = compare::headline_error(r.cells, study::all_rows(r.cells));
     const auto shown = [&](const Cell& c) { return compare::bound_of(c, headline).shown(); };
@@ -56,7 +57,7 @@ Table cells_table(const Results& r, const std::vector<std::string>& lines) {
 
 struct ErrorName {
     std::size_t measure;
-    std::string tap;  // "": the headline's
+    std::string tap;  // "": the headline's tap
 };
 std::vector<ErrorName> errors_in(const study::Cells& cells) {
     std::vector<std::string> taps{""};
@@ -111,7 +112,8 @@ Table cheapest_table(const Results& r) {
     return t;
 }
 
-// a tie with the truth has no order, and an error that is all wrong is not on its way to one
+// Excludes ties with the reference, which have no order, and cells with a completely wrong result,
+// which are not converging yet.
 Table orders_of(const Results& r) {
     Table t{{"problem", "series", "tap", "measure", "order", "half_width", "points"}, {}};
     Rows ended = study::all_rows(r.cells);

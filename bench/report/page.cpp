@@ -16,8 +16,7 @@
 namespace jvari::bench::report {
 
 namespace {
-// JSON that stands inside <script>: '<' occurs in its strings alone, and may be written as an
-// escape there.
+// JSON for a <script> element: '<' occurs only within its strings, where an escape may replace it.
 std::string island(const nlohmann::ordered_json& j) {
     std::string safe;
     for (const char c : store::compact(j)) {
@@ -52,7 +51,7 @@ std::string page_of(const nlohmann::ordered_json& data, const std::string& scrip
         {"@PROGRAM@", page_program()}};
     std::string text;
     std::string rest = page_text("page.html");
-    // in the order in which they stand, so that what is put in is not looked through
+    // Marks are replaced in page order, so inserted text is not searched.
     for (const auto& [mark, part] : parts) {
         const auto at = rest.find(mark);
         text += rest.substr(0, at) + part;

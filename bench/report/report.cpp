@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 
-// What parts of a page may weigh [bytes].
+// Size limits for parts of a page [bytes].
 constexpr std::size_t page_limit = 4'900'000, sounds_limit = 3'000'000, table_limit = 1'500'000;
 constexpr double longest_heard = 4;  // [s]
 
@@ -36,7 +36,8 @@ store::Table fitting(store::Table t, Json& left_out) {
     const auto size = [](const std::vector<std::string>& fields, std::size_t k) {
         return fields[k].size() + 1;
     };
-    std::vector<std::pair<std::size_t, std::size_t>> columns(t.columns.size());  // bytes, which
+    // bytes, column number
+    std::vector<std::pair<std::size_t, std::size_t>> columns(t.columns.size());
     std::size_t all = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         for (const auto& row : t.rows) columns[k].first += size(row, k);
@@ -72,8 +73,7 @@ store::Table fitting(store::Table t, Json& left_out) {
 }
 
 namespace {
-// Of a table that is too large, other taps than the headline's have the errors that are asked for
-// most.
+// Shortens a large table: taps other than the headline's keep only the most requested errors.
 void shorten_errors(store::Table& t, Json& left_out) {
     std::size_t size = 0;
     for (const auto& row : t.rows)
@@ -96,7 +96,7 @@ Json measures() {
     return all;
 }
 
-// of the cells that asked for spectrograms, and of the references that were heard
+// Levels for the cells with spectrograms, and for the references that were played.
 Json kept_levels(const Results& r) {
     Json all = Json::array();
     for (std::size_t i = 0; i < r.cells.size(); ++i)
@@ -171,7 +171,7 @@ std::string fitting_page_of(Json data, const std::string& scripts, std::size_t l
 Results best_of(const Results& r, std::size_t cells) {
     const std::size_t headline = compare::headline_error(r.cells, study::all_rows(r.cells));
     std::vector<char> first(r.cells.size());
-    std::map<std::string, std::pair<double, std::size_t>> best;  // of a scheme on a problem
+    std::map<std::string, std::pair<double, std::size_t>> best;  // for a scheme on a problem
     for (const compare::Answer& a : compare::cheapest_of(r.cells, r.controls))
         if (a.cell) first[*a.cell] = true;
     for (std::size_t i = 0; i < r.cells.size(); ++i) {

@@ -27,14 +27,15 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-struct Named {  // what tells one row's series from another's
+struct Named {  // distinguishes the series of rows
     std::string problem, variant, rate, modes;
 };
 std::vector<std::string> series_of(const std::vector<Named>& rows) {
     const auto place = [](const Named& n) { return n.problem + "|" + n.variant + "|" + n.rate; };
-    std::map<std::string, std::set<std::string>> modes;  // of a scheme on a problem at a rate
+    std::map<std::string, std::set<std::string>> modes;  // for a scheme on a problem at a rate
     for (const Named& n : rows) modes[place(n)].insert(n.modes);
-    // schemes with more than one number of modes at a rate; without a rate, modes are its steps
+    // Schemes with more than one number of modes at a rate. Without a rate, modes take the place of
+    // the steps.
     std::set<std::string> several;
     for (const Named& n : rows)
         if (!n.rate.empty() && modes[place(n)].size() > 1) several.insert(n.variant);
@@ -71,7 +72,7 @@ void read_manifest(Results& r, const Json& m) {
     r.command = m.value("command", "");
     r.controls =
         m.value("controls", false) ? compare::Controls::compete : compare::Controls::stand_beside;
-    if (!m.contains("scene")) {  // of a suite
+    if (!m.contains("scene")) {  // manifest of a suite
         r.name = m.value("suite", "");
         r.source = m.value("source", "");
         return;
@@ -91,7 +92,8 @@ Results read_results(const fs::path& path) {
     Results r;
     r.folder = path;
     for (const char* name : {"strings", "fronts", "advice"}) r.tables[name] = folder.table(name);
-    const bool population = !r.tables["strings"].columns.empty();  // its cells are too many
+    // a population has too many cells
+    const bool population = !r.tables["strings"].columns.empty();
     if (!population) r.cells = study::read_cells(path, true);
     for (const char* name : {"convergence", "maps", "boundaries", "sounds", "path", "needs"})
         r.tables[name] = folder.table(name);
@@ -117,8 +119,8 @@ Results read_results(const fs::path& path) {
 }
 
 namespace {
-// How much a reader wants of a row of sounds: 0 a reference, 1 the cheapest within an accuracy, 2 a
-// scheme at its highest rate, 3 at its lowest, 4 else.
+// Priority of a row of sounds for the reader: 0 a reference, 1 the cheapest within an accuracy, 2 a
+// scheme at its highest rate, 3 at its lowest, 4 otherwise.
 int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest) {
     if (t.at(i, "scheme") == "reference") return 0;
     for (std::size_t k = 0; k < cheapest.rows.size(); ++k)
@@ -203,7 +205,7 @@ constexpr const char* own_folders[] = {"cells",    "points",     "sounds",
                                        "failures", "references", "scenes"};
 constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".toml", ".part"};
 
-std::string what_is_in(const fs::path& folder) {  // "" where that is unknown
+std::string what_is_in(const fs::path& folder) {  // "" if unknown
     try {
         const auto m = store::Folder{folder}.manifest();
         if (m.contains("suite")) {

@@ -1,4 +1,4 @@
-// What lies in a folder of compare or of suite: the tables of results, read for its report.
+// Reads the results in a folder of compare or suite for its report.
 #pragma once
 
 #include <filesystem>
@@ -21,74 +21,76 @@ namespace jvari::bench::report {
 struct Results {
     std::filesystem::path folder;
     std::string manifest;                      // JSON
-    std::string name, source, about, command;  // command: that made the results
+    std::string name, source, about, command;  // command: made the results
     compare::Controls controls = compare::Controls::stand_beside;
     study::Cells cells;
-    std::vector<std::string> series;  // of each cell
+    std::vector<std::string> series;  // one per cell
     store::Table sounds;
-    // What else the page draws, sounds too, by the file's name; empty where the file is absent. All
-    // but those of trim, path and needs, have the columns `problem` and `series` in front.
+    // Further tables that the page draws, including sounds, by file name; empty if the file is
+    // absent. The columns `problem` and `series` stand in front, except in the tables of trim, path
+    // and needs.
     std::map<std::string, store::Table> tables;
 };
 
-// Throws UsageError where there is no manifest.json, none of facts.csv, maps.csv and path.csv, or
-// one of the files cannot be read.
+// Throws UsageError if manifest.json is missing, if facts.csv, maps.csv and path.csv are all
+// missing, or if a file cannot be read.
 Results read_results(const std::filesystem::path&);
 
-// A problem is a scene at one point of what is swept; runs of different problems are not compared.
-// A series is a scheme with its options, and with its modes where the table has it with several at
-// one rate.
+// Problem: a scene at one point of a sweep; runs on different problems are not compared. Series: a
+// scheme with its options, and with its modes if the table has several numbers of modes at one
+// rate.
 
-// ---- What the page joins with the folder's tables: what the program says of each cell, each scene
-// and each line. Judgements and statistics are made here, once; the page's JavaScript looks them up
-// and draws them.
+// ---- Derived tables, which the page joins with the folder's tables: statements about each cell,
+// each scene and each line. Judgements and statistics are computed once, here; the page's
+// JavaScript looks them up and draws them.
 
-// cells:    what is known of each but its errors, with its problem and series in front, and with
+// cells:    all figures of each cell except its errors; in front its problem and series, behind
 //           trusted, may_win, run (its name in a sentence), line (its series in the first chart;
-//           none where another of its scheme's numbers of modes is better) behind
-// errors:   row (of cells), tap, measure, value, floor, certificate; shown, text: of those that are
-//           no more than bounded (compare/bound.hpp)
-// scenes:   problem, headline, certificate (of its first cell), busy (its clock)
-// cheapest: problem, then what compare::cheapest_of says
-// orders:   problem, series, tap, measure, order, half_width, points: as observed over the rates
+//           empty if another number of modes is better for the same scheme)
+// errors:   row (in cells), tap, measure, value, floor, certificate; shown, text: for errors with
+//           only a bound (compare/bound.hpp)
+// scenes:   problem, headline, certificate (from its first cell), busy (its clock)
+// cheapest: problem, then the columns of compare::cheapest_of
+// orders:   problem, series, tap, measure, order, half_width, points: observed over the rates
 std::map<std::string, store::Table> derived_tables(const Results&);
 
-// ---- Sounds and spectrograms as the page carries them: 16 bit samples as base64.
+// ---- Sounds and spectrograms in the page: 16 bit samples, base64.
 
 nlohmann::ordered_json json_of(const study::Levels&);
 nlohmann::ordered_json json_of(const store::Sound&, double longest);  // [s]
 
-// of sounds.csv; throws UsageError where it is not below the folder
+// File named in sounds.csv; throws UsageError if it is not below the folder.
 std::filesystem::path sound_file(const Results&, std::size_t row);
-// The sounds of the folder that fit into `limit` bytes:
-// references, runs that are the cheapest within an accuracy, highest rates, lowest rates, the rest.
+// Sounds that fit into `limit` bytes, in this order: references, runs that are the cheapest within
+// an accuracy, highest rates, lowest rates, the rest.
 nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, double longest,
                              std::size_t limit, nlohmann::ordered_json& left_out);
 
-// ---- The folder that results go to: of one comparison, one suite or one trimmed scene, so that no
-// page mixes what was measured apart.
+// ---- Folder of results: it belongs to one comparison, one suite or one trimmed scene, so that no
+// page mixes separate measurements.
 
-// A study's own folder while it runs: made, found writable, and without the parts that a killed run
-// left. Any number of processes of one study may have it, and no other study meanwhile.
+// A study's own folder during the study: created, checked to be writable, and cleared of the
+// temporary files of killed runs. Any number of processes may share it for the same study, but no
+// other study may use it meanwhile.
 class OwnFolder {
 public:
-    // Before anything is run. `what`: "comparison of tanpura_c3", "suite smoke", "trim of
-    // tanpura_c3"; `request`: all that its results depend on. Throws UsageError where the folder
-    // holds the results of something else than `what`, or where a process is at work there on
-    // another request; notes files that no such folder has, which stay where they are.
+    // Called before any run. `what`: "comparison of tanpura_c3", "suite smoke", "trim of
+    // tanpura_c3"; `request`: everything its results depend on. Throws UsageError if the folder has
+    // the results of anything other than `what`, or if a process is working there on another
+    // request. Notes foreign files, which stay.
     OwnFolder(const std::filesystem::path& folder, const std::string& what,
               const std::string& request, const store::Listener&);
-    const std::filesystem::path cells;  // where its cells are kept; "" of nowhere
+    const std::filesystem::path cells;  // folder for its cells; "": none
 
 private:
     std::optional<store::SharedLock> lock_;
 };
 
-// What is written into it, and the paths of that; nowhere ("") nothing is.
+// Writes files into the folder and collects their paths; with the folder "" nothing is written.
 class ResultsFolder {
 public:
-    // Two processes that share the folder write its files one after the other: they are read back
-    // together, by the report.
+    // Locks the folder: two processes that share it write its files one after the other, because
+    // the report reads them together.
     ResultsFolder(std::filesystem::path folder, const store::Listener& listener)
         : folder_(std::move(folder)),
           listener_(listener),
@@ -96,11 +98,10 @@ public:
                                "writes the tables", listener)) {}
     explicit operator bool() const { return !folder_.empty(); }
     void add(const std::string& name, const std::string& content);
-    // cells.csv, facts.csv, errors.csv, cost.csv and, where there are orders to tell,
-    // convergence.csv
+    // Adds cells.csv, facts.csv, errors.csv, cost.csv and, if orders are known, convergence.csv.
     void add_tables(const study::Cells&);
     void add_manifest(const nlohmann::ordered_json&);
-    void add_report();  // of what was written before
+    void add_report();  // reports on the files written before
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
 
 private:
@@ -113,9 +114,9 @@ struct Written {
     nlohmann::ordered_json manifest;
     study::Cells cells;
     std::vector<compare::Answer> cheapest;
-    nlohmann::ordered_json files;  // that were written
+    nlohmann::ordered_json files;  // written files
 };
-// Of a comparison, written into the folder that the request names.
+// Writes a comparison into the folder named in the request.
 Written written(const compare::Comparison&, const compare::CompareRequest&, const store::Listener&);
 
 }  // namespace jvari::bench::report

@@ -16,11 +16,12 @@ namespace jvari::bench::report {
 namespace {
 using Json = nlohmann::ordered_json;
 using store::Table;
-constexpr long most_points = 1000;  // of a line: beyond, least and greatest value of each stretch
+// points in a line; a longer signal shows smallest and largest value for each interval
+constexpr long most_points = 1000;
 constexpr std::size_t most_contacts = 2000;
 constexpr double longest_kept = 20;  // [s]
 
-std::string short_text(double x) {  // six digits are enough for a point
+std::string short_text(double x) {  // a point needs only six digits
     return std::isfinite(x) ? fmt::format("{:.6g}", x) : "";
 }
 
@@ -37,7 +38,7 @@ Table wave_of(std::span<const double> x, double rate) {
     return t;
 }
 
-Table spectrum_of(std::span<const double> x, double rate) {  // the strongest bin of each band
+Table spectrum_of(std::span<const double> x, double rate) {  // strongest bin in each band
     const PowerSpectrum s = power_spectrum(x, rate);
     constexpr int bands = 800;
     const double lowest = std::max(20.0, s.bin_hz), span = std::log(rate / 2 / lowest);
@@ -67,7 +68,7 @@ Table ledger_of(const Trace& trace) {
     for (long k = 0; k < count; ++k) {
         for (const auto until = static_cast<std::size_t>((k + 1) * trace.rows / count); row < until;
              ++row) {
-            if (row == 0) continue;  // the sums are over the interval that ends at a row
+            if (row == 0) continue;  // sums cover the interval before a row
             in += supplied[row];
             out += dissipated[row];
         }
@@ -87,7 +88,7 @@ Table contacts_of(const DrawnRun& r, Json& caption) {
             continue;
         const auto force = r.trace.column(k);
         for (std::size_t n = 0; n < force.size(); ++n) {
-            if (force[n] == 0) continue;  // the mean over the interval that ends at the row
+            if (force[n] == 0) continue;  // mean over the interval before the row
             const std::size_t first = n;
             while (n + 1 < force.size() && force[n + 1] != 0) ++n;
             const double from = (static_cast<double>(first) - 1) / rate,
@@ -108,7 +109,7 @@ Table contacts_of(const DrawnRun& r, Json& caption) {
     return t;
 }
 
-int heard_tap(const DrawnRun& r) {  // the force on the nut, which is what drives the body
+int heard_tap(const DrawnRun& r) {  // prefers the force on the nut, which drives the body
     for (int k = 0; k < r.trace.taps(); ++k)
         if (r.scene.taps.at(static_cast<std::size_t>(k)).quantity == Quantity::nut_force) return k;
     return 0;

@@ -54,9 +54,9 @@ std::optional<std::string> vega_scripts(const Vega& v) {
             text->resize(map);
         const fs::path package = fs::path(v.folder) / fs::path(library).begin()->c_str();
         auto licence = whole(package / "LICENSE");
-        // vega comes without its own, which is the same
+        // vega comes without a licence file; the text in vega-lite is the same.
         if (!licence) licence = whole(package.parent_path() / "vega-lite/LICENSE");
-        // the notice goes with every copy
+        // The licence requires the notice in every copy.
         if (licence) *text = "/*\n" + *licence + "*/\n" + *text;
         all += "<script>" + inside_script(std::move(*text)) + "</script>\n";
     }
