@@ -212,8 +212,7 @@ inline Column run_many(const std::vector<py::object>& scenes, const std::string&
     return out;
 }
 
-// Rows returned by compare or judge are a list that `report` can draw: the list keeps its
-// comparison.
+// Rows returned by compare or judge are a list for `report` to draw: the list keeps its comparison.
 struct Compared {
     compare::Comparison comparison;
     compare::CompareRequest request;

@@ -1,4 +1,4 @@
-// Module functions for schemes of one's own: problem, judge, check, and registering a class as a
+// Module functions for users' own schemes: problem, judge, check, and registering a class to be a
 // scheme.
 #pragma once
 
@@ -64,8 +64,8 @@ inline py::list check_rows_of(const std::string& scheme) {
     return rows;
 }
 
-// Reads a trace: rows x taps, or rows of the only tap; or {tap: rows}, in which further names are
-// ignored.
+// Reads a trace: rows x taps, or only rows for a single tap; or {tap: rows}, ignoring further
+// names.
 inline Trace trace_of(const py::object& given, const Scene& scene, double tap_rate, double rate) {
     const std::string what = "trace at " + store::text_of(rate) + " Hz";
     std::vector<Numbers> columns;
@@ -123,7 +123,7 @@ inline py::object judge_rows(const py::object& scene, const py::object& traces,
     const judge::Rows rows = judge::rows_for(r, judged);
     judge::Candidate c;
     c.name = name;
-    struct Lent {  // the candidate lives until the process ends, but its traces are freed here
+    struct Lent {  // the candidate lives until the process ends, but the traces are freed here
         std::vector<std::shared_ptr<Trace>> traces;
         ~Lent() {
             for (const auto& t : traces) *t = {};

@@ -1,5 +1,5 @@
-// Converts between Python and the engine: keys and options as text, scenes, tables as rows, columns
-// of a trace as arrays on its memory.
+// Converts between Python and the engine: keys and options become text, and scenes, tables and
+// columns become Python values. Columns are arrays on the trace's memory.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -114,7 +114,7 @@ inline py::object rows_of(const bench::store::Table& t) {
 using Column = py::array_t<double>;
 
 // Accepts real numbers without a mask. Others are refused, because a conversion would silently lose
-// a part of them.
+// data.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 inline Numbers numbers_of(const py::object& given, const std::string& what) {
     const bool masked = py::module_::import("numpy.ma").attr("isMaskedArray")(given).cast<bool>();
@@ -129,7 +129,7 @@ inline Numbers numbers_of(const py::object& given, const std::string& what) {
     return all.cast<Numbers>();
 }
 
-struct TakenRun {  // a run with the units of its columns
+struct TakenRun {  // run and the units for all columns
     Run run;
     // Names and units by column: taps, then the probed energies.
     std::vector<std::pair<std::string, std::string>> units;
@@ -145,7 +145,7 @@ struct TakenRun {  // a run with the units of its columns
     }
 };
 
-// Returns a column as an array on the trace's memory: the array keeps the run alive.
+// Returns an array on the trace's memory: the array keeps the run alive.
 inline Column column(const py::object& self, const std::string& name) {
     const auto& taken = self.cast<const TakenRun&>();
     const Trace& trace = taken.run.trace;

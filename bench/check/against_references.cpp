@@ -20,8 +20,8 @@
 //
 // Instants: tested on mode 1 alone, and on the string between a soft bridge that it never leaves
 // and a soft thread. A wrong frequency makes an error that grows with time, and a wrong instant
-// makes an error at the start. The fit separates the two. The schemes in this tree are at most 0.06
-// of a step early or late (a velocity of the sitar grids), the others at most 0.035.
+// makes an error at the start. The fit separates the two. In this tree the largest lag or lead is
+// 0.06 of a step (a velocity of the sitar grids), otherwise at most 0.035.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -111,9 +111,9 @@ Smooth smooth(const char* name, const std::optional<LumpedBarrier>& barrier = {}
     return {scene};
 }
 
-// Scenes: a wide soft obstacle that the string meets within the run and a wide soft thread, if the
-// scheme represents them; a soft profile; a pluck; a thread at a point; then strings without
-// contact.
+// Scenes in order of preference. First a wide soft obstacle met by the string within the run and a
+// wide soft thread, if represented. Then a soft profile; a pluck; a thread at a point; strings
+// without contact.
 std::vector<Smooth> smooth_scenes(const Descriptor& d) {
     std::vector<Smooth> all;
     // Position of a node [m] on a grid with as many nodes as there are modes.

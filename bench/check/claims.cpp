@@ -1,12 +1,11 @@
-// Claims of a scheme as a numerical method by itself: its partials follow its own dispersion
-// relation, and it stays sound between settings. Claims against a reference are in
+// Claims by a scheme alone, as a numerical method: the partials follow its own dispersion relation,
+// and the scheme stays sound between settings. Claims against a reference are in
 // against_references.cpp.
 //
-// Bounds and their reasons. Partials: the matrix pencil agrees with the partials of a recursion to
-// 2e-8 cents (smoke suite); 1e-3 cents is far above that, and far below the effect of any change to
-// an equation. A map: no point on the sound side of the scheme's stability limit may be diverged,
-// not_converged or energy_gaining (bench/study/judgement.hpp). Contacts that do not pull are a
-// separate promise.
+// Bounds and their reasons. Partials: the matrix pencil agrees with a recursion's partials to 2e-8
+// cents (smoke suite); 1e-3 cents is far larger, and far below the effect of changing any equation.
+// A map: no point on the sound side of the scheme's stability limit may be diverged, not_converged
+// or energy_gaining (bench/study/judgement.hpp). Contacts that do not pull are a separate promise.
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 

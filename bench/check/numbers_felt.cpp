@@ -11,7 +11,7 @@
 // kHz, with 8^p = 3. The three rates are no multiples of each other, because a delay line rounds to
 // the same length at multiples.
 //
-// With contacts the error of the motion itself is added: a contact that begins within a step causes
+// With contacts the error of the motion itself is added. A contact that begins within a step causes
 // an error that jumps with the instant, so the errors of two runs need not cancel. The gap that a
 // scheme reports for the state of its contacts is added too. A grid approaches the whole string,
 // but the reference has a finite number of modes. Nodes on a profile add their discretisation error
@@ -70,8 +70,8 @@ std::optional<jvari::Run> run_where_taken(const Descriptor& d, const Scene& scen
     }
 }
 
-// Exact motion of a limp string without losses whose end at x = 0 rotates the plane of vibration at
-// each reflection: the sum of both d'Alembert waves.
+// Exact motion for a limp string without losses whose end at x = 0 rotates the plane of vibration
+// at each reflection: the sum of both d'Alembert waves.
 Trace turning(const Scene& scene, long rows) {
     Trace t;
     t.tap_rate = contract_tap_rate;
@@ -201,8 +201,8 @@ private:
         }
         return all;
     }
-    // References with cells, which err by about one cell, run at each level; all others run at the
-    // last.
+    // References with cells run at each level, because they err by about a cell; all others run at
+    // the last.
     std::vector<const Trace*> levels_of_truth(const Scene& s) const {
         std::vector<const Trace*> all;
         for (const int times : rates)
@@ -269,7 +269,7 @@ Verdict feels_every_number(const Case& c) {
     for (const Scene& whole : scenes_of_numbers()) {
         Scene scene = as_far_as(c.scheme, whole);
         scene.name = "";
-        // Skips a scene whose distinguishing feature is not represented.
+        // Skips a scene if the distinguishing feature is not represented.
         if (!seen.insert(scene_hash(scene)).second) continue;
         scene.name = whole.name;
         Felt felt(c.scheme, scene, folder.path);

@@ -1,11 +1,11 @@
-// The one list of promises that every scheme makes. `jvari check` examines one scheme, the tests
+// The list of promises that every scheme makes. `jvari check` examines a single scheme, the tests
 // examine all.
 //
 // A promise is examined on every scene that the scheme represents, on every other scene, or once.
 // Numerical claims rest on all other promises and are examined only if these are kept, so a broken
 // promise fails under its own name. The last two rest on the claims before them too: a scheme with
 // a wrong motion has no right instants, and responds to no number correctly. For each promise
-// tests/contract_plugins has a scheme that breaks this promise and keeps all others.
+// tests/contract_plugins has a scheme breaking only this promise.
 #pragma once
 
 #include <filesystem>
@@ -53,14 +53,14 @@ enum class Scope {
 
 struct Promise {
     const char* name;  // "AllocatesNothingWhileStepping"
-    // behaviour of a scheme that keeps it: "allocates nothing while stepping"
+    // behaviour that keeps the promise: "allocates nothing while stepping"
     const char* sentence;
     Scope scope;
     Verdict (*of)(const Case&);  // the case has no scene if the promise is examined once
 };
 std::span<const Promise> promises();  // in reading order
 
-// A known break by a scheme of this tree: a control, which a comparison must detect.
+// A known break by a scheme in this tree: a control, which a comparison must detect.
 struct Excuse {
     const char *scheme, *promise, *why;
 };
@@ -68,8 +68,8 @@ std::span<const Excuse> excuses();
 
 std::vector<Case> cases_of(const Descriptor&, Scope);
 
-// Never throws: an exception from the scheme breaks the promise. A scene that the scheme refuses
-// for its own reason gives `not_asked`. A known break (Excuse) gives `excused`.
+// Never throws: an exception from the scheme breaks the promise. A refusal for the scheme's own
+// reason gives `not_asked`. A known break (Excuse) gives `excused`.
 Verdict verdict_on(const Promise&, const Case&);
 
 // ---- One function for each promise, and shared helpers.
@@ -98,7 +98,7 @@ Verdict facts_agree_with_its_rows(const Case&);
 Verdict is_one_motion_in_all_units(const Case&);
 Verdict plays_later_as_at_once(const Case&);
 
-// Numerical claims about a scheme as a whole: claims.cpp, against_references.cpp.
+// Numerical claims about a whole scheme: claims.cpp, against_references.cpp.
 Verdict stores_the_energy_of_the_scene(const Case&);
 Verdict partials_are_its_own_relations(const Case&);
 Verdict writes_rows_at_their_instants(const Case&);
@@ -109,11 +109,11 @@ Verdict stays_sound_over_a_map(const Case&);
 Settings settings_for(const Descriptor&, const Scene&);
 // Tests whether the scheme represents the scene and approximates no part of it.
 bool is_as_the_scene_says(const Descriptor&, const Scene&);
-// Tests whether the scheme touches a profile at the number of points in its option `points`, the
-// counterpart of a reference's `nodes`.
+// Tests whether the scheme touches a profile at points, as many as the option `points` says;
+// references have `nodes` instead.
 bool has_points_for_a_profile(const Descriptor&);
-// Tests whether the scheme is an external program that exchanges files. Only its rows are known,
-// and it refuses at run time.
+// Tests whether the scheme is an external program exchanging files. Only its rows are known, and it
+// refuses at run time.
 bool is_called(const Descriptor&);
 constexpr const char* in_a_process = "it runs in a process of its own, and gives rows alone";
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false if it refuses
@@ -154,7 +154,7 @@ std::vector<Scene> scenes_with(Feature);
 // to affect the taps.
 const std::vector<Scene>& scenes_of_numbers();
 
-// Reduces a scene to the features that a scheme represents without approximation; a profile may be
+// Reduces a scene to the features represented by a scheme without approximation; a profile may be
 // approximated by points.
 Scene as_far_as(const Descriptor&, Scene);
 
@@ -162,19 +162,19 @@ Scene as_far_as(const Descriptor&, Scene);
 // scene again from its text.
 Scene in_files(Scene, const std::filesystem::path& folder);
 
-// Copies of the scene with only this feature changed: another value, or none. A scheme that heeds
-// the feature distinguishes them.
+// Copies with only this feature changed: another value, or none. A scheme that heeds the feature
+// distinguishes them.
 std::vector<Scene> otherwise(const Scene&, Feature);
 
-// ---- Numbers of a scene, from the schema of scene files, so that new keys are included.
+// ---- Numbers in a scene, from the schema for scene files, so new keys are included.
 
 struct Changed {
     std::string key;  // "string.0.barrier.1.height"
     Scene scene;
 };
 
-// Changes number `which` of the scene by a tenth, or by a step if it is 0; each column of a table
-// is one number. Returns nothing beyond the last.
+// Changes number `which` in the scene by a tenth, or by a step if it is 0; each column in a table
+// counts as one number. Returns nothing beyond the last.
 std::optional<Changed> changed(const Scene&, int which, bool down = false);
 
 // ---- All promises of one scheme: `jvari check` prints and writes them, and its exit code tells

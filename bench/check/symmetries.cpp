@@ -1,13 +1,13 @@
-// Two changes that preserve the motion of a scene: other units, and a later beginning.
+// Two changes that preserve a scene's motion: other units, and a later beginning.
 //
-// Units of mass, length and time: every tap and every energy changes only by the factor of its
-// unit. The unit of each number stands in the schema of scene files, so new keys are scaled too.
-// Factors are powers of two, which cause no rounding; power laws do round. Stiff parts of the
-// library become soft and soft parts stiff, which exposes schemes that compare with a fixed length,
-// time or force.
+// Units of mass, length and time: every tap and every energy changes only by the factor for its
+// unit. The schema for scene files has the unit of each number, so new keys are scaled too. Factors
+// are powers of two, which cause no rounding; power laws do round. Stiff parts in the library
+// become soft and soft parts stiff, which exposes schemes that compare with a fixed length, time or
+// force.
 //
 // A later beginning: a string at rest that is plucked after a second moves like a string plucked at
-// once. This exposes effects of a long run without needing a reference.
+// once. This exposes effects from a long run without needing a reference.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ double largest(std::span<const double> x) {
     for (const double one : x) most = std::max(most, std::abs(one));
     return most;
 }
-// Largest value among all taps with this unit: a tap that the motion has not reached contains only
+// Largest value among all taps with this unit: a tap not yet reached by the motion contains only
 // rounding errors.
 double scale_of(const Trace& t, const Scene& scene, Quantity q) {
     double most = 0;

@@ -1,5 +1,5 @@
-// jvari list: everything available, and which scheme represents which scene. The text is generated
-// from the JSON.
+// jvari list: everything available, and which scheme represents which scene. The text comes from
+// the JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ Json pairings_json() {
     return all;
 }
 
-// Schemes with the same option share its entry.
+// Schemes with the same option share the entry.
 Json options_json(const Schemes& schemes) {
     Json all = Json::array();
     for (const Descriptor* d : schemes)
@@ -249,10 +249,11 @@ void add_rows(Rows& rows, const Json& list, const std::string& above) {
     }
 }
 
-// Prints a line for each entry: its fields up to `source`, in columns. Fields after `source` appear
-// only with --json. Keys of a nested table stand below the table, prefixed by its name and a dot.
+// Prints a line for each entry: the fields up to `source`, in columns. Fields after `source` appear
+// only with --json. Keys in a nested table stand below the table, prefixed by the table's name and
+// a dot.
 std::string text_of(const std::string& title, const Json& list) {
-    constexpr std::size_t widest = 32;  // a longer field shifts the rest of its line
+    constexpr std::size_t widest = 32;  // a longer field shifts the rest after it
     std::string text;
     if (list.is_object()) {
         for (const auto& [name, inner] : list.items())
@@ -282,7 +283,7 @@ std::string text_of(const std::string& title, const Json& list) {
     return fmt::format("{}: {}\n{}", title, fmt::join(fields, ", "), text);
 }
 
-// ---- One thing by name
+// ---- A single thing by name
 
 template <class Visit>  // visits each entry in a list, with the list's name
 void each_entry(const std::string& list, const Json& entries, const Visit& visit) {
@@ -300,7 +301,7 @@ std::vector<std::string> names_of(const Json& entry) {  // "a, b" are two names
     return names;
 }
 
-// Finds the entries with this name, each with its list. A scheme comes with the scenes it
+// Finds all entries with this name, and adds the list to each. A scheme comes with the scenes it
 // represents, a scene with its schemes.
 Json named(const Json& lists, const std::string& name) {
     Json found = Json::array();

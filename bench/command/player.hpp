@@ -1,12 +1,12 @@
 // Plays a run into a .wav file with 24 bits, with the largest sample 1 dB below full scale.
 //
-// With a body: the driving force of all strings is filtered by the response at the bridge into the
-// left channel, and the force on the nut by the response at the nut into the right channel (van
-// Walstijn et al. 2016, Section 4.4). A body with one response gives one channel.
+// With a body (van Walstijn et al. 2016, Section 4.4): the left channel is the driving force of all
+// strings, filtered by the response at the bridge. The right channel is the force on the nut,
+// filtered by the response at the nut. A body with one response gives one channel.
 //
 // Without a body: the driving force if a string has a barrier or a thread, else the force on the
-// nut. High frequencies are lowered as in radio (a first-order low pass at 3183 Hz, the de-emphasis
-// of 50 us), because no body radiates a force that is flat to 20 kHz.
+// nut. High frequencies are lowered as in radio: a first-order low pass at 3183 Hz, the de-emphasis
+// of 50 us. The reason is that no body radiates a force that is flat to 20 kHz.
 //
 // In both cases a first-order high pass at 20 Hz removes the steady part. There is no dither. The
 // unprocessed signals go to .csv.

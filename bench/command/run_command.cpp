@@ -142,8 +142,8 @@ void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, S
                         d.name));
 }
 
-// Table with one row per contact, in the order of their starts. A contact that lasts beyond the run
-// has no end, no speed out and no loss; a contact that began earlier has no speed in.
+// Table with a row per contact, in the order of their starts. A contact lasting beyond the run has
+// no end, no speed out and no loss; a contact that began earlier has no speed in.
 store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& scene,
                            double until) {
     std::vector<std::pair<int, Impact>> all;  // string number, impact
@@ -168,7 +168,7 @@ store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& 
     return t;
 }
 
-// Extracts the taps for one scene from the trace of a scene with more taps.
+// Extracts the taps for a scene from the trace for a scene with more taps.
 Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
     Trace part = all;
     part.names.clear();

@@ -1,5 +1,5 @@
-// Verbs. Each verb is a file: it adds its arguments with their help to the command line, and runs
-// the command.
+// Verbs. Each verb is a file: it adds arguments with their help to the command line, and runs the
+// command.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,7 @@
 
 namespace jvari::bench::command {
 
-// ---- Arguments: shared by several verbs, with checks of their text.
+// ---- Arguments: shared by several verbs, with checks for the text.
 
 struct Common {
     bool json = false, quiet = false;
@@ -27,7 +27,7 @@ struct Running : Common {  // base for verbs that run schemes
     std::vector<std::string> plugins;
 };
 
-struct Value {  // value of an option: its name in the help, and its check
+struct Value {  // an option's value: name in the help, and check
     const char* type;
     CLI::Validator check = {};
 };
@@ -85,7 +85,7 @@ std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>
 // Splits the values of a list; throws UsageError if an option is named twice.
 std::vector<compare::SchemeOption> listed_options(const std::vector<std::string>& texts);
 
-// Lists the files of a scene, and other files that a call reads.
+// Lists a scene's files, and other files that a call reads.
 std::vector<store::NamedFile> files_read(const Scene&, const std::string& scene,
                                          const std::vector<std::string>& plugins);
 
@@ -109,12 +109,13 @@ constexpr Act (*verbs[])(CLI::App&) = {new_verb,   list_verb,  run_verb,     com
                                        suite_verb, trim_verb,  certify_verb, report_verb,
                                        diff_verb,  check_verb, export_verb,  judge_verb};
 
-// ---- Output of the verbs that compare schemes.
+// ---- Output by the verbs for comparing schemes.
 
-// Exit code of a study: done if at least one run succeeded, or if there was nothing to run.
+// Exit code for a study: done if at least one run succeeded or none was needed, refused if all were
+// refused.
 int code_of(const std::vector<study::Record>&);
 
-// JSON results of `compare`, `judge` and `suite`, appended to the verb's own members.
+// JSON results for `compare`, `judge` and `suite`, appended to the verb's own members.
 std::string with_results(nlohmann::ordered_json own, const report::Written&);
 
 }  // namespace jvari::bench::command

@@ -50,8 +50,9 @@ const Trace& trace_of(const study::Cell& cell) {  // for a candidate's cell
 }
 
 // Removes errors in the model that may be wrong. A trace does not say which compliance its string
-// has. If the trace is closer to the scene than to a string with the same number of modes and their
-// own compliance, it does not belong to such a string, and its error in the model is unknown.
+// has. The trace may be closer to the scene than to a string with the same number of modes and
+// their own compliance. Then the trace does not belong to such a string, and its error in the model
+// is unknown.
 void forget_errors_in_other_models(compare::Comparison& c) {
     const std::size_t whole = study::measure("error_l2_whole"),
                       nut = static_cast<std::size_t>(c.headline.nut);

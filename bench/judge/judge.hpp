@@ -1,4 +1,4 @@
-// External schemes: the problem as a file, traces made by other programs, and any program as a
+// External schemes: the problem in a file, traces made by other programs, and any program used as a
 // scheme.
 #pragma once
 
@@ -13,15 +13,15 @@
 
 namespace jvari::bench::judge {
 
-// ---- A scene's problem as JSON, for scripts: the arrays of schemes/open/jvari_scheme.h under the
-// same names, and the reference trace with its uncertainty. docs/own-scheme/README.md has shape,
-// unit and equation of each array.
+// ---- A scene's problem in JSON, for scripts. The arrays have the same names as in
+// schemes/open/jvari_scheme.h; the reference trace comes with its uncertainty.
+// docs/own-scheme/README.md has shape, unit and equation for each array.
 
 struct Exported {
     Scene scene;
     Settings settings;
 };
-// Uses request.rates.front(), the request's modes and its tap rate. Throws UsageError, Refusal,
+// Uses request.rates.front(), and modes and tap rate from the request. Throws UsageError, Refusal,
 // BadScene.
 Exported exported(const compare::CompareRequest&);
 
@@ -48,8 +48,8 @@ void check_rows(const Trace&, const std::string& what, long rows);
 // Also throws for fewer rows: such a trace cannot be judged whole.
 void must_be_whole(const Trace&, const std::string& what, long rows);
 
-// Returns "" if every tap is a number in every row, else the place of the first invalid value: the
-// scheme failed there, at that rate.
+// Returns "" if every tap is a number in every row, otherwise the place with the first invalid
+// value: the scheme failed there, at this rate.
 std::string no_number_in(const Trace&);
 
 // ---- A trace by another program as a scheme: all commands for schemes accept it.
@@ -63,9 +63,9 @@ constexpr Features every_feature{(1u << feature_count) - 1};
 // format of `jvari export` without the reference, and writes rows for read_trace. It is called once
 // for each scene and setting.
 
-// Registers the program as a scheme with the name of its file ("octave-cli mine.m": mine), and
-// returns the path of its guest. Results are identified by the command and by the files in it,
-// split like a shell: scripts, data, and programs on the PATH.
+// Registers the program as a scheme, named after the file ("octave-cli mine.m": mine), and returns
+// the guest's path. The command, and the files in the command, identify results: scripts, data, and
+// programs on the PATH. Words are split like in a shell.
 std::string enter_external(const std::string& command);
 
 // Adds the program's own declarations. It is called with the one word "represents" and prints lines
@@ -74,21 +74,21 @@ std::string enter_external(const std::string& command);
 // than 0. Throws UsageError: other words.
 Descriptor declared(const Descriptor&);
 
-// ---- Traces of one scene by another program, one for each of its sample rates, judged in the same
-// way as the schemes in `compare`.
+// ---- Traces of a scene by another program, for one or more sample rates, judged in the same way
+// as the schemes in `compare`.
 
 using Costs = std::map<double, double>;  // computing time per second of sound, by sample rate [Hz]
 
 struct Candidate {
     std::string name = "mine";                              // in tables and pictures
-    std::map<double, std::shared_ptr<const Trace>> traces;  // by sample rate [Hz]
-    Costs costs;                                            // as reported; empty: unknown
-    // Contents of its files, which its results depend on.
+    std::map<double, std::shared_ptr<const Trace>> traces;  // traces by sample rate [Hz]
+    Costs costs;                                            // reported costs; empty: unknown
+    // Contents of the files, which determine the results.
     std::string contents;
 };
 
-// Common rows for comparing traces: their rate [Hz] and count. The rate is 44100 if it divides all
-// sample rates, else the lowest sample rate.
+// Common rows for comparing traces: rate [Hz] and count. The rate is 44100 if it divides all sample
+// rates, otherwise the lowest sample rate.
 struct Rows {
     double rate;
     long count;

@@ -15,12 +15,12 @@ using store::Table;
 using study::Rows;
 using Cell = study::TabledCell;
 
-// Beyond this number of cells, orders are computed only for headline errors.
+// Beyond this many cells, orders are computed only for headline errors.
 constexpr std::size_t most_cells_with_taps = 600;
 
-// Names the line for each cell. If a scheme ran with several numbers of modes at one rate, its
-// cells that no other of its cells beats form one line, which shows the combined effect of modes
-// and rate.
+// Names the line for each cell. If a scheme ran with several numbers of modes at the same rate, its
+// unbeaten cells form a single line, showing the combined effect of modes and rate. A cell is
+// beaten if a trusted cell by the same scheme has a smaller error at the same or lower cost.
 std::vector<std::string> lines_of(const Results& r) {
     const std::size_t headline = compare::headline_error(r.cells, study::all_rows(r.cells));
     const auto shown = [&](const Cell& c) { return compare::bound_of(c, headline).shown(); };
@@ -112,8 +112,8 @@ Table cheapest_table(const Results& r) {
     return t;
 }
 
-// Excludes ties with the reference, which have no order, and cells with a completely wrong result,
-// which are not converging yet.
+// Excludes ties with the reference, because they have no order, and cells with a completely wrong
+// result, because they are not converging yet.
 Table orders_of(const Results& r) {
     Table t{{"problem", "series", "tap", "measure", "order", "half_width", "points"}, {}};
     Rows ended = study::all_rows(r.cells);

@@ -24,14 +24,14 @@ namespace jvari::bench::report {
 std::vector<std::string> write_report(const std::filesystem::path& folder, const store::Listener&,
                                       double width = 0);
 
-// Shortens a large table by its largest columns, but keeps the columns that charts need.
+// Shortens a large table by the largest columns, but keeps the columns needed for charts.
 store::Table fitting(store::Table, nlohmann::ordered_json& left_out);
 // Makes the page with less than `limit` bytes by leaving out sounds, the last first, if that
 // suffices; the page says so.
 std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scripts,
                             std::size_t limit);
-// Selects `cells` cells: those that answer a question or lie on a front, the best for each scheme,
-// then the others in order.
+// Selects `cells` cells: answers to a question and cells on a front, the best for each scheme, then
+// the others in order.
 Results best_of(const Results&, std::size_t cells);
 // Makes the page for `data_of(results)` with less than `limit` bytes: besides sounds, cells are
 // left out, and finally whole tables, the largest first.
@@ -43,16 +43,16 @@ nlohmann::ordered_json data_of(const Results&);
 // control; in the order of their registry), and empty tables, sounds and levels.
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
 
-// ---- The report's page: one file, no network. Its JavaScript (page/*.js) draws the data in the
-// page; node makes the SVG files with the same JavaScript (vega.hpp).
+// ---- The report's page: one file, no network. JavaScript in page/*.js draws the data in the page;
+// node makes the SVG files with the same JavaScript (vega.hpp).
 
-// `scripts`: the chart libraries as <script> elements; "": no charts. `data`: described in
-// page/data.js, with its title.
+// `scripts`: the chart libraries in <script> elements; "": no charts. `data`: described in
+// page/data.js, with a title.
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts);
 std::string shared_program();  // shared with node: data.js ... verdict.js
 
-// ---- Files of page/, which the build compiles into the program: the page's frame, style and
-// scripts, and its charts as Vega-Lite.
+// ---- Files in page/, which the build compiles into the program: the page's frame, style and
+// scripts, and the charts in Vega-Lite.
 
 struct PageText {
     const char *name, *text;  // "page.html", its contents
@@ -66,9 +66,9 @@ const char* page_text(const char* name);  // throws std::logic_error for an unkn
 std::string playground();  // the built page; throws UsageError if it is missing
 std::string with_playground(const std::string& report, const std::string& play);
 
-// ---- One run, one picture with sound. It shows the taps over time, spectrum and spectrogram of
-// the first tap, the energy ledger if probed, and the contact intervals. The numbers are computed
-// here; page/run.js draws them.
+// ---- One run in a picture with sound. The picture shows the taps over time, spectrum and
+// spectrogram for the first tap, the energy ledger if probed, and the contact intervals. The
+// numbers are computed here; page/run.js draws them.
 
 struct DrawnRun {
     std::string title, subtitle, scheme;  // scheme: selects the colour

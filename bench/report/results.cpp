@@ -34,8 +34,8 @@ std::vector<std::string> series_of(const std::vector<Named>& rows) {
     const auto place = [](const Named& n) { return n.problem + "|" + n.variant + "|" + n.rate; };
     std::map<std::string, std::set<std::string>> modes;  // for a scheme on a problem at a rate
     for (const Named& n : rows) modes[place(n)].insert(n.modes);
-    // Schemes with more than one number of modes at a rate. Without a rate, modes take the place of
-    // the steps.
+    // Schemes with more than one number of modes at the same rate. Rows without a rate keep a
+    // single series, stepped by modes.
     std::set<std::string> several;
     for (const Named& n : rows)
         if (!n.rate.empty() && modes[place(n)].size() > 1) several.insert(n.variant);
@@ -119,8 +119,8 @@ Results read_results(const fs::path& path) {
 }
 
 namespace {
-// Priority of a row of sounds for the reader: 0 a reference, 1 the cheapest within an accuracy, 2 a
-// scheme at its highest rate, 3 at its lowest, 4 otherwise.
+// Priority of a sound for the reader: 0 a reference, 1 the cheapest within an accuracy, 2 a scheme
+// at its highest rate, 3 at its lowest, 4 otherwise.
 int place_of(const store::Table& t, std::size_t i, const store::Table& cheapest) {
     if (t.at(i, "scheme") == "reference") return 0;
     for (std::size_t k = 0; k < cheapest.rows.size(); ++k)

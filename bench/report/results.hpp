@@ -24,7 +24,7 @@ struct Results {
     std::string name, source, about, command;  // command: made the results
     compare::Controls controls = compare::Controls::stand_beside;
     study::Cells cells;
-    std::vector<std::string> series;  // one per cell
+    std::vector<std::string> series;  // for each cell
     store::Table sounds;
     // Further tables that the page draws, including sounds, by file name; empty if the file is
     // absent. The columns `problem` and `series` stand in front, except in the tables of trim, path
@@ -36,22 +36,22 @@ struct Results {
 // missing, or if a file cannot be read.
 Results read_results(const std::filesystem::path&);
 
-// Problem: a scene at one point of a sweep; runs on different problems are not compared. Series: a
-// scheme with its options, and with its modes if the table has several numbers of modes at one
-// rate.
+// Problem: a scene at a single point in a sweep; runs on different problems are not compared.
+// Series: a scheme with its options, and with its modes if the table has several numbers of modes
+// at the same rate.
 
 // ---- Derived tables, which the page joins with the folder's tables: statements about each cell,
 // each scene and each line. Judgements and statistics are computed once, here; the page's
 // JavaScript looks them up and draws them.
 
-// cells:    all figures of each cell except its errors; in front its problem and series, behind
-//           trusted, may_win, run (its name in a sentence), line (its series in the first chart;
-//           empty if another number of modes is better for the same scheme)
+// cells:    all figures for each cell except its errors; in front problem and series, behind
+//           trusted, may_win, run (its name in a sentence), line (its series in the first chart).
+//           The line is empty if another number of modes is better for the same scheme.
 // errors:   row (in cells), tap, measure, value, floor, certificate; shown, text: for errors with
-//           only a bound (compare/bound.hpp)
-// scenes:   problem, headline, certificate (from its first cell), busy (its clock)
-// cheapest: problem, then the columns of compare::cheapest_of
-// orders:   problem, series, tap, measure, order, half_width, points: observed over the rates
+//           only a bound (compare/bound.hpp).
+// scenes:   problem, headline, certificate (from the first cell), busy (from the clock).
+// cheapest: problem, then the columns in compare::cheapest_of.
+// orders:   problem, series, tap, measure, order, half_width, points: observed over the rates.
 std::map<std::string, store::Table> derived_tables(const Results&);
 
 // ---- Sounds and spectrograms in the page: 16 bit samples, base64.
@@ -61,26 +61,26 @@ nlohmann::ordered_json json_of(const store::Sound&, double longest);  // [s]
 
 // File named in sounds.csv; throws UsageError if it is not below the folder.
 std::filesystem::path sound_file(const Results&, std::size_t row);
-// Sounds that fit into `limit` bytes, in this order: references, runs that are the cheapest within
-// an accuracy, highest rates, lowest rates, the rest.
+// Sounds within a total of `limit` bytes, in this order: references, the cheapest runs within an
+// accuracy, highest rates, lowest rates, the rest.
 nlohmann::ordered_json heard(const Results&, const store::Table& cheapest, double longest,
                              std::size_t limit, nlohmann::ordered_json& left_out);
 
-// ---- Folder of results: it belongs to one comparison, one suite or one trimmed scene, so that no
-// page mixes separate measurements.
+// ---- Folder for results: it belongs to a single comparison, suite or trimmed scene, so no page
+// mixes separate measurements.
 
-// A study's own folder during the study: created, checked to be writable, and cleared of the
-// temporary files of killed runs. Any number of processes may share it for the same study, but no
-// other study may use it meanwhile.
+// A study's own folder during the study: created, checked to be writable, and cleared of temporary
+// files left by killed runs. Any number of processes may share the folder for the same study, but
+// no other study may use it meanwhile.
 class OwnFolder {
 public:
     // Called before any run. `what`: "comparison of tanpura_c3", "suite smoke", "trim of
-    // tanpura_c3"; `request`: everything its results depend on. Throws UsageError if the folder has
-    // the results of anything other than `what`, or if a process is working there on another
-    // request. Notes foreign files, which stay.
+    // tanpura_c3"; `request`: everything that determines the results. Throws UsageError if the
+    // folder has other results than `what`, or if a process is working there on another request.
+    // Notes foreign files, which stay.
     OwnFolder(const std::filesystem::path& folder, const std::string& what,
               const std::string& request, const store::Listener&);
-    const std::filesystem::path cells;  // folder for its cells; "": none
+    const std::filesystem::path cells;  // folder for cells; "": none
 
 private:
     std::optional<store::SharedLock> lock_;
@@ -89,8 +89,8 @@ private:
 // Writes files into the folder and collects their paths; with the folder "" nothing is written.
 class ResultsFolder {
 public:
-    // Locks the folder: two processes that share it write its files one after the other, because
-    // the report reads them together.
+    // Locks the folder: two processes that share the folder write their files one after the other,
+    // because the report reads them together.
     ResultsFolder(std::filesystem::path folder, const store::Listener& listener)
         : folder_(std::move(folder)),
           listener_(listener),

@@ -1,5 +1,5 @@
-// Keys of the tables of a suite file. Each key is declared once, with its kind of value, its
-// default and its meaning. The declaration serves the reader, error messages with file and line,
+// Keys in the tables of a suite file. Each key is declared once, with the kind of value, the
+// default and the meaning. The declaration serves the reader, error messages with file and line,
 // `jvari list keys`, and the documentation.
 #pragma once
 
@@ -18,8 +18,8 @@
 
 namespace jvari::bench::store {
 
-// A value of a suite file together with its path, so that error messages name file, line and key as
-// they do for scenes.
+// A value in a suite file together with its path, so error messages name file, line and key like
+// error messages for scenes.
 class Entry {
 public:
     Entry(const Document& document, const Value& value, std::string key)
@@ -35,9 +35,9 @@ public:
     // Requires a table with no other keys than these.
     void only(const std::vector<std::string>& known) const;
     std::vector<std::pair<std::string, Entry>> members() const;  // members of a table
-    // Returns one value, or the elements of a non-empty array.
+    // Returns a single value, or the elements in a non-empty array.
     std::vector<Entry> items() const;
-    std::vector<Entry> tables(const std::string& expected) const;  // array of any length
+    std::vector<Entry> tables(const std::string& expected) const;  // array with any length
     bool is_text() const { return std::holds_alternative<std::string>(value_->content); }
     bool is_array() const { return std::holds_alternative<Array>(value_->content); }
 
@@ -61,7 +61,7 @@ private:
 struct KeyWords {
     std::string name, value, absent, meaning;  // absent: the default, "" if there is none
     bool needed = false;
-    std::vector<KeyWords> below = {};  // keys of a table
+    std::vector<KeyWords> below = {};  // keys in a table
 };
 
 template <class T>
@@ -72,7 +72,7 @@ struct Kind {          // kind of value
 };
 Kind<std::string> text();
 Kind<std::string> name_of_file();              // lower-case letters, digits, _ and -
-Kind<double> positive(const char* unit = "");  // finite, as all numbers here
+Kind<double> positive(const char* unit = "");  // finite, like all numbers here
 Kind<double> not_negative(const char* unit = "");
 constexpr int most_counted = 9'999'999;  // upper bound for modes, repeats and jobs
 Kind<int> whole(int least, int most);
@@ -107,7 +107,7 @@ Kind<T> one_of(const char* what, std::vector<std::pair<std::string, T>> words) {
 }
 Kind<std::string> word(const char* what, const std::vector<std::string>& known);
 
-// A table whose keys the author of the file chooses; `one` reads each value.
+// A table with keys chosen by the author of the file; `one` reads each value.
 template <class T>
 Kind<std::vector<T>> by_name(std::string says,
                              std::function<T(const std::string& name, const Entry&)> one) {
@@ -144,7 +144,7 @@ Key<Part> needed(const char* name, Member Part::*member, const Kind<T>& kind, co
     return detail::key(name, member, kind, meaning, "", true);
 }
 template <class Part, class Member, class T>
-// The default is the initial value of the member in Part.
+// The default is the member's initial value in Part.
 Key<Part> key(const char* name, Member Part::*member, const Kind<T>& kind, const char* meaning) {
     return detail::key(name, member, kind, meaning, detail::default_text(Part{}.*member), false);
 }
@@ -173,7 +173,7 @@ void read_keys(const Entry& e, const std::vector<Key<Part>>& keys, Part& part) {
         else if (const auto v = e.at(k.words.name)) k.read(part, *v);
 }
 
-// A table with these keys; `check` applies rules that involve several keys.
+// A table with these keys; `check` applies rules for several keys together.
 template <class Part>
 Kind<Part> table(std::vector<Key<Part>> keys, void (*check)(Part&, const Entry&) = nullptr) {
     std::vector<KeyWords> words = words_of(keys);

@@ -1,8 +1,4 @@
-// Writes a trace to a file: its sound (.wav), and its numbers (.csv, at the end).
-//
-// The sound is the force on the nut, which drives the body, in 16 bits scaled to its own peak. The
-// force is written as the scheme computes it, not differentiated and without a body. In a scene
-// without a nut force the sound is the first tap.
+// Writes a trace to a file: sound (.wav), and numbers (.csv, at the end).
 #pragma once
 
 #include <cstdint>
@@ -21,14 +17,14 @@ struct Sound {
     double peak = 0;                    // value of sample 32767, in the tap's unit
     std::vector<std::int16_t> samples;  // empty: no sound
 };
-// Returns no samples for a signal that is silent or not finite, or for a sample rate that is no
-// whole number between 3 kHz and 768 kHz.
+// Returns no samples for a silent signal, for a signal with infinite or NaN values, or for an
+// unplayable sample rate. Players need a whole number between 3 kHz and 768 kHz.
 Sound sound_of(std::span<const double> signal, double rate);
 
 std::string wav_of(const Sound&);  // contents of a .wav file, without the peak
 Sound read_wav(const std::filesystem::path&, double peak);  // throws UsageError
 
-// Signal in a sound file with one channel, in the unit of its samples: floating point unchanged,
+// Signal in a sound file with one channel, in the samples' own unit: floating point unchanged,
 // whole numbers scaled to full scale 1.
 struct Signal {
     double rate = 0;  // [Hz]
@@ -57,8 +53,7 @@ void write_sounds(const std::filesystem::path& folder, const std::vector<std::st
 inline constexpr const char* energy_names[] = {"energy_stored_J", "energy_supplied_J",
                                                "energy_dissipated_J"};
 
-// Throws UsageError for a path that cannot be written. Called before the run, so that no work is
-// lost.
+// Throws UsageError for an unwritable path. Called before the run, so no work is lost.
 void check_trace_file(const std::filesystem::path&);
 
 // Throws Unwritable.

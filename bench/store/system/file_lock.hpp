@@ -3,10 +3,10 @@
 // its holder dies, network file systems ask their server for it, and it works between threads as
 // well.
 //
-// Deadlock is impossible, because locks are taken in one order: the tables of a folder, a
-// certificate, the costs of a folder, a boundary or a failure of a map, a reference of a study, a
-// reference in the user's cache, a job. While waiting for a lock a process holds only locks of
-// earlier kinds. The holder of a job waits for nothing.
+// Deadlock is impossible, because a process that waits for a lock holds only locks of earlier
+// kinds. The order of kinds begins with the tables of a folder, a certificate, the costs of a
+// folder. Then follow a boundary or a failure of a map, a reference of a study, a reference in the
+// user's cache, a job. The holder of a job waits for nothing.
 #pragma once
 
 #include <filesystem>
@@ -25,10 +25,10 @@ public:
     // free, or continues without a lock (`elsewhere`). `doing` says what the holder does: "runs
     // free_string: modal_two_point".
     //
-    // No lock is taken if none is possible: in a folder without write permission, on a file system
-    // without locks, if something other than a file stands at the path, or for the file "". A lock
-    // therefore only saves work: results appear by rename, and two processes that compute the same
-    // result write the same file.
+    // No lock is taken if none is possible: no write permission in the folder, a file system
+    // without locks, something other than a file at the path, or the file "". A lock therefore only
+    // saves work: results appear by rename, and two processes that compute the same result write
+    // the same file.
     FileLock(const std::filesystem::path& file, const std::string& doing, bool wait = true);
     ~FileLock();
     FileLock(const FileLock&) = delete;

@@ -1,5 +1,5 @@
 // Receives the progress of a long computation. This base class ignores everything: a program that
-// uses jvari as a library passes this class, or derives from Listener.
+// uses jvari through the library passes this class, or derives from Listener.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace jvari::bench::store {
 
-// Progress of one job with several parts. Progress ends with its lifetime. One thread at a time
-// makes the calls.
+// Progress of a job with several parts. Progress ends with the object's lifetime. Only a single
+// thread calls at a time.
 class Progress {
 public:
     Progress() = default;
@@ -16,14 +16,14 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     // Shows the finished fraction, from 0 to 1, and the present activity. May be called at any
-    // frequency: a listener shows only as much as it can.
+    // frequency: a listener chooses how much to show.
     virtual void show(double /*fraction*/, const std::string& /*what*/ = {}) {}
 };
 
 class Listener {
 public:
     virtual ~Listener() = default;
-    // The message has one line or more, without a final line break.
+    // The message has at least a line, without a final line break.
     virtual void note(const std::string& /*text*/) const {}
     virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const {
         return std::make_unique<Progress>();

@@ -18,9 +18,9 @@ struct Said {
 // Ctrl-C and the signals of failed writing have their default effects on the program.
 //
 // The program leads a process group. The group is killed when its leader has ended, when `unwanted`
-// returns true (polled every few hundredths of a second), and at an interruption; it is also killed
-// if this program ends in any other way. Processes left behind by the leader are not waited for.
-// The elapsed time counts as computing time of this thread (interruption.hpp).
+// returns true (polled every few hundredths of a second), and at an interruption. If this program
+// ends in any other way, the group is killed too. Processes left behind by the leader are not
+// waited for. The elapsed time counts as computing time of this thread (interruption.hpp).
 Said run_program(std::vector<std::string> words, const std::function<bool()>& unwanted = {});
 
 }  // namespace jvari::bench::store

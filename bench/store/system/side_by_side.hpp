@@ -13,7 +13,7 @@
 
 namespace jvari::bench::store {
 
-struct Cancelled {};  // not a std::exception: a task that is no longer wanted has not failed
+struct Cancelled {};  // not a std::exception: an unwanted task has not failed
 
 class Done {  // finished fraction of a task, from 0 to 1
 public:
@@ -36,11 +36,11 @@ private:
 
 // Runs work(i, done) for each i below sizes.size(), started in this order, on `jobs` threads (0:
 // one per core). `sizes`: the expected durations in any unit, used only for the progress line.
-// `name`, if given, names the slowest task in that line.
+// `name`, if given, names the slowest task in this line.
 //
-// After an exception no further task starts. The exception with the lowest i is rethrown, as if the
-// tasks had run one by one. An exception from the listener cancels all tasks. A call from within a
-// task runs on the thread of that task, shows nothing, and is cancelled together with the task.
+// After an exception no further task starts. The exception with the lowest i is rethrown, like in a
+// sequential run. An exception from the listener cancels all tasks. A call from within a task runs
+// on the task's thread, shows nothing, and is cancelled together with the task.
 void side_by_side(const std::vector<double>& sizes, int jobs, const Listener&,
                   const std::string& label, const std::function<void(std::size_t i, Done&)>& work,
                   const std::function<std::string(std::size_t i)>& name = {});
@@ -49,8 +49,8 @@ int threads_of(int jobs);  // 0: one per core
 
 void throw_if_cancelled();  // tests the task of this thread
 
-// Marks this thread as waiting. If every started task waits, the progress line names the process
-// that they wait for, and a note does so after two seconds.
+// Marks this thread waiting. If every started task waits, the progress line names the awaited
+// process, and after two seconds a note does.
 class Wait {
 public:
     Wait();  // waits for another thread of this process
