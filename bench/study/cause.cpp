@@ -1,5 +1,5 @@
-// The true modes are those of van Walstijn et al. 2016, eqs 17-18 (scenes/modes.hpp). Partials are
-// told of free strings alone: those of a string against an obstacle do not stay as they are.
+// True modes are those of van Walstijn et al. 2016, eqs 17-18 (scenes/modes.hpp). Only free strings
+// get a text about partials, because a string against an obstacle does not keep its partials.
 #include "bench/study/cause.hpp"
 
 #include <fmt/core.h>
@@ -23,16 +23,18 @@ namespace {
 using Signal = std::span<const double>;
 constexpr double pi = std::numbers::pi;
 constexpr double negligible = 1e-2, most_of_it = 0.5, nearly_all = 0.1;
-constexpr double of_a_delay = 0.2;  // beside what aliases: modes above half the rate
+constexpr double of_a_delay = 0.2;  // Aliasing of modes above half the rate adds to a delay.
 constexpr int most_partials = 12;
-constexpr double periods = 60;  // of the first mode, that partials are sought in
+// length of signal for the search for partials, in periods of the first mode
+constexpr double periods = 60;
 constexpr double inaudible =
-    1e-3;  // of the strongest partial: at a node of the tap or of the start
+    // Relative to the strongest partial: weaker partials have a node at the tap or the start.
+    1e-3;
 constexpr double half_a_semitone = 50;  // [cents]
 constexpr long furthest = 1024;         // rows early or late
-constexpr double first_part = 50e-3;    // [s], that a string in contact is followed over
+constexpr double first_part = 50e-3;    // [s] over which a string in contact is followed
 
-struct Compared {  // a tap of the run and of the reference, from `first` rows on
+struct Compared {  // tap in the run and in the reference, from row `first` on
     const Scene& scene;
     const Tap& tap;
     double rate;
@@ -131,8 +133,8 @@ double first_frequency(const String& s) {  // [Hz]
     return modes_of(s, 1).omega0[0] / (2 * pi);
 }
 
-// Those that sound at the tap in both. The run's are sought where the last one's ratio puts them: a
-// trace at another rate lies beyond its neighbours.
+// Partials that sound at the tap in both traces. The search in the run starts from the ratio of the
+// preceding partial: at another rate, a partial may lie beyond its neighbours.
 std::vector<MatchedPartial> partials(const Compared& c) {
     const String& s = c.scene.strings.front();
     std::vector<MatchedPartial> all;
@@ -163,7 +165,7 @@ std::vector<MatchedPartial> partials(const Compared& c) {
     return all;
 }
 
-// What the reference errs by where its partials have the run's frequencies, or its decays.
+// Error of the reference after giving its partials the run's frequencies, or the run's decays.
 double err_by(const std::vector<MatchedPartial>& all, double rate, std::size_t rows, bool tune,
               bool decay) {
     double sum = 0;
@@ -181,7 +183,8 @@ double err_by(const std::vector<MatchedPartial>& all, double rate, std::size_t r
     return std::sqrt(sum);
 }
 
-// Where they are not all within half a semitone of their median, that is the tuning of none.
+// Text about tuning or decay. If a partial deviates from the median by more than half a semitone,
+// there is no common tuning, and the text says so.
 std::string partials_text(const std::vector<MatchedPartial>& all, bool by_tune) {
     std::vector<double> tune, decay;
     std::vector<int> numbers;
@@ -214,7 +217,8 @@ std::string tuning(const Compared& c, double error) {
     return partials_text(all, by(true, false) > by(false, true));
 }
 
-// Power within a quarter of their distance of the odd partials and of the even ones, and between.
+// Power near the odd partials and near the even ones (within a quarter of the distance), and
+// between them.
 struct Shares {
     double odd = 0, even = 0, all = 0;
     double between() const { return all - odd - even; }
@@ -233,8 +237,8 @@ Shares shares_of(Signal x, const Compared& c) {
     return shares;
 }
 
-// Partials halfway between those of the string are of one an octave lower, or of one that is free
-// at one end. A run without the odd ones sounds an octave high.
+// Partials halfway between the string's belong to a string an octave lower, or to a string with a
+// free end. A run without the odd partials sounds an octave high.
 std::string octave(const Compared& c) {
     const Shares x = shares_of(c.run, c), r = shares_of(c.reference, c);
     if (x.between() > most_of_it * x.all && r.between() < nearly_all * r.all)
@@ -247,7 +251,7 @@ std::string octave(const Compared& c) {
                : "";
 }
 
-// The run has the first partials as the reference has them, and nothing above.
+// True if the run's first partials match the reference and the partials above are missing.
 std::string few_partials(const Compared& c) {
     const String& s = c.scene.strings.front();
     std::vector<double> apart;
@@ -272,7 +276,7 @@ std::string few_partials(const Compared& c) {
                        has, edge / 1000);
 }
 
-bool hears_partials(const Scene& scene, Quantity q) {  // of the string's own modes
+bool hears_partials(const Scene& scene, Quantity q) {  // partials of the string's own modes
     const String& s = scene.strings.front();
     return (q == Quantity::displacement || q == Quantity::velocity || q == Quantity::nut_force) &&
            scene.strings.size() == 1 && !s.has_contacts() && !s.thread && !s.polarisation;

@@ -1,4 +1,4 @@
-// A cell: one scheme at its settings on one scene, and what came of it. The unit of every study.
+// Cell: one scheme with its settings on one scene, and the results. The unit of every study.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,21 @@
 
 namespace jvari::bench::study {
 
-// What a run has to say of itself beside its trace.
+// Figures of a run, beside its trace.
 struct Summary : Figures {
     std::string scheme, scene;
     double rate;  // [Hz]; NaN for a continuous-time reference
-    int modes;    // of the first string; interior nodes for a scheme on a grid
+    int modes;    // number in the first string; interior nodes for a scheme on a grid
     int dofs;
     long steps, rows;
     double duration;                                    // simulated [s]: up to the last valid row
-    double wall_seconds, ns_per_step, times_real_time;  // NaN where there is nothing to divide
-    double processor_seconds = 0;                       // of an accuracy run
+    double wall_seconds, ns_per_step, times_real_time;  // NaN if the divisor is zero
+    double processor_seconds = 0;                       // for an accuracy run
 };
 
 Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);
 
-// Calls act(name, figure) for each number of a summary but those of its status and its facts.
+// Calls act(name, figure) for each number in a summary, except its status and its facts.
 template <class Summary_, class Act>
 void each_figure(Summary_& s, Act act) {
     act("rate", s.rate);
@@ -50,44 +50,45 @@ void each_figure(Summary_& s, Act act) {
     act("largest_over_bound", s.largest_over_bound);
 }
 
-// what a clock said of a cell (cost.hpp)
+// measured times of a cell (cost.hpp)
 struct Timing {
-    // of the timed runs [s], of the whole scene or up to the failure
+    // wall time of the timed runs [s], for the whole scene or up to the failure
     Spread wall{};
-    // the same in processor time [s], the drift of the machine taken off
+    // processor time of the same runs [s], after subtracting the drift of the machine
     Spread processor{};
-    double worst_block = std::numeric_limits<double>::quiet_NaN();  // as a fraction of its deadline
-    store::Stamp stamp{};                                           // of the machine
+    double worst_block = std::numeric_limits<double>::quiet_NaN();  // fraction of its deadline
+    store::Stamp stamp{};                                           // machine and date
 };
 
 struct Cell {
     const Descriptor* scheme;
     Settings settings;
-    // "" where it was run; else its status: "refused", "past_time_limit", "error"
+    // "" if the cell ran; else its status: "refused", "past_time_limit", "error"
     std::string failure{};
-    std::string reason{};  // of a failure, or why it is not needed
-    std::string cause{};   // of most of its headline error (cause.hpp); "": none is known
-    Summary summary{};     // of the accuracy run; empty where it was not run
-    Errors errors{};       // from the scene's own motion (truth.hpp)
-    // from that of a string with as many modes: errors of the scheme alone; empty where none was
-    // run
+    std::string reason{};  // reason for the failure, or for leaving the cell out
+    std::string cause{};   // explanation for most of its headline error (cause.hpp); "": unknown
+    Summary summary{};     // from the accuracy run; empty without a run
+    Errors errors{};       // relative to the scene's own motion (truth.hpp)
+    // errors relative to a string with the same number of modes, so errors of the scheme alone;
+    // empty if no such string ran
     Errors in_model{};
-    // of the headline's nut tap, where the run reached its end and the study wants to hear it
+    // sound of the headline's nut tap, if the run reached its end and the study stores sounds
     store::Sound sound{};
     Timing clock{};
-    bool searched = false;  // its modes or its rate were not named
-    bool added = false;     // more modes than it takes unasked
-    bool needed = true;     // false: run over the headline's window alone, and not timed
+    bool searched = false;  // true: modes or rate were not named
+    bool added = false;     // true: more modes than its default
+    bool needed = true;     // false: run over the headline's window only, and not timed
     bool ran() const { return failure.empty(); }
     int modes() const { return ran() ? summary.modes : settings.modes; }
-    // as tables have it: "ok", "diverged", "not_converged", "not_needed", or its failure
+    // status in tables: "ok", "diverged", "not_converged", "not_needed", or the failure
     std::string status() const;
 };
 
-// Runs the cell with its energy probed; fills summary and reason. Throws Refusal. What `progress`
-// throws ends it.
+// Runs the cell with its energy probed; fills summary and reason. Throws Refusal. An exception from
+// `progress` ends the run.
 using ProgressOf = std::function<void(long done, long rows)>;
 Trace run_cell(Cell&, const Scene& scene, const ProgressOf& progress);
-void fail(Cell&, const std::exception&);  // what running it threw: its failure and the reason
+// Stores the failure and its reason from the exception that the run threw.
+void fail(Cell&, const std::exception&);
 
 }  // namespace jvari::bench::study

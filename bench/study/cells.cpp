@@ -63,7 +63,7 @@ Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
 }
 
 void fail(Cell& cell, const std::exception& e) {
-    // the latter: not with these modes
+    // BadScene: the scene is impossible with these modes.
     const bool refused = dynamic_cast<const Refusal*>(&e) || dynamic_cast<const BadScene*>(&e);
     cell.failure = refused                                        ? "refused"
                    : dynamic_cast<const store::PastItsLimit*>(&e) ? "past_time_limit"
@@ -98,7 +98,7 @@ std::string TabledCell::run() const {
     return std::isnan(rate) ? name : name + fmt::format(" at {:.4g} kHz", rate / 1000);
 }
 
-// ---- Of records
+// ---- Records to cells
 
 namespace {
 Figure figure_of(const Record& r, std::size_t tap, std::size_t measure) {
@@ -115,7 +115,7 @@ Figure figure_of(const Record& r, std::size_t tap, std::size_t measure) {
     return f;
 }
 
-// Headline errors that are no larger than what the reference's own sensitivity makes of 1e-12.
+// Headline errors below the noise floor, which is the reference's sensitivity to a change by 1e-12.
 std::string ties_of(const TabledCell& c) {
     std::string ties;
     for (std::size_t m = 0; m < measures().size(); ++m)
@@ -209,7 +209,7 @@ Cells cells_of(const Plan& plan, const std::vector<Record>& records) {
     return cells;
 }
 
-// ---- Gathered
+// ---- Groups
 
 Rows all_rows(const Cells& cells) {
     Rows rows(cells.size());

@@ -1,10 +1,10 @@
-// A cell as tables have it: what a run says of itself, its errors on each tap, and what the clock
-// said. In memory numbers are numbers; on disk a folder has
-//   cells.csv   a row per cell, to look at: its names, headline errors and costs
-//   facts.csv   a row per cell: what a run says of itself and repeats bit for bit on one program
-//   errors.csv  a row per cell, tap and measure; likewise
-//   cost.csv    a row per cell: what the clock said
-// The last three are read back. cells.csv follows from them, and is not.
+// Cells in the form of tables: a run's own figures, its errors on each tap, and its measured times.
+// Memory holds numbers; a folder on disk has
+//   cells.csv   a row per cell, to look at: names, headline errors and costs
+//   facts.csv   a row per cell: the run's own figures, the same bit for bit with one program
+//   errors.csv  a row per cell, tap and measure; also the same bit for bit
+//   cost.csv    a row per cell: measured times
+// The program reads back the last three. cells.csv follows from them and is not read.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,15 @@
 
 namespace jvari::bench::study {
 
-struct Figure {  // an error, and what is known of it
+struct Figure {  // error with its uncertainty
     double value = nan;
-    double floor = nan;        // of noise: of the reference started 1e-12 apart
-    double certificate = nan;  // the uncertainty of the reference for the scene
-    // against a reference with as many modes as the scheme, and how far that solves its model
+    double floor = nan;        // noise floor: error of the reference started 1e-12 apart
+    double certificate = nan;  // uncertainty of the reference for the scene
+    // error against a reference with the scheme's number of modes, and the accuracy to which this
+    // reference solves its model
     double in_model = nan, certificate_in_model = nan;
 };
-// as errors.csv calls them
+// names in errors.csv
 constexpr std::pair<const char*, double Figure::*> figure_parts[] = {
     {"value", &Figure::value},
     {"floor", &Figure::floor},
@@ -53,29 +54,32 @@ struct TabledCell {
 
     // `tap` "": the headline's
     const Figure& figure(std::size_t measure, const std::string& tap = "") const;
-    double fact(const std::string& name) const;  // NaN where it has none
+    double fact(const std::string& name) const;  // NaN if absent
     std::string variant() const { return store::variant_name(scheme, options); }
-    bool same_series(const TabledCell& o) const {  // but for rate and modes
+    bool same_series(const TabledCell& o) const {  // same but for rate and modes
         return scene == o.scene && swept == o.swept && scheme == o.scheme && options == o.options;
     }
-    std::string problem() const;  // its scene and what is swept of it: "string, tension = 30"
-    // "modal_two_point compliance=matched, 133 modes at 88.2 kHz"; of a grid, which takes its nodes
-    // from the rate, without them
+    std::string problem() const;  // scene and swept values: "string, tension = 30"
+    // "modal_two_point compliance=matched, 133 modes at 88.2 kHz". A grid takes its nodes from the
+    // rate, so its text has no modes.
     std::string run() const;
 };
 using Cells = std::vector<TabledCell>;
 
-// how a number may differ between two programs that are right (bench/suite/difference_rules.cpp)
+// Tolerance class of a number that two correct programs may give differently
+// (bench/suite/difference_rules.cpp).
 enum class Rule {
-    name,         // of the cell, in one study alone, or what follows from the rest: not compared
-    text,         // the same or not
-    closed_form,  // or a count that the settings fix
+    // not compared: a name, a value known in one study only, or a value that follows from the
+    // others
+    name,
+    text,         // equal or not
+    closed_form,  // closed form, or a count that the settings fix
     instant,      // [s]
-    step,         // of a run
-    ledger,       // a residual of the energy balance
-    force,        // of a contact, that may be 0 [N]
-    depth,        // likewise [m]
-    clock         // of a machine: it stands in cost.csv
+    step,         // step of a run
+    ledger,       // residual of the energy balance
+    force,        // contact force, may be 0 [N]
+    depth,        // depth of a contact, may be 0 [m]
+    clock         // time of a machine, in cost.csv
 };
 
 struct Column {
@@ -83,29 +87,30 @@ struct Column {
     const char* unit;
     Rule rule;
     std::variant<std::string TabledCell::*, double TabledCell::*> field;
-    const char* meaning;   // "" where the column before it says it
-    bool in_cells = true;  // it stands in cells.csv too
+    const char* meaning;   // "" if the column before has the meaning
+    bool in_cells = true;  // true: also in cells.csv
     std::string text(const TabledCell&) const;
 };
-const std::vector<Column>& columns();  // but `cell` and what is swept
+const std::vector<Column>& columns();  // all columns except `cell` and the swept keys
 
 Cells cells_of(const Plan&, const std::vector<Record>&);  // in the order of the plan
 
-enum class Contents { cells, facts, cost, everything };  // the last: of all three, but taps
+// everything: the columns of all three, without taps
+enum class Contents { cells, facts, cost, everything };
 store::Table table_of(const Cells&, Contents);
 store::Table errors_table(const Cells&);
 
-// Of a folder of results; none where there is no facts.csv. `whole`: throws UsageError where
-// cost.csv has other cells.
+// Reads a folder of results; empty if there is no facts.csv. `whole`: throws UsageError if cost.csv
+// has other cells.
 Cells read_cells(const std::filesystem::path& folder, bool whole);
 
-// ---- Cells gathered by what they have in common: the series that fits and charts are made of.
+// ---- Groups of cells that share properties: the series behind fits and charts.
 
 using Rows = std::vector<std::size_t>;
 Rows all_rows(const Cells&);
 std::vector<std::string> swept_keys(const Cells&);
 
-// `rows` in groups with the same key(row), in the order in which they come.
+// Groups `rows` by key(row), in the order of first appearance.
 template <class Key>
 std::vector<Rows> alike(const Rows& rows, Key key) {
     std::vector<std::pair<std::string, Rows>> groups;

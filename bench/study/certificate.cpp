@@ -18,11 +18,11 @@
 namespace jvari::bench::study {
 
 namespace {
-constexpr int multiple = 4;  // of the coarsest of the oversampled runs
+constexpr int multiple = 4;  // highest rate over the coarsest, in the oversampled runs
 
 using Entry = Certificate::Entry;
 
-double finest_rate(double tap_rate) { return 64 * tap_rate; }  // of the oversampled runs
+double finest_rate(double tap_rate) { return 64 * tap_rate; }  // highest rate for oversampled runs
 
 bool is_oversampled(const Entry& e) { return e.sample_rate > 0; }
 
@@ -80,7 +80,7 @@ Settings settings_of(const Certificate& c, const Entry& e) {
             e.doubled == "modes" ? 2 * c.modes : c.modes, e.options};
 }
 
-// Fills in what the entry comes to; its trace.
+// Runs the entry, fills in its results and returns its trace.
 Trace run_entry(Entry& e, const Certificate& c, const Scene& scene, const RunOptions& options,
                 const std::filesystem::path& runs) {
     Settings own = settings_of(c, e);
@@ -139,7 +139,7 @@ Certificate certificate_plan(const Scene& scene, const CertifySettings& settings
 
 Certificate certify(const Scene& scene, Certificate c, const store::Listener& listener,
                     const std::filesystem::path& runs, double seconds) {
-    const TimeLimit limit = first_run(seconds);  // of each run
+    const TimeLimit limit = first_run(seconds);  // for each run
     const std::size_t count = c.entries.size();
     std::vector<std::optional<Trace>> traces(count);
     const auto work = [&](std::size_t i, store::Done& done) {
@@ -173,7 +173,7 @@ Certificate certify(const Scene& scene, Certificate c, const store::Listener& li
             e.reason = fmt::format("it takes longer than {:g} s", limit.seconds);
         } catch (const BadScene& bad) {
             if (e.doubled.empty()) throw;
-            e.reason = bad.what();  // it has no more modes than that: those that were measured
+            e.reason = bad.what();  // The scene has only so many measured modes.
         }
     };
     store::side_by_side(

@@ -12,7 +12,7 @@ namespace jvari::bench::study {
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr int format = 4;  // of the file
+constexpr int format = 4;  // version of the file format
 
 std::string window_name(std::size_t w) {
     return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w])
@@ -22,7 +22,7 @@ std::string level_name(std::size_t l) {  // "1e-3"
     return fmt::format("1e{}", std::lround(std::log10(agreement_levels[l])));
 }
 
-// Windows that end within the run, and the whole of it.
+// Windows that end within the run, and the whole run.
 Json windows_json(const Certificate::ByWindow& values, double duration) {
     Json j = Json::object();
     for (std::size_t w = 0; w < values.size(); ++w)

@@ -20,15 +20,15 @@ namespace jvari::bench::study {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr double slack = 1e-6;  // of an instant [s]: less than a row
+constexpr double slack = 1e-6;  // tolerance for instants [s]: less than a row
 
-// The instant at which a window of the comparison ends, NaN where the run is shorter.
+// Ends of the comparison's windows [s], NaN if the run is shorter.
 std::array<double, 3> window_ends(double until) {
     return {10e-3 <= until + slack ? 10e-3 : nan, 50e-3 <= until + slack ? 50e-3 : nan, until};
 }
 
-// The shortest window that is no shorter than `end`, of a run that lasted `reached`; NaN where
-// there is none.
+// Value for the shortest window that reaches `end`, in a run of length `reached`; NaN if there is
+// none.
 double covering(const Certificate::ByWindow& values, double end, double reached) {
     if (std::isnan(end) || end > reached + slack) return nan;
     if (end > reached - slack) return values.back();
@@ -94,8 +94,8 @@ Trust trust_of(const Certificate& c, const std::string& reference,
     };
     t.figure.assign(c.taps.size(), {nan, nan, nan});
     std::vector<double> at_least(c.taps.size(), nan);
-    // how far others confirm the same program with own compliance, before a sensitive motion
-    // multiplies that
+    // Agreement of other references with the same program and own compliance, before a sensitive
+    // motion amplifies differences.
     if (is_matched(options)) {
         Certificate::Options own = options;
         std::erase_if(own, [](const auto& o) { return is_matched({o}); });
@@ -118,7 +118,7 @@ Trust trust_of(const Certificate& c, const std::string& reference,
     for (std::size_t i = 0; i < c.entries.size(); ++i) {
         const Certificate::Entry& e = c.entries[i];
         if (e.doubled.empty()) continue;
-        // whichever reference was doubled: they share the model
+        // The doubled reference may be any, because all share the model.
         const auto pair_with = [&](bool matched) {
             return std::ranges::find_if(c.pairs, [&](const Certificate::Pair& p) {
                 return p.first == static_cast<int>(i) &&
@@ -211,7 +211,7 @@ Trust trust_of(const Oversampled& o, double until) {
         auto& figure = t.figure.emplace_back();
         for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(tap, ends[w], until);
     }
-    // its step alone is estimated, and not what its modes leave out
+    // The estimate covers only the time step, not the modes left out.
     t.left_out.assign(o.estimates.size(), {nan, nan, nan});
     t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4,
                             o.rate / 2, o.rate);

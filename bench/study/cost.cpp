@@ -16,18 +16,19 @@ namespace jvari::bench::study {
 
 namespace {
 constexpr double shortest_sample = 0.02;  // [s]
-constexpr double cell_budget = 10;        // of one cell [s]
+constexpr double cell_budget = 10;        // budget for one cell [s]
 
 struct Timed : Contender {
-    double expected;                          // [s] of one sample
+    double expected;                          // [s] for one sample
     int repeats;                              // samples
-    std::vector<double> wall{}, processor{};  // [s] of one run
+    std::vector<double> wall{}, processor{};  // [s] for one run
 };
-// What the machine does in a round (another clock frequency, a busy neighbour) meets the cells of
-// one rate alike, which are next to each other in it. So of every sample goes the median over them
-// of a sample over its cell's own median.
+// Subtracts the drift of the machine. A disturbance during a round (another clock frequency, a busy
+// neighbour) affects all cells at one rate alike, because they are timed next to each other. So
+// each sample is divided by the median, over these cells, of their relative times: sample over the
+// cell's own median.
 void take_off_drift(std::span<Timed> of_one_rate, int rounds) {
-    constexpr std::size_t fewest = 3;  // of fewer it cannot be told from theirs
+    constexpr std::size_t fewest = 3;  // with fewer cells, drift and cell cannot be told apart
     std::vector<double> middle;
     for (const Timed& t : of_one_rate) middle.push_back(spread_of(t.processor).median);
     for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round) {
@@ -63,7 +64,8 @@ Sample sample_of(const Descriptor& d, const Scene& scene, const Settings& settin
 
 void time_cells(const std::vector<Contender>& contenders, int repeats,
                 const store::Listener& listener) {
-    const store::Stamp stamp = store::stamp_now();  // the load is what others made of it
+    // before the timings, so that the load comes from other programs
+    const store::Stamp stamp = store::stamp_now();
     std::vector<Timed> timed;
     double work = 0, finished = 0;
     for (const Contender& c : contenders) {
@@ -74,8 +76,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats,
         timed.push_back({c, expected, std::min(repeats, most)});
         work += expected * timed.back().repeats;
     }
-    // competitors at the same rate follow each other, so that what the machine does meanwhile meets
-    // them alike
+    // Competitors at the same rate follow each other, so that disturbances affect them equally.
     std::stable_sort(timed.begin(), timed.end(), [](const Timed& a, const Timed& b) {
         return a.cell->settings.sample_rate < b.cell->settings.sample_rate;
     });
@@ -83,7 +84,7 @@ void time_cells(const std::vector<Contender>& contenders, int repeats,
     for (const Timed& t : timed) rounds = std::max(rounds, t.repeats);
     const auto progress = listener.begin("cost");
     const auto start = std::chrono::steady_clock::now();
-    const Timed* slowest = nullptr;  // of one run
+    const Timed* slowest = nullptr;  // slowest for a single run
     for (int round = 0; round < rounds; ++round)
         for (Timed& t : timed) {
             if (round >= t.repeats) continue;

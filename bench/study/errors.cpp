@@ -18,7 +18,7 @@ public:
         : run(r), reference(of), rate(hz) {}
     const std::span<const double> run, reference;
     const double rate;
-    const StftDifference& stft() {  // two measures are of it
+    const StftDifference& stft() {  // shared by two measures
         if (!stft_) stft_ = multi_resolution_stft_difference(run, reference, rate);
         return *stft_;
     }
@@ -30,9 +30,9 @@ private:
 namespace {
 constexpr double quietest = 1e-6;  // 60 dB below the reference's strongest frame, or its start
 
-// What is still to come of the energy, from each instant on (M. R. Schroeder 1965): the root mean
-// square difference of the two curves [dB], over the first nine tenths of the run and as far as the
-// reference is not too quiet.
+// Decay error [dB]: root mean square difference between two curves of the energy still to come (M.
+// R. Schroeder 1965). The comparison covers the first nine tenths of the run, and ends earlier if
+// the reference gets too quiet.
 double decay(Pair& p) {
     const auto &c = p.run, &r = p.reference;
     if (c.size() < r.size()) return HUGE_VAL;

@@ -34,7 +34,7 @@ Json references_json(const Point& p) {
     return references;
 }
 
-// Its modes are found by doubling from a number of their own.
+// True if the doubling of the modes starts at a number given for the point.
 bool begins(const Point& p) { return p.truth_modes == 0 && p.begin > 0; }
 }  // namespace
 
@@ -132,7 +132,7 @@ public:
     const std::string& refused() const { return refused_; }
 
 private:
-    std::mutex mutex_;  // of what follows, until it is made
+    std::mutex mutex_;  // protects the members below until `made_` is true
     std::unique_ptr<Truth> truth_;
     Errors floor_;
     std::string refused_;
@@ -176,7 +176,7 @@ References::Of References::make(const Point& p, int jobs, const store::Listener&
             return run_truth(p.references, scene, *p.truth_modes, jobs, listener, p.time_limit,
                              p.begin, p.effort, p.settles_whole);
         });
-    // what is asked for takes as long as it takes
+    // A size that the user asked for has no limit but the user's.
     const TimeLimit limit = p.truth_modes ? first_run(p.time_limit) : TimeLimit{p.time_limit};
     if (!p.truth_modes || (p.in_model && truth.truth()))
         model.make(from, [&] {

@@ -1,6 +1,6 @@
-// What a study asks: jobs on points. A point is one scene and who is its reference; a job is a cell
-// on it, and what is measured of that. Compare makes the jobs of one point, a suite those of its
-// file.
+// Jobs on points: the request of a study. A point is a scene with its references; a job is a cell
+// on a point, with a list of measurements. compare makes the jobs of one point, a suite makes the
+// jobs of its file.
 #pragma once
 
 #include <cmath>
@@ -25,87 +25,93 @@ struct Point {
     Scene scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value
     std::vector<ReferenceChoice> references;
-    // 0: found by doubling; none: the reference with the cells' modes is all there is
+    // 0: found by doubling; none: the only reference has the cells' modes
     std::optional<int> truth_modes = 0;
-    int begin = 0;      // modes that the doubling begins with; 0: those of modes_to_begin_with
-    double effort = 1;  // of the doubling (run_truth)
-    bool settles_whole = false;  // likewise
-    bool alone = false;          // nothing is asked of what the reference is uncertain by
-    // errors from a string with as many modes are asked for too, where the truth has others
+    int begin = 0;               // modes at the start of the doubling; 0: modes_to_begin_with
+    double effort = 1;           // factor on the limits of the doubling (run_truth)
+    bool settles_whole = false;  // argument of run_truth
+    bool alone = false;          // true: the uncertainty of the reference is not needed
+    // true: if the truth has another number of modes, errors from a string with the cell's modes
+    // are computed too
     bool in_model = true;
-    // the scene whose motion is the truth, where `scene` is a part of it
+    // full scene, whose motion is the truth, if `scene` is a part of the full scene
     std::optional<Scene> whole{};
     const Scene& true_scene() const { return whole ? *whole : scene; }
-    double time_limit = HUGE_VAL;     // of each run, of a reference too [s]
-    std::string hash{}, true_hash{};  // of the scene, and of the one whose motion is the truth
-    std::string reference_key{};      // points that share it share the reference's run
-    // likewise of the truth, whose modes are none of the cells'; "": there is none
+    double time_limit = HUGE_VAL;  // limit of each run, including references [s]
+    // hashes of the scene, and of the scene whose motion is the truth
+    std::string hash{}, true_hash{};
+    // key of the reference's run: points with the same key share the run
+    std::string reference_key{};
+    // key of the truth's run, with other modes than the cells; "": the point has none
     std::string truth_key{};
 };
 
-struct Ran {  // a job whose accuracy run reached its end or its failure
+struct Ran {  // Job after its accuracy run, which reached its end or failed.
     const Point& point;
     const Cell& cell;
     const Trace& trace;
-    const Trace* reference;  // on the same rows; nullptr where there is none
+    const Trace* reference;  // on the same rows; nullptr if there is no reference
 };
 
 struct Job {
     const Point* point;
     Cell cell;
-    bool judged = true;  // against the point's reference
-    Measures errors{};   // by these
-    // [s] of processor; a run that takes longer is ended, and not kept
+    bool judged = true;  // true: compared with the point's reference
+    Measures errors{};   // measures to compute
+    // limit of processor time [s]; a run that takes longer is ended and not kept
     double patience = HUGE_VAL;
-    bool sounds = false;  // its headline's nut tap is to be heard
-    int repeats = 0;      // of the clock; 0: it is not timed
-    // jobs of one set are timed in one interleaved run
+    bool sounds = false;  // true: the sound of the headline's nut tap is stored
+    int repeats = 0;      // number of timings; 0: not timed
+    // Jobs of one set are timed in one interleaved run.
     int set = 0;
-    std::function<void(const Ran&, Record&)> measure{};  // whatever else is measured of it
-    // what is found out of the point, whatever becomes of the cell
+    std::function<void(const Ran&, Record&)> measure{};  // takes further measurements on the run
+    // examines the point, even if the cell fails
     std::function<std::string(const Point&, const Truth*)> beside{};
-    std::string measured{};  // both, as JSON: part of its identity
-    std::string identity{};  // JSON: all that its result depends on
-    std::string id{};        // hash_of it
+    std::string measured{};  // JSON of `measure` and `beside`, a part of the identity
+    std::string identity{};  // JSON: everything that the result depends on
+    std::string id{};        // hash_of the identity
 };
 
 struct Plan {
-    std::deque<Point> points;  // does not move what it holds
+    std::deque<Point> points;  // deque: addresses of points must not change
     std::vector<Job> jobs;     // each identity once
     std::vector<std::string> notes;
 };
 
-// Fills keys and identities, and leaves each job once. `program`: store::program_identity.
+// Fills in keys and identities, and keeps each job once. `program`: store::program_identity.
 void address(Plan&, const std::string& program);
 
-std::string identity_of(const Plan&);  // of all its jobs, whatever program runs them
+std::string identity_of(const Plan&);  // identity of all jobs, independent of the program
 
-std::string what_of(const Job&);  // for people: "tanpura_c3_release: modal_two_point at 44100 Hz"
+// Text for people: "tanpura_c3_release: modal_two_point at 44100 Hz".
+std::string what_of(const Job&);
 
-// The references of a study: each is run by the first job that needs it, and gone with the last.
+// References of a study. The first job that needs a reference runs it; the last job to finish
+// deletes it.
 class References {
 public:
-    explicit References(std::span<const Job> = {});  // holds what they need
+    explicit References(std::span<const Job> = {});  // counts the needs of these jobs
     ~References();
 
-    struct Of {                            // one point
-        const Truth* truth = nullptr;      // nullptr: none could be run
-        const Reference* model = nullptr;  // the reference with the cells' modes; nullptr: likewise
-        const Errors* floor = nullptr;     // of the truth started 1e-12 apart
-        std::string refused{};             // why there is no truth
-        Against against() const;           // empty where there is no truth
+    struct Of {                        // references of one point
+        const Truth* truth = nullptr;  // nullptr: no reference could be run
+        // reference with the cells' modes; nullptr: could not be run
+        const Reference* model = nullptr;
+        const Errors* floor = nullptr;  // difference of the truth from itself, started 1e-12 apart
+        std::string refused{};          // reason if there is no truth
+        Against against() const;        // empty if there is no truth
     };
-    // Runs what is not there yet, on so many threads; waits for what another thread or process
-    // runs.
+    // Runs the missing references, with `jobs` threads; waits for those that another thread or
+    // process is running.
     Of make(const Point&, int jobs, const store::Listener&);
-    void hold(const Point&);     // one more needs it
-    void release(const Point&);  // one that needed it is done
+    void hold(const Point&);     // counts one more user
+    void release(const Point&);  // counts a user less
 
 private:
     class Shared;
     Shared& of(const std::string& key);
     void each_of(const Point&, void (Shared::*)());
-    std::mutex mutex_;                                    // of `all_`
+    std::mutex mutex_;                                    // protects `all_`
     std::map<std::string, std::unique_ptr<Shared>> all_;  // by reference_key and truth_key
 };
 

@@ -1,4 +1,4 @@
-// What is to be said against a run (analysis/judgement.hpp), in sentences.
+// Objections to a run (analysis/judgement.hpp), in sentences.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@ using jvari::is_stable, jvari::pull_allowed, jvari::pull_of, jvari::Verdict, jva
 
 struct Flag {
     std::string name;      // "adhesion"
-    std::string sentence;  // what happened: "the contact pulls with 0.55 N, ..."
+    std::string sentence;  // describes the event: "the contact pulls with 0.55 N, ..."
 };
 std::vector<Flag> flags_of(const Summary&);
 std::string names_of(const std::vector<Flag>&);  // "adhesion psi_gap"; "" for none
 
 struct Judgement {
     Verdict verdict = Verdict::unjudged;
-    std::string detail;  // the figure that decided, or the reason why it was not run
-    long step = 0;       // where a run failed by itself; else 0
+    std::string detail;  // deciding figure, or the reason why the cell did not run
+    long step = 0;       // failing step; 0 if the run did not fail
 };
-// of a cell that was run with its energy probed, or failed; NaN: there is no error
+// Judges a cell that ran with its energy probed, or failed. NaN: no error is known.
 Judgement judge(const Cell&, double error);
 
 }  // namespace jvari::bench::study

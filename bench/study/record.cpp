@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Lines>
-Json numbers(const Lines& lines) {  // as texts: JSON has no NaN
+Json numbers(const Lines& lines) {  // texts, because JSON has no NaN
     Json all = Json::array();
     for (const auto& line : lines) {
         Json row = Json::array();

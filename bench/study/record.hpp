@@ -1,5 +1,5 @@
-// What a job came to, as it is kept: one file per job, FOLDER/<id>.json, written by rename. Numbers
-// stay numbers until a table is written.
+// Record of a finished job: one file per job, FOLDER/<id>.json, written by rename. Numbers stay
+// numbers until a table is written.
 #pragma once
 
 #include <filesystem>
@@ -14,47 +14,47 @@
 
 namespace jvari::bench::study {
 
-// A spectrogram made coarse enough to be drawn: the strongest bin in each row of frequency, frame
-// by frame.
+// Spectrogram, coarse enough to be drawn: the strongest bin in each row of frequency, frame by
+// frame.
 struct Levels {
     int frames = 0, rows = 0;
-    double start = 0, hop = 0;  // of the first frame's left edge, from frame to frame [s]
+    double start = 0, hop = 0;  // left edge of the first frame, and distance between frames [s]
     double row_hz = 0;
-    // frames x rows, tenths of a decibel re the unit squared; -4000 and below is silence
+    // frames x rows, tenths of a decibel re the squared unit; -4000 and below is silence
     std::vector<int> level;
 };
 constexpr int silent_level = -4000;  // [0.1 dB]
 
-// At most 60 frames of 46 ms (Hann; shorter where the signal is) and 100 rows; none for fewer than
-// 64 rows of signal.
+// Computes at most 60 frames of 46 ms (Hann; shorter for a short signal) and 100 rows. Empty for a
+// signal below 64 rows.
 Levels levels_of(std::span<const double> signal, double rate);
 
-struct Against {            // what a cell was measured against
-    std::string reference;  // its name, "" where there is none: then the rest is empty
+struct Against {            // reference of a cell
+    std::string reference;  // name; "" without a reference: then the other fields are empty
     int modes = 0;
-    std::string doubling;      // how far the doubling of its modes went
-    Errors floor;              // of the reference started 1e-12 apart
-    Trust trust, model_trust;  // of the reference, and of the one with the cells' modes
+    std::string doubling;      // how far the modes were doubled
+    Errors floor;              // errors of the reference started 1e-12 apart
+    Trust trust, model_trust;  // trust in the reference, and in the reference with the cells' modes
 };
 
 struct Record {
     Cell cell;
     Against against;
-    // of the spectrogram; none where it was not asked for
+    // spectrogram; empty if nobody asked for one
     Levels levels;
-    store::Sound reference_sound;  // of the tap of the cell's; none likewise
-    std::string beside{};          // JSON of what was found out beside the cell; "": nothing
+    store::Sound reference_sound;  // sound at the cell's tap; empty likewise
+    std::string beside{};          // JSON from Job::beside; "": nothing
     bool timed() const { return cell.clock.wall.count > 0; }
 };
 
-// Without what the clock said: that is kept apart (cost.hpp).
+// Excludes the measured times, which are stored apart (cost.hpp).
 std::string json_of(const Record&, const std::string& identity);
-// Of the cell in `planned`. Nothing where there is no such file, it is of another job, its checksum
-// is not its own, or it cannot be read.
+// Reads the record of the cell `planned`. Returns nothing if the file is absent, unreadable, from
+// another job, or has a wrong checksum.
 std::optional<Record> read_record(const std::filesystem::path&, const std::string& identity,
                                   const Cell& planned);
-// The spectrogram in such a file, empty where the run made none.
-// Nothing where the job did not measure what is called `name`, or the file cannot be read.
+// Spectrogram in such a file, empty if the run made none. Nothing if the job did not measure
+// `name`, or the file cannot be read.
 std::optional<Levels> read_levels(const std::filesystem::path&, const std::string& name);
 
 }  // namespace jvari::bench::study

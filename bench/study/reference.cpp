@@ -44,8 +44,8 @@ double last_instant(const Run& r) {
     return static_cast<double>(r.trace.rows - 1) / r.trace.tap_rate;
 }
 
-// A scheme at three rates, the highest of them those of `r.choice`: its run there and its own
-// estimate.
+// Runs a scheme at three rates, the highest at the settings in `r.choice`; keeps the run at this
+// rate and the error estimate.
 void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progress) {
     Settings coarsest = r.choice.settings;
     coarsest.sample_rate /= r.choice.oversampled;
@@ -59,10 +59,10 @@ void run_oversampled(Reference& r, const Scene& scene, const ProgressOf& progres
         }
         r.trust.missing = fmt::format("at {:.6g} Hz it {}", o.rate, name_of(o.run.status.outcome));
     } catch (const Refusal& e) { r.trust.missing = e.what(); }
-    r.run = reference_run(r.choice, scene, progress);  // a coarser one fails: no estimate
+    r.run = reference_run(r.choice, scene, progress);  // coarser rate failed: no estimate
 }
 
-// Schemes that may stand in, in order of what they estimate their own error to be.
+// Sorts the schemes that may stand in by their own error estimate.
 void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene,
                        const ProgressOf& progress) {
     std::vector<std::pair<double, ReferenceChoice>> tried;
@@ -180,9 +180,9 @@ namespace fs = std::filesystem;
 
 namespace {
 using Json = nlohmann::ordered_json;
-// of the file: a checksum, a line of JSON, the columns as this machine holds them
+// File layout: a checksum, a line of JSON, the columns in this machine's byte order.
 constexpr int file_format = 2;
-constexpr long most_values = 1L << 26;     // of all columns: half a gigabyte
+constexpr long most_values = 1L << 26;     // total over all columns: half a gigabyte
 constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
 
@@ -274,7 +274,7 @@ Run kept_run(const fs::path& folder, const std::string& key, const std::function
     try {
         store::sweep_parts(folder);
         write_run(path, key, r);
-    } catch (const std::exception&) {  // it is a convenience
+    } catch (const std::exception&) {  // Keeping the run is only a convenience.
     }
     return r;
 }

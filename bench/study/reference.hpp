@@ -1,4 +1,4 @@
-// Which solution cells are measured against, and its run.
+// Reference solution for the cells: how a study chooses and runs it.
 #pragma once
 
 #include <algorithm>
@@ -18,65 +18,68 @@ namespace jvari::bench::study {
 struct ReferenceChoice {
     const Descriptor* scheme;
     Settings settings;
-    std::string note;  // why this one, "" where it is the rule or was asked for
-    // a scheme, and the multiple of the coarsest rate of three; 0: a reference
+    std::string note;  // reason for this choice; "" if the rule gives it or the user asked for it
+    // multiple of the coarsest of the three rates of a scheme that stands in; 0: a real reference
     int oversampled = 0;
-    // its run may be one of before (kept_run.hpp): the reference is of this program and not of a
-    // plugin
+    // A run from an earlier program may be used (kept_run.hpp). True only if the reference is part
+    // of this program, not of a plugin.
     bool kept = false;
-    // a study's own folder, for all of its runs; "": kept_runs_folder(), for those worth keeping
+    // folder of a study for all its runs; "": kept_runs_folder(), and only for runs worth keeping
     std::filesystem::path kept_in{};
     std::string name() const {
         return (oversampled ? "oversampled " : "") + std::string(scheme->name);
     }
 };
 
-constexpr int oversampling = 4;  // of a scheme that stands in: the coarsest of its three rates is
-                                 // the highest cell's
+// For a scheme that stands in: the coarsest of its three rates is the highest rate of the cells.
+constexpr int oversampling = 4;
 
-// The one chooser of references, in order of authority: `named` alone, whatever it represents; else
-// every reference that represents the scene, and behind them the schemes that may stand in. Of
-// those in the program; where none of them may, `stand_in`, and where that is nullptr nothing
-// stands in at all. `at`: the cells' settings, at their highest rate.
+// Chooses the references, in order of authority. All places that need a reference call this
+// function. `named` alone is returned if given, whatever features it represents. Otherwise every
+// reference follows that represents the scene, then the schemes of the program that may stand in.
+// If no scheme may, `stand_in` is taken; if that is nullptr, nothing stands in. `at`: the cells'
+// settings, at their highest rate.
 std::vector<ReferenceChoice> references_of(const Scene&, const Settings& at,
                                            const Descriptor* named, const Descriptor* stand_in);
 
-// Modes from which a reference is doubled: as many as the cells carry (0: those below 20 kHz), but
-// none that the rows cannot hold. Rows of 44.1 kHz hold those below 20 kHz, others the same share
-// of their rate, whatever the unit of time. Where no mode lies below 20 kHz, all that rows hold.
+// Number of modes from which a reference is doubled: the number in the cells (0: all modes below 20
+// kHz), limited by the rows. Rows at 44.1 kHz hold the modes below 20 kHz. Rows at another rate
+// hold the same share of their rate, whatever the unit of time. If no mode lies below 20 kHz, the
+// function returns all modes that the rows hold.
 int modes_to_begin_with(const Scene&, double tap_rate, int cells);
-int modes_held(const String&, double rate);  // by rows of this rate
+int modes_held(const String&, double rate);  // number of modes that rows of this rate hold
 
-struct TimeLimit {  // of processor [s]
+struct TimeLimit {  // limit of processor time [s]
     double seconds = HUGE_VAL;
-    double judged_after = HUGE_VAL;  // from then on a run ends that at its pace would take longer
+    // After this time, a run is ended if at its pace it would exceed `seconds`.
+    double judged_after = HUGE_VAL;
 };
 
 struct Reference {
     ReferenceChoice choice;
-    Run run, moved;  // moved: started 1e-12 apart
-    Trust trust;     // what its certificate, or its own estimate, says of it
+    Run run, moved;  // moved: the same run, started a relative 1e-12 apart
+    Trust trust;     // uncertainty, from the certificate or from the scheme's own estimate
 };
-// The first of the choices that represents the scene and gets going, its two runs side by side
-// where `jobs` are not 1; of the schemes that may stand in the one that estimates its own error
-// least goes first. Throws Refusal where none does, and PastItsLimit where one of the two runs
-// computes for longer than its limit: another in its place would make the errors a matter of
-// the machine.
+// Runs the first choice that represents the scene and starts. Its two runs go side by side if
+// `jobs` is not 1. Among the schemes that may stand in, the smallest estimate of the own error goes
+// first. Throws Refusal if no choice runs, and PastItsLimit if one of the two runs exceeds its
+// limit. No other choice replaces a reference that is too slow, because the errors would then
+// depend on the machine.
 //
-// `alone`: the first that reaches its end, by one run; `moved` and `trust` are empty.
+// `alone`: runs the first choice that reaches its end, once; `moved` and `trust` stay empty.
 Reference run_reference(const std::vector<ReferenceChoice>&, const Scene&, int jobs,
                         const store::Listener&, TimeLimit = {}, bool alone = false);
 
-// ---- Runs of references, kept from one program to the next: a reference may take minutes where a
+// ---- Runs of references, kept from one program to the next: a reference may take minutes, while a
 // scheme takes milliseconds.
 //
-// A file per run, named by a hash of everything that its numbers depend on: scene, reference and
-// settings, sources, compiler, flags and vector instructions. It appears by rename and is believed
-// only where it is whole: its key, its checksum and its sizes are looked at. Nothing is kept of a
-// run of less than half a second, unless the caller keeps all of its study's.
+// Each run has a file, named by a hash of everything that its numbers depend on: scene, reference
+// and settings, sources, compiler, flags and vector instructions. The file appears by rename. The
+// reader checks its key, its checksum and its sizes before using it. Runs of less than half a
+// second are not kept, unless the caller keeps all runs of its study.
 
-// $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari;
-// may be emptied at any time. "", for nowhere, where JVARI_CACHE is empty.
+// Folder $JVARI_CACHE, else jvari in $XDG_CACHE_HOME, else ~/.cache/jvari. The user may empty the
+// folder at any time. An empty JVARI_CACHE gives "", and nothing is kept.
 std::filesystem::path kept_runs_folder();
 
 std::string run_key(const Descriptor&, const Scene&, const Settings&);
@@ -84,19 +87,19 @@ std::string run_key(const Descriptor&, const Scene&, const Settings&);
 // throws UsageError
 void write_run(const std::filesystem::path&, const std::string& key, const Run&);
 std::optional<Run> read_run(const std::filesystem::path&,
-                            // nothing where it is not whole or not of `key`
+                            // nothing if the file is incomplete or has another key than `key`
                             const std::string& key) noexcept;
 
 constexpr double worth_keeping = 0.5;  // [s] of stepping
 
-// The run that is kept there, else what `make` gives, which is kept from then on; waits for another
-// process or thread that makes it. A folder that cannot be written to keeps nothing, and nowhere is
-// a run kept of less than `least` [s].
+// Returns the kept run if there is one; else calls `make` and keeps the result. Waits for another
+// process or thread that is making the same run. Keeps nothing in a folder without write access,
+// and no run shorter than `least` [s] anywhere.
 Run kept_run(const std::filesystem::path& folder, const std::string& key,
              const std::function<Run()>& make, double least = worth_keeping);
 
-// Limit of a reference's run whose size nobody asked for: a minute to show that it ends within ten,
-// both times `effort`.
+// Time limit for a run of a reference with a size that nobody asked for. The run has a minute to
+// show that it ends within ten. Both times are multiplied by `effort`.
 inline TimeLimit first_run(double at_most, double effort = 1) {
     return {std::min(at_most, 600 * effort), 60 * effort};
 }

@@ -14,26 +14,27 @@ namespace jvari::bench::study {
 
 namespace {
 constexpr int most_modes_found = 4096;
-constexpr double rows_of_audio = 44100;  // [Hz] that the numbers below are of
-// [s], of motion times modes^2 times 1 + 2.5 points (or barriers beyond the second) times how dear
-// the reference is: ten to twenty seconds; of a short or stiff string more than modes^2
+constexpr double rows_of_audio = 44100;  // rate for the numbers below [Hz]
+// Budget [s] for a run of ten to twenty seconds. The work is motion [s] times modes^2 times 1 + 2.5
+// points (or barriers beyond the second), times the relative cost of the reference. A short or
+// stiff string costs more than modes^2.
 constexpr double budget = 1.5e6;
-// Windows of the exact solution are as short as the fastest mode asks. On a string whose modes lie
-// this far apart [Hz], or less, the work of `modes^2` takes the time that `budget` says; on a
-// shorter or stiffer one, that of modes times the highest frequency over this.
+// Spacing of the modes [Hz]. Windows of the exact solution get as short as the fastest mode
+// requires. With this spacing or less, `modes^2` describes the work. For a shorter or stiffer
+// string, the work is modes times the highest frequency divided by this spacing.
 constexpr double mode_spacing = 500;
 
-// How many times longer than the closed forms of a lumped linear contact a reference takes for the
-// same work, as measured on two_point_bridge and tanpura_c3_release: a contact that is integrated
-// in steps, and a stiff integrator. Points as on sitar_parabola.
+// Relative cost for the same work, in units of the closed forms for a lumped linear contact,
+// measured on two_point_bridge and tanpura_c3_release. Integrating a contact in steps, or with a
+// stiff integrator, costs more. Points are measured on sitar_parabola.
 double dearness(const Descriptor& reference, const Scene& scene) {
     const Features needed = needed_by(scene);
     if (reference.name == std::string_view(sundials.name)) return 1000;
     return needed.has(Feature::power_law_contact) || needed.has(Feature::contact_loss) ? 10 : 1;
 }
 
-// Of a scene whose strings are tables of measured modes: those tables are the strings, and no
-// further mode is left out of them.
+// Number of measured modes if all strings are tables; else 0. Such a table is the string itself, so
+// no further mode is left out.
 int measured_modes(const Scene& scene) {
     int all = 0;
     for (const String& s : scene.strings) {
@@ -49,8 +50,8 @@ double highest_of(const String& s, int modes) {  // [Hz]
            (2 * std::numbers::pi);
 }
 
-// Rate [Hz] of rows, or of rows that would hold the modes that a reference begins with: a reference
-// of few rows is no cheaper for that.
+// Rate [Hz] of the rows, or of rows that would hold the modes from which a reference begins: a
+// lower row rate does not make the reference cheaper.
 double pace(const Scene& scene, double tap_rate) {
     const int first = modes_to_begin_with(scene, tap_rate, 0);
     double rate = tap_rate;
@@ -99,11 +100,11 @@ Sizes sizes_of(const ReferenceChoice& c, const Scene& scene, int modes, int begi
 
 bool within_budget(const Descriptor& reference, const Scene& scene, double tap_rate, const Size& s,
                    double effort) {
-    std::size_t contacts = 2;  // the closed forms take two alike
+    std::size_t contacts = 2;  // The closed forms take two contacts at the same cost.
     for (const String& string : scene.strings)
         contacts = std::max(contacts, string.barriers.size() + string.masses.size());
     const double coupled = s.points > 0 ? s.points : static_cast<double>(contacts - 2);
-    const int size = std::max(s.modes, s.points);  // few measured modes may lie under many points
+    const int size = std::max(s.modes, s.points);  // Few measured modes may need many points.
     const double unit = pace(scene, tap_rate) / rows_of_audio;
     double work = 0;
     for (const String& string : scene.strings) {

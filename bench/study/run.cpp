@@ -46,9 +46,8 @@ Record run_job(const Job& job, const References::Of& known, const ProgressOf& pr
             cell.sound =
                 store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);
         if (job.measure) job.measure({point, cell, trace, truth}, r);
-    } catch (const std::exception& e) {  // one scheme that throws is one row, whatever it throws
-        fail(cell, e);
-    }
+        // Any exception from a scheme affects only the row of this scheme.
+    } catch (const std::exception& e) { fail(cell, e); }
     if (job.beside) r.beside = job.beside(point, known.truth);
     if (!known.refused.empty()) cell.reason += (cell.reason.empty() ? "" : "; ") + known.refused;
     r.against = known.against();
@@ -60,8 +59,8 @@ std::optional<Record> kept_record(const Job& job, const Kept& keep) {
     return read_record(keep.folder / (job.id + ".json"), job.identity, job.cell);
 }
 
-// The jobs that are not there, in an order in which few wait for a reference: each thread begins
-// with a point of its own, and each process that shares the folder with as many points of its own.
+// Orders the missing jobs so that few wait for a reference: each thread begins with another point.
+// A process that shares the folder begins at a random point.
 std::vector<std::size_t> spread(const Plan& plan, const std::vector<std::size_t>& missing,
                                 std::size_t threads, bool shared) {
     std::map<const Point*, std::pair<std::size_t, std::size_t>> points;  // number, jobs so far
@@ -80,7 +79,7 @@ std::vector<std::size_t> spread(const Plan& plan, const std::vector<std::size_t>
     return all;
 }
 
-// Run here, or read back where another process has run them meanwhile.
+// Runs the jobs, or reads them back if another process has run them meanwhile.
 void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, References& references,
                  Kept& keep, int threads, const store::Listener& listener, Study& into) {
     std::vector<double> sizes;
@@ -104,8 +103,7 @@ void run_missing(const Plan& plan, const std::vector<std::size_t>& missing, Refe
         [&](std::size_t k) { return what_of(plan.jobs[missing[k]]); });
 }
 
-// Jobs of one set meet each other in one interleaved run, so that what the machine does meanwhile
-// meets them alike.
+// Times the jobs of one set in one interleaved run, so that disturbances affect them equally.
 void time_set(const Plan& plan, const std::vector<std::size_t>& indices, const Kept& keep,
               Study& into, const store::Listener& listener) {
     std::vector<Contender> contenders;
@@ -121,8 +119,8 @@ void time_set(const Plan& plan, const std::vector<std::size_t>& indices, const K
     }
 }
 
-// One process of the folder times while no other does. None of them runs jobs then: each begins
-// here once all are there. A folder has the costs of one machine.
+// Times all sets, one process per folder at a time. No process runs jobs meanwhile, because each
+// begins here only after all jobs are done. A folder has the costs of one machine.
 void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Listener& listener) {
     std::vector<std::size_t> timed;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i)
@@ -132,7 +130,7 @@ void time_sets(const Plan& plan, const Kept& keep, Study& into, const store::Lis
     if (timed.empty()) return;
     const auto lock = store::lock_of(keep.folder.empty() ? keep.folder : keep.folder / "clock",
                                      "times the cells of this folder", listener);
-    std::map<int, std::vector<std::size_t>> sets;  // of what has no cost
+    std::map<int, std::vector<std::size_t>> sets;  // jobs without a cost
     const std::string here = store::stamp_now().name;
     std::string elsewhere;
     for (const std::size_t i : timed) {
@@ -162,7 +160,7 @@ std::optional<Record> record_of(const Job& job, References& references, Kept& ke
                                 const ProgressOf& progress, bool wait) {
     std::optional<Record> record = kept_record(job, keep);
     if (!record) {
-        References::Of known;  // before the lock: who holds that waits for nothing
+        References::Of known;  // Before the lock, because the holder of the lock must not wait.
         if (job.judged) known = references.make(*job.point, 1, store::Listener());
         const fs::path file = keep.folder.empty() ? fs::path() : keep.folder / (job.id + ".json");
         const store::FileLock lock(file, "runs " + what_of(job), wait);

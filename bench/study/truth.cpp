@@ -15,8 +15,8 @@ double change(const Trace& more, const Trace& fewer, int tap, double from, doubl
                                rows_from(more.column(tap), from, rate), rate, window);
 }
 
-// How far the model is solved is what its certificate says, else its noise floor: an error of
-// rounding grows like a change of the start. What the model leaves out is what is left after the
+// Accuracy of the solution: the certificate's figure, else the noise floor, because rounding errors
+// grow like a change at the start. The effect of the modes left out is estimated from the
 // doublings.
 Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double from) {
     Trust t = solved;
@@ -34,7 +34,7 @@ Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double f
             const auto apart = [&](const Trace& a, const Trace& b) {
                 return change(b, a, static_cast<int>(k), from, end);
             };
-            // beyond the certificate, too
+            // also for windows beyond the certificate
             if (std::isnan(t.figure[k][w])) t.figure[k][w] = apart(more, last.moved.trace);
             t.left_out[k][w] = left_out(truth, apart, t.figure[k][w]);
         }
@@ -44,7 +44,8 @@ Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double f
     return t;
 }
 
-// Own modes beside a matched reference: extrapolated from as many, and from half as many.
+// Runs own modes beside a matched reference: two extrapolations, from as many modes and from half
+// as many.
 std::vector<Trace> own_motion(const ReferenceChoice& matched, const Scene& scene, const Size& size,
                               int jobs, const store::Listener& listener, double time_limit) {
     ReferenceChoice own = matched;
@@ -74,7 +75,7 @@ double left_out(const Truth& t, const Apart& apart, double solved_to) {
                   (n + 1 < t.coarser.size() ? t.coarser[n + 1] : t.reference).run.trace));
     if (changes.empty()) return nan;
     double left = left_after(changes, t.matched);
-    // what is no more than either is solved to does not grow
+    // Changes below the accuracy of both solutions do not grow.
     if (std::isnan(left) && changes.back() <= solved_to)
         left = left_after({&changes.back(), 1}, t.matched);
     return t.own.empty()

@@ -1,5 +1,5 @@
-// Search for the truth of a scene: a first size, doublings, own modes beside a matched one, and a
-// description of how far it went.
+// Search for the truth of a scene: a first size, doublings, own modes beside a matched reference,
+// and a description of the result.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -19,11 +19,11 @@
 namespace jvari::bench::study {
 
 namespace {
-// [s] that the doublings take together, and at most as long again for own modes beside them
+// [s] for all doublings together, and at most the same again for own modes beside them
 constexpr double patience = 60;
 
-// What another solver makes of the same modes: how far a table of modes is solved. Over 50 ms where
-// the whole would take it too long.
+// Confirms a table of modes by another solver with the same modes, over 50 ms if the whole run
+// would take too long.
 void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store::Listener& listener,
              double time_limit) {
     if (r.trust.any() || r.choice.scheme->name == std::string_view(sundials.name) ||
@@ -86,9 +86,9 @@ private:
     const int jobs_;
     const store::Listener& listener_;
     const double time_limit_;
-    const bool find_;      // and not asked for
-    const double effort_;  // of all limits that nobody asked for
-    const double end_;     // of the window that is to be settled [s]
+    const bool find_;      // true: the size is found by doubling, not given by the user
+    const double effort_;  // factor on all limits that nobody asked for
+    const double end_;     // end of the window to settle [s]
     const double from_ = free_from(scene_);
     const std::size_t window_ = std::isinf(end_) ? 2 : end_ >= 50e-3 ? 1 : 0;
     Truth t_;
@@ -97,10 +97,10 @@ private:
     Sizes sizes_;
     Size size_{};
     double spent_ = 0;             // [s]
-    double unsettled_ = HUGE_VAL;  // by what is left out of the headline figure
+    double unsettled_ = HUGE_VAL;  // effect on the headline figure of the modes and points left out
 };
 
-// At its coarsest size, matched where it can be.
+// Runs the coarsest size, matched if possible.
 Truth Search::first(const std::vector<ReferenceChoice>& choices, int modes, int begin) {
     std::vector<ReferenceChoice> first;
     for (const ReferenceChoice& c : choices) {
@@ -149,13 +149,13 @@ bool Search::more() {
     try {
         finer = run(sized(choice_, *size), TimeLimit{std::min(time_limit_, left)});
     } catch (const store::PastItsLimit&) {
-        // the best so far is the answer, with the bound that it has
+        // The best result so far stands, with its bound.
         if (time_limit_ <= left) throw;
         return false;
     } catch (const BadScene&) {
-        return false;  // no string has as many, or there are no more that were measured
+        return false;  // No string has so many modes, or the table of measured modes has no more.
     } catch (const Refusal&) {
-        return false;  // all that were measured: nothing is left out that could be matched
+        return false;  // All measured modes are in: none is left out that could be matched.
     }
     spent_ += finer.run.wall_seconds;
     size_ = *size;
@@ -175,7 +175,7 @@ void Search::judge() {
     t_.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
 }
 
-// Where even one doubling takes too long, half as many tell something, too.
+// Runs half the size if even one doubling takes too long, for some information about the error.
 void Search::half() {
     const Size half{sizes_.measured > 0 ? size_.modes : size_.modes / 2, size_.points / 2};
     if (!find_ || !unknown() || half.modes == 0 || half == size_) return;
@@ -190,7 +190,8 @@ void Search::own() {
     try {
         t_.own = own_motion(choice_, scene_, size_, jobs_, listener_,
                             find_ ? std::min(time_limit_, patience * effort_) : time_limit_);
-    } catch (const store::PastItsLimit&) {  // without it the doublings alone tell
+        // Without own modes, the doublings alone give the estimate.
+    } catch (const store::PastItsLimit&) {
     } catch (const Refusal&) {}
     if (!t_.own.empty()) t_.reference.trust = trust_of(solved_, t_, size_, from_);
     unsettled_ = t_.reference.trust.left_out[tap()][window_];
@@ -250,7 +251,7 @@ Truth Search::of(const std::vector<ReferenceChoice>& choices, int modes, int beg
     size_ = sizes_.each.front();
     spent_ = t_.reference.run.wall_seconds;
     Settings certified = asked->settings;
-    certified.options = choice_.settings.options;  // of as many points as it takes unasked
+    certified.options = choice_.settings.options;  // with the default number of points
     std::erase_if(certified.options,
                   [](const auto& o) { return o.first == std::string(nodes_option.name); });
     certified.modes =
