@@ -28,17 +28,19 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double periods = 8;  // about one contact each: problems are then equally hard
-constexpr std::array rungs{1, 2, 4, 8, 16, 32};  // of the tap rate
-constexpr double of_rate = 0.49;                 // the highest mode
-constexpr double rise = 1.5;                     // modes of the finer run over those of the other
-constexpr double enough = 0.4;                   // of own's modes, to be matched
-constexpr double fall = 3;                       // of the difference from one rung to the next
-constexpr double margin = 2.5;                   // estimates are within a tolerance by this
-constexpr int fewest = 5, most_needed = 1400;    // modes; at least twice those below 20 kHz
-constexpr double patience = 20;                  // of all runs [s of processor]
+constexpr double periods = 8;  // A period has about one contact, so problems are equally hard.
+constexpr std::array rungs{1, 2, 4, 8, 16, 32};  // multiples of the tap rate
+constexpr double of_rate = 0.49;                 // highest mode over the rate
+constexpr double rise = 1.5;                     // ratio of modes, finer run over first
+constexpr double enough = 0.4;                   // share of own's modes that must allow matching
+constexpr double fall = 3;                       // ratio of differences from one rung to the next
+constexpr double margin = 2.5;  // an estimate within a tolerance includes this factor
+// numbers of modes; at least twice those below 20 kHz
+constexpr int fewest = 5, most_needed = 1400;
+constexpr double patience = 20;  // limit for all runs [s of processor]
 
-// Schemes whose error two runs tell: own and matched, the preferred first; matched alone.
+// Schemes with an error that two runs can estimate: first own and matched compliance, in order of
+// preference; then matched only.
 constexpr const char *with_a_record[] = {"modal_two_moment", "modal_two_point"},
                      *matched_alone[] = {"modal_spatial_newton", "modal_quadratised"};
 
@@ -46,7 +48,7 @@ bool is_among(std::span<const char* const> names, const Descriptor& d) {
     return std::ranges::find(names, std::string_view(d.name)) != names.end();
 }
 
-// Of a scene with the judged tap alone, as long as it is judged.
+// Prober for a scene with only the judged tap and the judged duration.
 class Prober {
 public:
     Prober(Advice& advice, Scene scene, OptionValues options, const store::Listener& listener)
@@ -61,7 +63,7 @@ public:
 
     void probe(const Descriptor& scheme) {
         scheme_ = &scheme;
-        double before = 0;  // difference of the rung below
+        double before = 0;  // difference on the rung below
         const double unlike = a_.target.unit == "%" ? 1 : HUGE_VAL;
         try {
             for (const int k : rungs) {
@@ -107,7 +109,7 @@ private:
         return s;
     }
 
-    // from `modes` down to that share of them; 0: none can be made
+    // Largest possible number from `modes` down to that share; 0: none can be made.
     int taken(double rate, int modes, const std::string& compliance, bool finer, double share) {
         for (int n = modes; n >= 1 && n >= share * modes; n = n * 4 / 5) {
             try {
@@ -120,10 +122,10 @@ private:
         return 0;
     }
 
-    // `share`: of the modes that own compliance takes
+    // `share`: minimum share of the modes possible with own compliance
     std::optional<Pair> pair_with(double rate, const std::string& compliance, double share) {
         const int all = most_modes(2 * rate), most = taken(2 * rate, all, compliance, true, share);
-        // of a table of measured modes there are no more
+        // a table of measured modes has no more
         const bool complete = std::ranges::all_of(
             scene_.strings, [=](const String& s) { return modes_measured(s) == most; });
         const auto risen_to = [=](int modes) {
@@ -147,7 +149,7 @@ private:
 
     // ---- Runs and their differences
 
-    // the judged rows; none of a run that failed or is silent
+    // judged rows; empty if the run failed or is silent
     const std::vector<double>& rows_of(const Settings& s) {
         const auto [at, fresh] = rows_.try_emplace(settings_text(*scheme_, s));
         if (!fresh) return at->second;
@@ -175,7 +177,7 @@ private:
         return study::error_of(a_.target.measure, a, b, a_.settings.tap_rate);
     }
 
-    // Keeps it where it is the nearest so far.
+    // Keeps the pair if it is the nearest so far.
     void take(const Pair& pair, double d, double before) {
         const double counted = std::max(d, before / fall);
         if (!std::isfinite(d) || !std::isfinite(counted)) return;

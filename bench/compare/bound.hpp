@@ -1,10 +1,10 @@
-// What is known of an error, and which error stands where one has to.
-// Tables, text, JSON, pictures, the Pareto front and the cheapest all ask here.
+// Bound of an error, and the choice of the headline error. Tables, text, JSON, pictures, the Pareto
+// front and the table of the cheapest all use these functions.
 //
-// A cell is measured against a reference (e), which is itself uncertain by c, its certificate. By
-// the triangle inequality the cell differs from the motion of the scene by e + c at most and by e -
-// c at least, relative to the norm of the reference. Where c is unknown nothing follows from e.
-// Spectral measures have no certificate and count as measured.
+// A cell has a measured error e against a reference. The reference has an uncertainty c, its
+// certificate. By the triangle inequality the cell differs from the motion of the scene by at most
+// e + c and at least e - c, relative to the norm of the reference. If c is unknown, nothing follows
+// from e. Spectral measures have no certificate and count as measured.
 #pragma once
 
 #include <limits>
@@ -16,51 +16,53 @@
 
 namespace jvari::bench::compare {
 
-// of a waveform, that the cheapest scheme is named for
+// accuracies on the waveform, for which the cheapest scheme is named
 constexpr double accuracies[] = {0.1, 0.01, 0.001};
 
 struct Bound {
-    double error = std::numeric_limits<double>::quiet_NaN();        // as measured; NaN: none
+    double error = std::numeric_limits<double>::quiet_NaN();        // measured; NaN: none
     double certificate = std::numeric_limits<double>::quiet_NaN();  // NaN: unknown
-    double floor = std::numeric_limits<double>::quiet_NaN();        // of noise, NaN: none
+    double floor = std::numeric_limits<double>::quiet_NaN();        // noise floor, NaN: none
 
-    double most() const;   // e + c; NaN where c is unknown
-    double least() const;  // e - c, 0 at least; 0 where c is unknown
+    double most() const;   // e + c; NaN if c is unknown
+    double least() const;  // e - c, at least 0; 0 if c is unknown
 
     enum class Says {
         nothing,   // there is no error
-        measured,  // e: c is a tenth of it or less
+        measured,  // e: c is at most a tenth of e
         at_most,   // e + c
-        // e + c reaches 1, where nothing of the waveform is right: c is too large to tell
+        // e + c reaches 1, the error of silence: c is too large for a statement
         unknown,
         unsure  // e, but c is unknown
     };
     Says says() const;
-    double shown() const;  // what stands in a picture: e, or e + c where that is what is known
-    // larger than noise floor and certificate: how it falls with the rate is of the scheme
+    double shown() const;  // value for pictures: e if measured or unsure, else e + c
+    // True if the error is larger than noise floor and certificate: then the scheme decides how it
+    // falls with the rate.
     bool decides() const;
 };
 
-// of a tap, "" the headline's
+// tap "": the headline's
 Bound bound_of(const study::TabledCell&, std::size_t measure, const std::string& tap = "");
 
-// "1.30e-02", "\u22645.13e-02", "1.30e-02?" (unsure), "not known", "-" where there is no error
+// Text of the error: "1.30e-02", "\u22645.13e-02", "1.30e-02?" (unsure), "not known", "-" without
+// an error.
 std::string error_text(const Bound&, const char* format);
-// " after the last pluck", where the windows of its errors begin there
+// " after the last pluck" if the windows of the errors begin there, else "".
 std::string after_pluck(const study::TabledCell&);
 
-// It reached the end of its run; one that is not needed was run over the headline's window alone.
+// True if the run reached its end; for a cell that is not needed, the end of the headline's window.
 bool reached(const study::TabledCell&);
-// Its own figures say nothing against it: it reached the end of the whole run, and has no flags.
+// True if the cell reached the end of the whole run and has no flags.
 bool trusted(const study::TabledCell&);
 
-// The measure that stands for the error where one has to: relative L2 over 50 ms, else 10 ms, else
-// the whole run; the first with a finite value in one of the rows.
+// Measure for the headline error: relative L2 over 50 ms, else 10 ms, else the whole run; the first
+// with a finite value in any row.
 std::size_t headline_error(const study::Cells&, const study::Rows&);
 
-// How an error falls with the rate over those of the rows that can tell: they reached their end,
-// something of the waveform is right (an error below 1), and the error is larger than its noise
-// floor and than what the reference is certain to.
+// Fit of the error's fall with the rate. The fit uses the rows that reached their end, have an
+// error below 1 (the error of silence), and whose error exceeds the noise floor and the
+// certificate.
 struct Fall {
     Order order;
     study::Rows rows;
@@ -68,9 +70,9 @@ struct Fall {
 Fall fall_over_rates(const study::Cells&, const study::Rows&, std::size_t measure,
                      const std::string& tap = "");
 
-// One object per cell: the columns of cells.csv, facts.csv and cost.csv, bound_l2_10ms and its
-// like (e + c of a headline error, null where c is too large to tell or there is none), and errors:
-// of each tap, of each measure, what errors.csv has.
+// Object per cell, with the columns of cells.csv, facts.csv and cost.csv, and two additions.
+// bound_l2_10ms and similar keys have e + c for a headline error, or null if c is too large or the
+// error is missing. errors has the contents of errors.csv, by tap and measure.
 nlohmann::ordered_json json_of(const study::Cells&);
 
 }  // namespace jvari::bench::compare

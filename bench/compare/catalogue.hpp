@@ -1,5 +1,5 @@
-// What a comparison is asked for, and what its names stand for: schemes, references and what
-// plugins bring; scenes of the library or from files.
+// Request for a comparison, and the catalogue behind its names: schemes, references and plugins;
+// scenes from the library or from files.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@
 
 namespace jvari::bench::compare {
 
-// ---- What a comparison is asked for: by the command line, a suite, a program
+// ---- Request, from the command line, a suite or a program
 
-// --option [scheme:]name=value; of one name several: each value is run
+// --option [scheme:]name=value. If a name comes several times, each value is run.
 struct SchemeOption {
-    std::string scheme, name, value;  // scheme "": every scheme that knows the name
+    std::string scheme, name, value;  // scheme "": every scheme with such an option
     static SchemeOption of(const std::string& key, std::string text) {  // key: [SCHEME:]NAME
         const auto colon = key.find(':');
         return colon == std::string::npos
@@ -30,70 +30,71 @@ struct CompareRequest {
     std::string scene, reference, out;
     std::vector<std::string> schemes;  // none: every scheme that represents the scene
     std::vector<double> rates;         // [Hz]; none: 44100 x 1, 2, 4 ... 64
-    std::vector<int> modes;            // none: those below 20 kHz, and what `search` adds
-    // 0: doubled until nothing moves; none: those of the cells
+    std::vector<int> modes;            // none: all modes below 20 kHz, and those that `search` adds
+    // 0: doubled until the result settles; none: the cells' modes
     std::optional<int> reference_modes = 0;
-    // what is not named is sought: more modes, matched compliance. Not with a cell's reference
+    // true: more modes and matched compliance are tried if the request does not name modes or
+    // compliance. Ignored for a reference with the cell's modes.
     bool search = true;
-    // with no schemes named, those that are known to be wrong too
+    // true: without named schemes, schemes with known faults are included
     bool controls = false;
     std::optional<double> duration, tap_rate;  // [s], [Hz]
-    std::optional<double> time_limit;          // of each run, of a reference too [s]
+    std::optional<double> time_limit;          // limit for each run, including references [s]
     std::vector<std::string> set;              // overrides of the scene, "key.path=value"
-    std::string tap;                           // the only one that is compared; "": all
+    std::string tap;                           // the only tap to compare; "": all
     std::vector<SchemeOption> options;
-    // settings of an advice, near which cells are sought as well; modes 0: none
+    // Settings from an advice; cells near these settings are added. modes 0: none
     Settings near{};
     int repeats = 5;
-    int jobs = 0;  // 0: as many as there are cores
+    int jobs = 0;  // 0: the number of cores
 };
 
-// All that its results depend on but the program, as text.
+// Text of every setting that affects the results, except the program.
 std::string identity_of(const CompareRequest&);
 
 // ---- Names to things
 
 struct Catalogue {
     explicit Catalogue(const std::vector<std::string>& plugins = {});  // throws UsageError
-    // in-tree, then those of plugins
+    // in-tree first, then from plugins
     std::vector<const Descriptor*> schemes;
     std::vector<const Descriptor*> references;  // in order of authority
 
-    // schemes of the table of pairings that are found by their name alone
+    // schemes from the table of pairings, found by name only
     std::vector<const Descriptor*> paired;
 
-    // any of them; UsageError suggests the nearest name
+    // Finds a scheme or reference; UsageError suggests the nearest name.
     const Descriptor& find(const std::string& name) const;
 };
 
-// Warns of plugins that were compiled without optimisation.
+// Warns about plugins compiled without optimisation.
 void note_slow_plugins(const store::Listener&);
 
-// A file or a library name, with overrides "key.path=value"; throws SceneFileError, BadScene or
-// UsageError.
+// Loads a file or a scene from the library, with overrides "key.path=value". Throws SceneFileError,
+// BadScene or UsageError.
 Scene load_scene(const std::string& name, const std::vector<std::string>& overrides,
                  std::optional<double> duration);
-Scene load_scene(const CompareRequest&);  // with the tap that is asked for alone
+Scene load_scene(const CompareRequest&);  // with only the requested tap, if any
 
-// The place of a tap by its name; of the first for "". Throws UsageError, also for a scene that has
-// none.
+// Place of a tap by its name; "" gives the first. Throws UsageError for an unknown name or a scene
+// without taps.
 int tap_named(const Scene&, const std::string& name);
 
-// Of one run at this rate: rows at 44100 Hz unless asked otherwise, or at the rate where that is no
-// multiple. Throws UsageError where the rate is no multiple of the rows, or an option is another
-// scheme's.
+// Settings for a run at this rate. Rows are at 44100 Hz by default, or at `rate` if `rate` is no
+// multiple. Throws UsageError if the rate is no multiple of the requested row rate, or an option
+// belongs to another scheme.
 Settings settings_of_run(const Descriptor&, double rate, std::optional<double> tap_rate, int modes,
                          const std::vector<SchemeOption>&);
-// the same as typed: "--scheme modal_two_point --rate 44100 --modes 40"
+// Settings as typed: "--scheme modal_two_point --rate 44100 --modes 40".
 std::string arguments_of(const Descriptor&, const Settings&);
 // "modal_two_point compliance=matched, 80 modes, 44100 Hz"
 std::string settings_text(const Descriptor&, const Settings&);
 bool whole_multiple(double rate, double of);  // rate = n x of, n = 1, 2, ...
 
-// Doubles of state with that many modes; nothing where it cannot be made. A grid has as many
-// whatever it is told.
+// Number of doubles in the state with `modes`; nothing if the scheme cannot be made. A grid has the
+// same number for any modes.
 std::optional<int> dofs_with(int modes, const Descriptor&, const Scene&, Settings);
-std::vector<std::string> names_in(Features);                  // one by one
+std::vector<std::string> names_in(Features);                  // single names
 Features features_of(const std::vector<std::string>& names);  // throws UsageError
 Balance balance_of(const std::string& name);  // "exact", "to tolerance", "none"; UsageError
 

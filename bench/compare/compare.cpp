@@ -19,7 +19,7 @@
 namespace jvari::bench::compare {
 
 namespace {
-// what would certify this comparison's reference
+// Command that would certify this comparison's reference.
 std::string certify_command(const CompareRequest& r, const Comparison& c) {
     std::string text = "jvari certify " + r.scene;
     if (r.duration) text += fmt::format(" --duration {:.6g}", *r.duration);
@@ -29,7 +29,7 @@ std::string certify_command(const CompareRequest& r, const Comparison& c) {
     return text;
 }
 
-// What of a comparison is known before a cell runs; messages of its reference.
+// Fills in the facts about the reference that are known before a cell runs, and gives its messages.
 void describe(Comparison& c, const CompareRequest& request, const study::References::Of& known,
               const store::Listener& listener) {
     const study::Reference& reference = known.truth->reference;
@@ -57,13 +57,13 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
                                   c.reference_summary.duration));
 }
 
-// Runs all cells over the headline's window and marks those that are needed:
-// jobs of the scene cut short there, judged by the motion of the whole.
+// Runs all cells over the headline's window and marks the needed ones. The jobs use the scene cut
+// short there, compared with the motion of the whole scene.
 std::vector<study::Record> search(const Comparison& c, study::References& references, int threads,
                                   const store::Listener& listener) {
     const double from = free_from(c.scene()), length = study::headline_window(c.scene()),
                  end = std::min(c.scene().duration, from + length);
-    study::Measures covered;  // by the shorter run
+    study::Measures covered;  // measures that the shorter run covers
     for (std::size_t k = 0; k < study::measures().size() && end < c.scene().duration; ++k)
         if (study::measures()[k].window <= length) covered.push_back(k);
     study::Plan shown;
@@ -102,13 +102,13 @@ std::vector<study::Record> search(const Comparison& c, study::References& refere
     return records;
 }
 
-// Of the cells that were sought those that are needed run whole, and the others stay as the search
-// left them. What was sought and cannot be made goes.
+// Runs the needed cells whole and leaves the other searched cells in the state from the search.
+// Removes added cells that cannot be made.
 void run(Comparison& c, study::References& references, std::vector<study::Record> tried,
          study::Kept& keep, int threads, const store::Listener& listener) {
     study::Plan whole, all;
     std::vector<study::Record> records;
-    std::vector<std::size_t> places;  // of those that run whole
+    std::vector<std::size_t> places;  // places of the cells that run whole
     for (std::size_t i = 0; i < c.plan.jobs.size(); ++i) {
         const study::Cell& cell = tried[i].cell;
         const bool run = cell.ran() && cell.needed;
@@ -197,10 +197,10 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
 // ---- Cells that are needed
 
 namespace {
-constexpr double as_good = 0.9;  // of two errors
+constexpr double as_good = 0.9;  // factor on the larger of two errors
 constexpr double less_work =
-    // beyond what schemes differ by in the time for a step and a number of their state: four over a
-    // lumped contact
+    // More than the difference between schemes in time per step and number of state: four over a
+    // lumped contact.
     32;
 
 double work_of(const study::Cell& c) {
@@ -244,7 +244,7 @@ void mark_needed(std::vector<study::Cell>& cells, const std::vector<double>& err
         };
         const bool failed = !cells[i].ran() || !cells[i].reason.empty(),
                    good = usable(cells[i], errors[i]);
-        // a failure at the modes that it takes unasked is a finding
+        // A failure at the default number of modes is a finding.
         const bool may_go = cells[i].searched && !failed;
         const auto found = may_go ? std::find_if(kept.begin(), kept.end(), instead) : kept.end();
         if (!good && cells[i].added) {

@@ -1,8 +1,10 @@
-// Modes: unasked, every cell carries the modes below 20 kHz and below half the lowest rate, and the
-// reference starts from as many. Where no mode lies below 20 kHz, those that the lowest rate holds.
-// What more is tried is in variants.cpp. Two kinds of schemes take others: a grid takes its nodes
-// from the rate, and one whose points of contact are nodes of its modes may need more of them,
-// which a note says. Several strings have each as many as lie below 20 kHz.
+// Numbers of modes. By default every cell has the modes below 20 kHz and below half the lowest
+// rate, and the reference starts from the same number. If no mode lies below 20 kHz, the number is
+// limited by the lowest rate. variants.cpp adds further numbers. Each of several strings has the
+// modes below 20 kHz.
+//
+// Two kinds of schemes take other numbers. A grid takes its nodes from the rate. A scheme with
+// points of contact at the nodes of its modes may need more modes; a note says so.
 #include "bench/compare/compare_plan.hpp"
 
 #include <fmt/format.h>
@@ -22,11 +24,11 @@ void require_rows(const Scene& scene, const Settings& settings) {
     if (scene.duration * settings.tap_rate * static_cast<double>(scene.taps.size() + 3) > 1e9)
         throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
                                             scene.duration, settings.tap_rate));
-    rows_of(scene, settings);  // throws where that is none
+    rows_of(scene, settings);  // throws if the scene has no rows
 }
 
 namespace {
-// The rates of each have rows in common.
+// Splits a request into groups of rates that have rows in common.
 std::vector<CompareRequest> with_common_rows(const CompareRequest& r) {
     std::vector<double> left = r.rates;
     std::ranges::sort(left);
@@ -60,7 +62,7 @@ int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
 
 struct SchemeSize {
     bool refused = false;
-    int modes = 0;     // 0: a grid, or it does not say
+    int modes = 0;     // 0: a grid, or unknown
     int contacts = 0;  // points of contact
 };
 SchemeSize size_of(const Descriptor& d, const Scene& scene, const Settings& settings) {
@@ -72,7 +74,7 @@ SchemeSize size_of(const Descriptor& d, const Scene& scene, const Settings& sett
             return n > 0 ? static_cast<int>(n) : 0;
         };
         return {false, count("interior_nodes"), count("contact_points")};
-    } catch (const std::exception&) {  // the cell will tell
+    } catch (const std::exception&) {  // the cell will give the reason
         return {true};
     }
 }
@@ -81,8 +83,9 @@ void note(study::Plan& plan, const std::string& text) {
     if (std::ranges::find(plan.notes, text) == plan.notes.end()) plan.notes.push_back(text);
 }
 
-// The modes that all carry, or 0, its own default, where the scheme has to have others: its points
-// of contact are nodes of its modes, and with those of all there are fewer of them, or none.
+// Number of modes for a scheme: the common number, or 0 (the scheme's default) if the scheme has to
+// differ. It has to if its points of contact are nodes of its modes, and the common number gives
+// fewer such points or none.
 int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings,
              study::Plan& plan) {
     const int all = settings.modes;
@@ -120,7 +123,7 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     return chosen;
 }
 
-// Options of the scheme that stands as reference are its own.
+// Choices of the reference, with the options requested for the reference's scheme.
 std::vector<study::ReferenceChoice> references_for(const CompareRequest& r,
                                                    const Catalogue& catalogue, const Scene& scene,
                                                    const Settings& at_highest,
@@ -152,8 +155,8 @@ std::vector<double> rates_of(const CompareRequest& r) {
     return rates;
 }
 
-// At the highest rate, with the modes that all carry. Throws where the scene has nothing to be
-// compared, or too much.
+// Settings at the highest rate, with the common number of modes. Throws if the scene has nothing to
+// compare, or too much.
 Settings settings_of(const CompareRequest& r, const Scene& scene,
                      const std::vector<double>& rates) {
     tap_named(scene, "");
@@ -165,7 +168,7 @@ Settings settings_of(const CompareRequest& r, const Scene& scene,
     return settings;
 }
 
-// The cells of one form of a scheme: its numbers of modes, each at the rates that take it.
+// Adds the cells for one form of a scheme: its numbers of modes, each at the possible rates.
 void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const Descriptor& d,
                Settings settings, const Form& form) {
     const Scene& scene = job.point->scene;
@@ -185,7 +188,8 @@ void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const
         }
 }
 
-// Of rates that have rows in common; false where all its schemes stand on the point before.
+// Adds a point for rates with common rows; false if all its schemes are already on the point
+// before.
 bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue,
                const study::Point& common, study::Job job, bool first) {
     const std::vector<double> rates = rates_of(r);
@@ -230,7 +234,7 @@ double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
 
 void add_jobs(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue,
               const study::Point& common, const study::Job& like) {
-    std::string kinds;  // of rows
+    std::string kinds;  // kinds of rows
     for (const CompareRequest& part : with_common_rows(r))
         if (add_point(into, part, catalogue, common, like, kinds.empty()))
             kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ",

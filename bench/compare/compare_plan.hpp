@@ -1,5 +1,4 @@
-// What a comparison is going to run: which cells at which settings, which references to try in
-// turn.
+// Plan of a comparison: the cells with their settings, and the references to try in turn.
 #pragma once
 
 #include <map>
@@ -12,48 +11,48 @@
 
 namespace jvari::bench::compare {
 
-// The rows per second that cells at these rates are compared on; throws UsageError where there are
-// none.
+// Row rate for cells at these rates [Hz]; throws UsageError if there is no common rate.
 double tap_rate_for(const CompareRequest&, const std::vector<double>& rates);
 
-// BadScene where the scene has no row at that tap rate, UsageError where its rows do not fit in
+// Throws BadScene if the scene has no row at that tap rate, UsageError if the rows do not fit in
 // memory.
 void require_rows(const Scene&, const Settings&);
 
-// Adds the cells of a comparison as jobs like `like`, and what they are compared on:
-// points like `common`, with references and reference modes as asked.
+// Adds the cells of a comparison as jobs like `like`, and their points like `common`, with the
+// requested references and reference modes.
 //
-// One point where all rates have rows in common: 44100 a second, else as many as the lowest rate.
-// Rates that have none, as 44100 and 48000, are on several points, each with rows and references of
-// its own. Nothing is resampled: a force is a mean over the interval between two rows, and its
-// reference is the mean over the same interval. What steps in continuous time is on the first point
-// alone.
+// There is one point if all rates have rows in common: 44100 a second, else the lowest rate. Rates
+// without common rows (44100 and 48000) get several points, each with its own rows and references.
+// Nothing is resampled: a force is a mean over the interval between two rows, and its reference is
+// the mean over the same interval. Schemes in continuous time are on the first point only.
 //
-// Throws UsageError for names that do not exist and rates that --tap-rate does not divide, Refusal
-// where no scheme represents the scene.
+// Throws UsageError for unknown names and for rates that --tap-rate does not divide, Refusal if no
+// scheme represents the scene.
 void add_jobs(study::Plan& into, const CompareRequest&, const Catalogue&,
               const study::Point& common, const study::Job& like);
 
-// The references of the first of these points, and nothing else of it.
+// References of the first point only.
 std::vector<study::ReferenceChoice> references_of(const CompareRequest&, const Catalogue&,
                                                   const Scene&);
 
 // ---- Expands a request into the option sets and the numbers of modes to run.
 //
-// A request names some of it. The rest is sought (CompareRequest::search), because the cheapest
-// scheme may take more modes than those below 20 kHz, or matched compliance:
-//   modes        1, 1.5, 2, 3 and 4 times those below 20 kHz, at rates above twice the frequency
-//                of the highest; and those that were advised (advice.hpp), at half, the same and
-//                twice the rate. Others `jvari trim` tries.
-//   compliance   own and matched, of a scheme that has both, where something touches the string.
-// Nothing is sought of a scheme in continuous time, or against a reference with a cell's own modes.
+// A request may leave options and modes open. The program then searches (CompareRequest::search),
+// because the cheapest scheme may need matched compliance, or more modes than those below 20 kHz:
+//   modes        1, 1.5, 2, 3 and 4 times the number below 20 kHz, at rates above twice the highest
+//                frequency; and the advised number (advice.hpp), at half, the same and twice the
+//                rate. `jvari trim` tries others.
+//   compliance   own and matched, for a scheme with both, if something touches the string.
+// There is no search for a scheme in continuous time, or against a reference with a cell's own
+// modes.
 
 struct Form {
     OptionValues options;
-    std::vector<double> rates;  // [Hz]; a form that was sought has those at which it can be made
+    // [Hz]; for a searched form, the rates at which the form can be made
+    std::vector<double> rates;
 };
 
-class Untried {  // what was sought and cannot be made, and why
+class Untried {  // Searched forms that cannot be made, with reasons.
 public:
     void add(const Descriptor&, const std::vector<double>& rates, bool at_all,
              const std::string& reason);
@@ -63,28 +62,28 @@ private:
     std::map<std::string, std::string> who_;  // by reason
 };
 
-// Of a scheme each combination of the values asked for; `used`: which of them it takes. UsageError
-// where one option is asked for all schemes and for this one.
+// Combinations of the requested values for a scheme. `used`: marks the options that the scheme
+// takes. Throws UsageError if an option is given both for all schemes and for this one.
 std::vector<OptionValues> combinations_of(const std::vector<SchemeOption>&, const Descriptor&,
                                           std::vector<bool>& used);
-// Throws UsageError where one is taken by no scheme.
+// Throws UsageError if no scheme takes an option.
 void must_be_used(const std::vector<SchemeOption>&, const std::vector<bool>& used);
 bool sets(const OptionValues&, const Option&);
-bool touched(const Scene&);  // something touches a string
+bool touched(const Scene&);  // true if something touches a string
 
 std::vector<Form> forms_of(const CompareRequest&, const Descriptor&, const Scene&, const Settings&,
                            const std::vector<double>& rates, std::vector<bool>& used, Untried&);
 
-// The most modes that are sought: 4 times `unasked`, as far as half the rate allows on each string,
-// but `unasked` at least.
+// Largest number of modes in the search: 4 times `unasked`, limited by half the rate on each
+// string, and at least `unasked`.
 int most_modes_sought(const Scene&, int unasked, double rate);
 
 struct Rung {
     int modes;                  // 0: the scheme's own
     std::vector<double> rates;  // [Hz]
-    bool added;                 // sought, beside those that it takes unasked
+    bool added;                 // true: added by the search, beside the default
 };
-// `settings`: with the modes that it takes unasked.
+// `settings`: with the default number of modes.
 std::vector<Rung> rungs_of(const CompareRequest&, const Descriptor&, const Scene&, const Settings&,
                            const std::vector<double>& rates);
 

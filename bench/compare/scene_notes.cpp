@@ -18,15 +18,15 @@
 namespace jvari::bench::compare {
 
 namespace {
-// of an instrument's string, from a piano's highest to its lowest [m]
+// Length of an instrument's string, from a piano's highest to its lowest [m].
 constexpr double least_length = 0.03, most_length = 4;
 constexpr double least_pitch = 10, most_pitch = 1e4;  // [Hz]
-// of the length: beyond, the equations of small motion do not hold
+// Start over length: beyond this ratio, the equations of small motion do not hold.
 constexpr double most_start = 0.1;
 constexpr double most_stiffness = 1e13;  // [N/m^exponent], a thousand times the stiffest in use
 
 bool plucked(const String& s) { return s.pluck && s.pluck->amplitude != 0; }
-bool pressed(const String& s) {  // at rest something above or below it pushes or pulls
+bool pressed(const String& s) {  // true if a barrier or a thread pushes or pulls at rest
     const auto above = [](const LumpedBarrier& b) { return b.height > 0; };
     const auto somewhere = [](const ProfileBarrier& b) {
         const auto* table = std::get_if<TableCurve>(&b.curve);
@@ -112,7 +112,7 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
     }
     note_tables(scene, listener);
     const auto moves = [&](const String& s) { return set_in_motion(s, scene.duration); };
-    // one shakes the others
+    // a moving string shakes the others
     if (scene.body && !scene.body->modes.empty() && std::ranges::any_of(scene.strings, moves))
         return;
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
@@ -133,7 +133,7 @@ void note_force_files(const Scene& scene, double sample_rate, const store::Liste
         const std::vector<double>& t = s.pluck->time;
         double closest = HUGE_VAL;
         for (std::size_t k = 1; k < t.size(); ++k) closest = std::min(closest, t[k] - t[k - 1]);
-        constexpr double rounding = 1e-6;  // of instants, in steps
+        constexpr double rounding = 1e-6;  // for instants, in steps
         if (closest * sample_rate < 1 - rounding)
             listener.note(fmt::format(
                 "string {}: rows of {} are {:.3g} s apart, less than a step of {:g} Hz: each step "
@@ -143,12 +143,12 @@ void note_force_files(const Scene& scene, double sample_rate, const store::Liste
 }
 
 namespace {
-constexpr double least_order = 0.5;  // below it a rate that would do is out of reach
-constexpr double hardly = 0.1;       // an order below it is none
-constexpr double furthest = 64;      // of an extrapolation, in rates
-// an error in the model of less than this of the error: the rest is of the modes left out
+constexpr double least_order = 0.5;  // Below this order, a sufficient rate is out of reach.
+constexpr double hardly = 0.1;       // A smaller order counts as none.
+constexpr double furthest = 64;      // limit of an extrapolation, as a ratio of rates
+// If the error in the model is a smaller share of the error, the modes left out cause the rest.
 constexpr double of_the_modes = 0.3;
-// of a horizon that is worth a word; the latter [s]
+// Limits for mentioning a horizon: a share of the end, and an instant [s].
 constexpr double before_the_end = 0.98, first_of_all = 1e-3;
 
 std::string rate_text(double hertz) { return fmt::format("{:.4g} kHz", hertz / 1000); }
@@ -177,7 +177,7 @@ const Cell* cheapest_within(const Cells& cells, const Rows& rows, std::size_t me
     return best;
 }
 
-// Over all rates of the series that `cell` is of, errors that noise and reference allow.
+// Order over all rates in the series of `cell`, from errors beyond noise and reference uncertainty.
 Order order_of(const Cells& cells, const Cell& cell, std::size_t measure) {
     Rows series = study::all_rows(cells);
     std::erase_if(series, [&](std::size_t i) {
@@ -213,7 +213,7 @@ std::string of_the_modes_left_out(const Cells& cells, const Cell& cell, std::siz
     if (f.in_model < of_the_modes * f.value)
         return fmt::format(" Most of that comes from the modes left out: try `--modes {:.0f}`.",
                            2 * cell.modes);
-    for (const Cell& other : cells) {  // fewer, at its rate
+    for (const Cell& other : cells) {  // fewer modes at the same rate
         const double order =
             std::log(other.figure(measure).value / f.value) / std::log(cell.modes / other.modes);
         if (other.modes < cell.modes && reached(other) && order >= least_order &&
@@ -224,7 +224,7 @@ std::string of_the_modes_left_out(const Cells& cells, const Cell& cell, std::siz
     return "";
 }
 
-// Where no string with as many modes was run that would tell whether they stand in the way.
+// Advice to try more modes if no run with the same modes tells whether they limit the accuracy.
 std::string of_more_modes(const Cell& cell, std::size_t measure) {
     const double modes = cell.modes, most = cell.reference_modes;
     if (is_grid(cell) || std::isfinite(cell.figure(measure).in_model) ||

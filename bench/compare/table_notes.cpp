@@ -1,4 +1,4 @@
-// What is said of the tables of a scene, and of the modes that a run takes of them.
+// Notes on the tables in a scene, and on the modes that a run takes from them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +13,10 @@
 namespace jvari::bench::compare {
 
 namespace {
-// A table's first mode may lie off the tuned pitch by this share: by losses, or a worn string.
+// Tolerated deviation of a table's first mode from the tuned pitch, a share: losses or a worn
+// string can cause this much.
 constexpr double out_of_tune = 0.05;
-constexpr double much_longer = 10;  // of a force than its run
+constexpr double much_longer = 10;  // duration of a force over its run
 
 const TableStart* table_of(const String& s) {
     return s.start ? std::get_if<TableStart>(&*s.start) : nullptr;

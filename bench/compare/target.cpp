@@ -12,7 +12,7 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double most_without_unit = 0.5;  // a larger tolerance is more likely meant in per cent
+constexpr double most_without_unit = 0.5;  // a larger tolerance more likely means per cent
 
 std::string name_of(const std::string& column) {
     for (const auto& [of, name] :
@@ -40,7 +40,7 @@ Target target_of(const std::string& name, const std::string& within) {
         throw store::UsageError("--of " + store::unknown("measure", name, names));
     }
     Target target = *found;
-    // of the number; npos + 1: there is none
+    // end of the number; 0: there is none
     const auto end = within.find_last_of("0123456789.") + 1;
     const double x = store::number_of(within.substr(0, end));
     std::string unit = within.substr(end);

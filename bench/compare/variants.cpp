@@ -17,7 +17,7 @@
 namespace jvari::bench::compare {
 
 namespace {
-constexpr double multiples[] = {1.5, 2, 3, 4};  // of the modes that a scheme takes unasked
+constexpr double multiples[] = {1.5, 2, 3, 4};  // factors on the default number of modes
 
 std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene,
                                       const Settings& settings) {
@@ -29,7 +29,7 @@ std::optional<std::string> refusal_of(const Descriptor& d, const Scene& scene,
     }
 }
 
-// Own and matched; of matched the rates at which it can be made.
+// Forms with own and with matched compliance; matched has only the possible rates.
 std::vector<Form> both(const Form& form, const Descriptor& d, const Scene& scene, Settings settings,
                        Untried& untried) {
     Form own = form, matched{form.options, {}};
@@ -76,7 +76,7 @@ std::vector<OptionValues> combinations_of(const std::vector<SchemeOption>& optio
                 "--option {}: found more than once for {}, expected one value or one list",
                 first->name, d.name));
         used[k] = true;
-        if (&*first != &options[k]) continue;  // with the first of its values
+        if (&*first != &options[k]) continue;  // done with the first value of the option
         std::vector<OptionValues> more;
         for (const OptionValues& values : all)
             for (const SchemeOption& o : options)
@@ -145,10 +145,10 @@ std::vector<Rung> rungs_of(const CompareRequest& r, const Descriptor& d, const S
                            const Settings& settings, const std::vector<double>& rates) {
     std::vector<Rung> rungs;
     for (const int modes : r.modes) rungs.push_back({modes, rates, false});
-    if (rungs.size() > 1 && has_own_grid(d)) rungs.resize(1);  // all are the same cell
+    if (rungs.size() > 1 && has_own_grid(d)) rungs.resize(1);  // all rungs are the same cell
     if (!rungs.empty()) return rungs;
     rungs.push_back({settings.modes, rates, false});
-    // as one whose nodes are its points of contact
+    // a scheme with its own number, for example with points of contact at its nodes
     const bool its_own = settings.modes == 0 && scene.strings.size() == 1;
     if (!r.search || !r.reference_modes || d.clock == Clock::continuous || its_own) return rungs;
     const int unasked = settings.modes > 0 ? settings.modes : modes_for(scene, settings);

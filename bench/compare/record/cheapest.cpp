@@ -48,7 +48,7 @@ const Cell* least_cost(const Cells& cells, const Rows& rows, const auto& which) 
     return best;
 }
 
-// Of the scene's other taps those by which a cell is surely within it: "; by y02: ..., 0.16 %"
+// Other taps at which a cell is surely within the goal: "; by y02: ..., 0.16 %".
 std::string by_other_taps(const Cells& cells, const Rows& rows, const Goal& goal) {
     std::string text;
     for (const std::string& tap : cells[rows.front()].taps)
@@ -63,7 +63,7 @@ double certificate_of(const Cells& cells, const Rows& rows, std::size_t measure)
     return bound_of(cells[rows.front()], measure).certificate;
 }
 
-// Why it cannot be decided who is within `goal`.
+// Reason why nobody can decide which cells are within `goal`.
 std::string why_unknown(const Cells& cells, const Rows& rows, const Goal& goal) {
     const double certificate = certificate_of(cells, rows, goal.measure);
     if (!std::isnan(certificate))
@@ -106,7 +106,7 @@ Answer answer_of(const Cells& cells, const Rows& rows, const Goal& goal) {
     a.perhaps = named(cells, rows, choice.perhaps);
     const auto published = [&](const Cell& c) { return goal.met(c) && !is_matched(c); };
     if (is_matched(best)) a.as_published = published_text(least_cost(cells, rows, published), goal);
-    // whatever the measure
+    // for any measure
     if (std::isnan(certificate_of(cells, rows, headline_error(cells, rows))))
         a.why = "measured against a reference whose uncertainty is unknown";
     return a;
@@ -126,13 +126,14 @@ std::vector<Answer> cheapest_of(const Cells& cells, Controls controls) {
         std::erase_if(rows, [&](std::size_t i) {
             return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0);
         });
-        // nothing was timed, or this is the group of those that were not
+        // nothing was timed, or this group holds the untimed cells
         if (rows.empty()) continue;
         std::vector<Goal> goals;
         for (const double most : accuracies) goals.push_back({headline_error(cells, rows), most});
         for (const double decibels : {3.0, 1.0}) goals.push_back({octaves, decibels});
         for (const Goal& goal : goals)
-            if (std::ranges::any_of(rows, [&](std::size_t i) {  // the run is long enough for it
+            // true if the run is long enough for the goal
+            if (std::ranges::any_of(rows, [&](std::size_t i) {
                     return std::isfinite(cells[i].figure(goal.measure).value);
                 }))
                 answers.push_back(answer_of(cells, rows, goal));

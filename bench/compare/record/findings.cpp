@@ -59,7 +59,7 @@ study::Cells with_front(study::Cells cells) {
 namespace {
 using study::Cells, study::Rows;
 
-// Groups that differ in the rate alone; where a rate comes twice, the modes tell them apart.
+// Groups that differ only in rate; if a rate comes twice, the modes separate the groups.
 std::vector<Rows> differing_in_rate(const Cells& cells) {
     std::vector<Rows> all;
     for (const Rows& group : study::alike(study::all_rows(cells), [&](std::size_t i) {
@@ -150,7 +150,7 @@ store::Table convergence_table(const Cells& cells) {
 
 namespace {
 constexpr double calm = 0.2;
-constexpr double harmed = 1.2;  // times the error of own compliance
+constexpr double harmed = 1.2;  // times the error with own compliance
 constexpr const char *own = "compliance=own", *matched = "compliance=matched";
 }  // namespace
 
