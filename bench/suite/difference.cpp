@@ -16,10 +16,10 @@ namespace jvari::bench::suite {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// ---- What names a row
+// ---- Names of rows
 
-// Rows by the text that names them: scene, swept keys, scheme, options and rate; the modes too
-// where a table has several at one rate. Where several have the same, the second is "... #2".
+// Rows by name: scene, swept keys, scheme, options and rate; also modes if a table has several at
+// one rate. If several rows have the same name, the second becomes "... #2".
 using Named = std::map<std::string, std::size_t>;
 
 std::string counted(std::map<std::string, int>& seen, const std::string& text) {
@@ -34,7 +34,7 @@ std::string cell_text(const study::TabledCell& c) {
     return text + (std::isnan(c.rate) ? "" : " " + store::text_of(c.rate) + " Hz");
 }
 
-// Two cells differ in their modes alone.
+// True if two cells differ only in modes.
 bool modes_name(const study::Cells& cells) {
     std::map<std::string, int> seen;
     return std::ranges::any_of(
@@ -65,7 +65,8 @@ Named named_rows(const store::Table& t, const std::vector<std::string>& columns)
     return named;
 }
 
-// Where cells.csv does not say what the files say that it follows from: one of them was altered.
+// Findings for cells.csv if its text contradicts the files from which cells.csv follows: somebody
+// altered a file.
 std::vector<Finding> altered(const Results& f) {
     if (f.shown.columns.empty()) return {};
     std::vector<Finding> all;
@@ -92,7 +93,7 @@ std::vector<Finding> altered(const Results& f) {
     return all;
 }
 
-// ---- What changed
+// ---- The changes
 
 std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     std::vector<Pair> pairs;
@@ -107,7 +108,7 @@ std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     return pairs;
 }
 
-// What cells name apart: facts, taps and the keys that are swept.
+// Names found in cells: facts, taps and swept keys.
 struct Names {
     std::set<std::string> facts, taps, keys;
     explicit Names(const study::Cells& cells) {
@@ -121,9 +122,9 @@ struct Names {
 
 struct CellDifference {
     bool same_digits = true;
-    std::vector<std::string> references;  // how the reference is another
+    std::vector<std::string> references;  // differences between the references
 };
-// Findings, those of the headline's errors first. `facts`: of both folders.
+// Findings for a cell, the headline's errors first. `facts`: from both folders.
 CellDifference compare_cell(const std::string& name, const study::TabledCell& before,
                             const study::TabledCell& after, const std::vector<std::string>& facts,
                             Difference& d) {
@@ -142,7 +143,7 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
             for (std::size_t m = 0; m < study::measures().size(); ++m) {
                 const study::Measure& measure = study::measures()[m];
                 if (tap == (measure.bridge ? before.headline_bridge : before.headline_nut))
-                    continue;  // as the headline's
+                    continue;  // same value: the headline's
                 add((part == &study::Figure::value ? "" : std::string(part_name) + " of ") +
                         measure.column + (tap.empty() ? "" : " of " + tap),
                     turn_of(part, m, tap, before, after),

@@ -1,5 +1,5 @@
-// Two folders of results: what changed from one to the other, number by number
-// (difference_rules.cpp) and by the clock (difference_costs.cpp).
+// Difference between two folders of results: numbers (difference_rules.cpp) and costs
+// (difference_costs.cpp).
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace jvari::bench::suite {
 
-// ---- What lies in a folder of compare or suite, as far as two such folders can be compared
+// ---- Contents of a folder from compare or suite, if two such folders can be compared
 
-struct Provenance {                           // by what, as manifest.json has it
+struct Provenance {                           // source of the results, from manifest.json
     std::string commit, date;                 // commit: "unknown" outside git
     std::string compiler, flags, build;       // the program
     std::string cpu, cores, vectors, system;  // the machine
     std::string machine() const;              // "AMD EPYC, 2 cores, AVX3_DL, Linux 6.1"
-    // whatever its system
+    // ignores the system
     bool same_machine(const Provenance& o) const {
         return cpu == o.cpu && cores == o.cores && vectors == o.vectors;
     }
@@ -28,11 +28,12 @@ struct Results {
     std::string name;
     Provenance provenance;
     study::Cells cells;
-    store::Table maps, boundaries;  // empty where the file is absent
+    store::Table maps, boundaries;  // empty if the file is absent
     store::Table shown;             // cells.csv
 };
 
-// Throws UsageError where there is no manifest.json, no cells or maps, or a file cannot be read.
+// Throws UsageError if manifest.json is missing, there are neither cells nor maps, or a file cannot
+// be read.
 Results read_results(const std::filesystem::path&);
 
 // ---- The rules
@@ -40,63 +41,63 @@ Results read_results(const std::filesystem::path&);
 enum class Turn { same, moved, better, worse };
 const char* name_of(Turn);
 
-// Of a cell in both folders; what one side lacks is NaN there. `part`: of a figure, with "" the
-// headline's tap.
+// Change of a number for a cell in both folders; a value missing on one side is NaN there. `part`:
+// part of a figure, with tap "" for the headline's.
 Turn turn_of(const study::Column&, const study::TabledCell& before, const study::TabledCell& after);
 Turn turn_of_fact(const std::string& name, const study::TabledCell& before,
                   const study::TabledCell& after);
 Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string& tap,
              const study::TabledCell& before, const study::TabledCell& after);
 
-// ---- What changed
+// ---- The changes
 
 struct Finding {
     Turn turn;
-    std::string row;     // what names it: "tanpura_c3_release modal_two_point 44100 Hz"
+    std::string row;     // name of the row: "tanpura_c3_release modal_two_point 44100 Hz"
     std::string column;  // "error_l2_50ms", "cost_s_per_s", "outcome"
     std::string before, after;
-    // what the numbers do not say; of a cost: how many times, and of how many cells
+    // further explanation; for a cost: the ratio and the number of cells
     std::string detail;
 };
 
-struct Only {  // what one of the folders has alone
+struct Only {  // names that only one folder has
     std::vector<std::string> before, after;
 };
 
 struct Difference {
-    // of what both have; those of a row stand together, headline columns first
+    // changes in the common rows; findings for the same row stand together, headline columns first
     std::vector<Finding> findings;
     Only cells, columns, points, boundaries;
-    std::vector<std::pair<const char*, const Only*>> alone() const {  // each kind by its name
+    std::vector<std::pair<const char*, const Only*>> alone() const {  // each kind with its name
         return {{"cells", &cells},
                 {"columns", &columns},
                 {"points", &points},
                 {"boundaries", &boundaries}};
     }
-    std::string references;          // that they are others, and how; "": they are the same
-    std::vector<std::string> notes;  // what could not be compared, and why
+    std::string references;          // changes of the references; "": none
+    std::vector<std::string> notes;  // missing comparisons, with reasons
     int cells_in_both = 0;
-    int to_the_last_digit = 0;  // cells of these, all fields but costs
-    int compared = 0;           // fields
+    int to_the_last_digit = 0;  // common cells with all fields equal except costs
+    int compared = 0;           // number of fields
 
     int count(Turn) const;
-    int missing() const;  // cells and points that are no longer there
+    int missing() const;  // number of cells and points that the later folder lacks
     bool worse() const { return count(Turn::worse) > 0 || missing() > 0; }
-    bool nothing() const;  // no finding, and nothing that one has alone
+    bool nothing() const;  // true without findings and without names in only one folder
 };
 
-// Throws UsageError where no row is in both.
+// Throws UsageError if no row is in both.
 Difference difference(const Results& before, const Results& after);
 
-// of each kind
+// most_lines: for each kind
 std::string text_of(const Difference&, const Results& before, const Results& after,
                     std::size_t most_lines = 20);
 std::string json_of(const Difference&, const Results& before, const Results& after);
 
-// For difference.cpp alone.
-struct Pair {  // what both have
+// For difference.cpp only.
+struct Pair {  // row in both folders
     std::string name;
-    std::size_t before, after;  // rows of the two tables
+    std::size_t before, after;  // row numbers in the two tables
 };
 void compare_costs(const Results& before, const Results& after, const std::vector<Pair>&,
                    Difference&);

@@ -1,19 +1,23 @@
-// Costs of two folders, side by side. Source: the rule of ties of this program (two costs whose
-// quartiles touch are a tie).
+// Costs of two folders, side by side. Source: this program's rule for ties (two costs with touching
+// quartiles tie).
 //
-// Compared is the lower quartile of processor time, where both folders have it: what other programs
-// take of the machine is not in it, and what they disturb is slower. Else the median of wall time.
+// The comparison uses the lower quartile of processor time if both folders have processor time,
+// else the median of wall time. Processor time excludes the time that other programs take from the
+// machine, and a disturbance can only make a run slower.
 //
-// A clock tells two runs of one machine apart only beyond what the machine itself does meanwhile,
-// and that is of two kinds. All cells drift together (another clock frequency, a busy neighbour),
-// and single cells are disturbed. Both are measured by the cells themselves. The drift is the
-// median ratio of those of the same rate, which are timed in turn, or of all where they are few.
-// The disturbance is 1.4826 times the median distance from it, in logarithms (the standard
-// deviation, were it a normal one). A series, that is a scheme with its options on a problem over
-// its rates, got slower where the median of its ratios lies beyond the drift by 15 % and by five
-// disturbances of such a median (sqrt(pi/2n) of those of n cells), and in most of its cells the
-// quartiles stay apart after the drift is taken off. With fewer than three series the drift cannot
-// be told from them: what is apart has moved. Costs of two machines are not compared.
+// Two timings on one machine are different only beyond the machine's own variation, which has two
+// kinds. All cells drift together (another clock frequency, a busy neighbour), and single cells are
+// disturbed. Both are measured from the cells. The drift is the median ratio over cells with the
+// same rate, which are timed in turn; if these are few, over all cells. The disturbance is 1.4826
+// times the median distance from the drift, in logarithms (the standard deviation for a normal
+// distribution).
+//
+// A series is a scheme with its options on a problem, over its rates. A series got slower under two
+// conditions. The median of its ratios exceeds the drift by 15 % and by five standard errors of a
+// median, sqrt(pi/2n) disturbances for n cells. And in most of its cells the quartiles stay apart
+// after the drift is taken off. With fewer than three series, drift and change cannot be told
+// apart: a cell with separate quartiles counts only as moved. Costs on two machines are not
+// compared.
 #include "bench/suite/difference.hpp"
 
 #include <fmt/core.h>
@@ -29,16 +33,16 @@
 namespace jvari::bench::suite {
 
 namespace {
-constexpr double least_change = 1.15;  // times
+constexpr double least_change = 1.15;  // ratio
 constexpr double disturbances = 5;
 constexpr std::size_t fewest_series = 3;
-constexpr double noted_drift = 1.25;  // times
+constexpr double noted_drift = 1.25;  // ratio
 
 struct Ratio {
     std::string series, rate, name;
     std::size_t before, after;  // rows
     double value;               // after over before
-    double drift = 1;           // of the cells that were timed next to it
+    double drift = 1;           // drift of the cells timed beside this one
     double change() const { return value / drift; }
 };
 
@@ -49,7 +53,8 @@ double median_of(const std::vector<Ratio>& ratios, Of of) {
     return spread_of(values).median;
 }
 
-// Cells of one rate are timed in turn, so they drift together; too few of them drift with all.
+// Divides by the drift. Cells at one rate are timed in turn, so they drift together; if too few,
+// the drift of all cells counts.
 void take_off_drift(std::vector<Ratio>& ratios) {
     const auto middle = [](const std::vector<Ratio>& of) {
         return median_of(of, [](const Ratio& r) { return r.value; });
@@ -63,10 +68,10 @@ void take_off_drift(std::vector<Ratio>& ratios) {
 }
 
 struct Noise {
-    double disturbed = 0;  // of a cell, relative to its drift, in logarithms: a standard deviation
+    double disturbed = 0;  // standard deviation for a cell relative to its drift, in logarithms
 
-    // Times: the median of so many cells that lies further out is disturbed by more than the
-    // machine.
+    // Limit for the median ratio of so many cells: a larger ratio is more than the machine's
+    // disturbance.
     double beyond(std::size_t cells) const {
         const double of_median =
             std::min(1.0, std::sqrt(std::numbers::pi / 2 / static_cast<double>(cells)));
@@ -79,14 +84,15 @@ Noise noise_of(const std::vector<Ratio>& ratios) {
 }
 
 using Cost = double study::TabledCell::*;
-struct Clock {  // the columns of one, and which of them is steadiest
+struct Clock {  // columns of a clock, with the steadiest for comparing
     Cost median, lower, upper, compared;
-    const char* column;  // of the median
+    const char* column;  // name of the median's column
 };
 using C = study::TabledCell;
 constexpr Clock wall{&C::cost_s_per_s, &C::cost_lower, &C::cost_upper, &C::cost_s_per_s,
                      "cost_s_per_s"};
-// Other programs disturb it far less, and only to the slower side: its lower quartile least of all.
+// Processor time: other programs disturb it far less, and only toward slower; the lower quartile is
+// the least disturbed.
 constexpr Clock processor{&C::processor_s_per_s, &C::processor_lower, &C::processor_upper,
                           &C::processor_lower, "processor_s_per_s"};
 
@@ -94,7 +100,7 @@ bool has(const study::Cells& cells, Cost cost) {
     return std::ranges::any_of(cells, [cost](const C& c) { return c.*cost > 0; });
 }
 
-// Of a series: worse, better or same.
+// Verdict on a series: worse, better or same.
 Turn turn_of_costs(const Results& a, const Results& b, const std::vector<Ratio>& series,
                    const Noise& noise, const Clock& clock) {
     const double change = median_of(series, [](const Ratio& r) { return r.change(); });
@@ -131,7 +137,7 @@ void compare_costs(const Results& a, const Results& b, const std::vector<Pair>& 
                 "no cell of the second folder has a cost: none was measured, or they are gone");
         return;
     }
-    for (const Pair& p : pairs) {  // a cell that ran has a cost, whatever the machine
+    for (const Pair& p : pairs) {  // a cell that ran has a cost, on any machine
         const C &before = a.cells[p.before], &after = b.cells[p.after];
         if (after.status != "ok") continue;
         for (const Clock& c : {wall, processor})

@@ -1,25 +1,28 @@
-// How far a number of a cell may move before it has changed, and which way is worse.
+// Rules for numbers of a cell: how far a number may move without counting, and which direction is
+// worse.
 //
-// An error figure: 1000 times its noise floor (what a relative change of the start of 1e-12 makes
-// of the reference, on that scene, window and tap) and 1e-9 of the figure; a centroid difference is
-// the difference of two tracks of a kilohertz and blind to the scale of the start, so 1e-9 of a
-// kilohertz is added to its own. So the tolerance covers what relative changes of 1e-9 would do.
-// Another vector width changes the order of sums: with SSE2 in place of AVX-512, 5 of 6632 figures
-// of the smoke suite moved by more than 100 floors, none but centroids by more than 350. A changed
-// equation is out by far more. Facts and the modes' own frequencies follow from closed forms: 1e-9.
-// What is read from a trace by the matrix pencil: 1e-4 cents.
+// An error figure may move by 1000 times its noise floor plus 1e-9 of itself. The noise floor is
+// the change in the reference after a relative change of the start by 1e-12, for the same scene,
+// window and tap. A centroid difference compares two tracks of about a kilohertz and does not
+// depend on the scale of the start, so 1e-9 of a kilohertz is added. The tolerance thus covers
+// relative changes of 1e-9. Another vector width changes the order of sums. With SSE2 in place of
+// AVX-512, 5 of 6632 figures in the smoke suite moved by more than 100 floors, and only centroids
+// by more than 350. A changed equation moves figures by far more. Facts and the modes' own
+// frequencies follow from closed forms: 1e-9. Results of the matrix pencil on a trace: 1e-4 cents.
 //
-// An error against a reference with the cell's modes has the floor of that against the scene, if
-// not less than what follows. What follows the motion and has no noise floor of its own (contact
-// force, penetration, certificates of stand-ins) may move by 1000 times the largest floor of the
-// row and 1e-6 of itself; residuals of the ledger by 1e-9 and that; an instant by two rows; a noise
-// floor, which is rounding itself, tenfold; what iterations counted and left, by a hundredth.
+// An error against a reference with the cell's modes has the floor of the error against the scene,
+// but at least the following tolerances:
+//   numbers from the motion without a noise floor (contact force, penetration, certificates of
+//   stand-ins): 1000 times the row's largest floor and 1e-6 of the number
+//   residuals of the ledger: 1e-9 in addition
+//   an instant: two rows
+//   a noise floor, which is rounding itself: a factor of ten
+//   counts and residuals of iterations: a hundredth
 //
-// An error that moved by more than that got worse or better if it moved by more than both
-// certificates together. Otherwise neither side knows the true error that well, and the error only
-// moved. The certificate of the later side counts no more than that of the earlier one, and a
-// certificate that grew is worse itself: a result cannot be excused by knowing less.
-// A number that was known and no longer is, is worse.
+// A larger move is better or worse if it exceeds both certificates together. Otherwise neither side
+// knows the true error so well, and the error only moved. The later certificate counts no more than
+// the earlier one, and a larger certificate is itself worse: less knowledge excuses no result. A
+// known number that becomes unknown is worse.
 #include "bench/suite/difference.hpp"
 
 #include <algorithm>
@@ -36,7 +39,7 @@ using Cell = study::TabledCell;
 constexpr double floors = 1000, rounding = 1e-9, centroid = 1e3;  // [Hz]
 constexpr double row = 1.0 / 44100;                               // [s]
 
-// Facts that follow from closed forms, or count what the settings fix.
+// True for facts from closed forms, or counts that the settings fix.
 bool is_closed_form(const std::string& fact) {
     constexpr const char* names[] = {"static_compliance",
                                      "start_phase_offset",
@@ -53,7 +56,7 @@ bool is_closed_form(const std::string& fact) {
     return std::ranges::any_of(names, [&](const char* name) { return fact.starts_with(name); });
 }
 
-// A cell's own sensitivity: the largest noise floor of its relative L2 errors.
+// Sensitivity of a cell: the largest noise floor among its relative L2 errors.
 double sensitivity(const Cell& c) {
     double largest = 0;
     for (const std::string& tap : c.taps)
@@ -61,8 +64,8 @@ double sensitivity(const Cell& c) {
     return largest;
 }
 
-// How far a number that follows the motion, and has no noise floor of its own, may move. A noise
-// floor counts as the lower of the two: one that was raised in either folder excuses nothing.
+// Tolerance for a number that follows the motion and has no noise floor. The lower of the two
+// cells' sensitivities counts, so a floor raised in either folder excuses nothing.
 double motion(const Cell& before, const Cell& after, double old) {
     return (floors * std::min(sensitivity(before), sensitivity(after)) + 1e-6) * std::abs(old);
 }
@@ -72,8 +75,8 @@ bool same_number(double before, double after, double tolerance) {
            std::abs(before - after) <= tolerance;
 }
 
-// What a number that changed came to. sign: 1: larger is worse, -1: larger is better, 0: neither.
-// `certain`: certificates before and after, which the change has to exceed.
+// Scale for a changed number. sign: 1: larger is worse, -1: larger is better, 0: neither.
+// `certain`: certificates before and after; the change has to exceed them.
 struct Scale {
     double tolerance;
     int sign = 0;
@@ -81,7 +84,7 @@ struct Scale {
     double certain_before = 0, certain_after = 0;
 };
 Turn turn_of(double was, double is, const Scale& s) {
-    // no error is: the table is damaged
+    // no error is negative: the table is damaged
     if (is < 0 && !(was < 0) && (s.sign != 0 || s.never_negative)) return Turn::worse;
     if (same_number(was, is, s.tolerance)) return Turn::same;
     if (s.sign == 0) return Turn::moved;
@@ -102,7 +105,7 @@ Turn turn_of(const std::string& column, const std::string& before, const std::st
     if (before == after) return Turn::same;
     if (column == "status")
         return before == "ok" ? Turn::worse : after == "ok" ? Turn::better : Turn::moved;
-    if (column == "flags") {  // one that was not there before is worse, whatever else is gone
+    if (column == "flags") {  // a new flag is worse, even if another is gone
         const auto lacks_one_of = [](const std::set<std::string>& all,
                                      const std::set<std::string>& of) {
             return !std::ranges::includes(all, of);

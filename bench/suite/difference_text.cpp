@@ -1,4 +1,4 @@
-// What changed, for people and for programs.
+// Text of a difference, for people and for programs.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ std::string change_of(const Finding& f) {
                                    : fmt::format("{:.3g} times", is / was);
 }
 
-// A line for each row: its first finding, the headline's, and how many more there are.
+// Lines for rows: the first finding, which is the headline's, and the number of further findings.
 std::string findings_text(const Difference& d, Turn turn, const std::string& title,
                           std::size_t most) {
     std::vector<const Finding*> first;
@@ -81,7 +81,7 @@ Json json_of(const Results& f) {
 
 std::string text_of(const Difference& d, const Results& before, const Results& after,
                     std::size_t most) {
-    // first: what the figures below rest on
+    // first, because the figures below rest on the references
     std::string text = d.references.empty() ? "" : d.references + "\n";
     for (const auto& [name, f] : {std::pair{"before", &before}, std::pair{"after", &after}})
         text += fmt::format("{:<7} {}: commit {}, {}, {}\n", name, f->name, f->provenance.commit,

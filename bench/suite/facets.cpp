@@ -1,4 +1,4 @@
-// What a suite measures of a cell.
+// Facets: a suite's measurements on a cell.
 #include "bench/suite/suite.hpp"
 
 #include <map>
@@ -16,7 +16,7 @@ const Tap& heard_tap(const Scene& scene) { return scene.taps.at(study::headline_
 void keep_sounds(const study::Ran& c, study::Record& into) {
     const int tap = study::headline_of(c.point.scene).nut;
     const auto whole = static_cast<std::size_t>(c.point.scene.duration * c.trace.tap_rate);
-    if (c.trace.column(tap).size() < whole) return;  // it failed on its way
+    if (c.trace.column(tap).size() < whole) return;  // the run failed on its way
     into.cell.sound = store::sound_of(c.trace.column(tap), c.trace.tap_rate);
     if (c.reference && !into.cell.sound.samples.empty())
         into.reference_sound = store::sound_of(c.reference->column(tap), c.trace.tap_rate);
@@ -29,7 +29,7 @@ void write_sounds(const std::filesystem::path& folder, const study::Plan& plan,
                                  all.columns.begin() + all.column("options") + 1);
     who.insert(who.end(), {"rate", "modes"});
     const store::Table cells = all.only(who);
-    // samples, file: cells of one reference share it
+    // samples, file: cells with the same reference share the file
     std::map<std::string, std::string> references;
     std::vector<store::NamedSound> named;
     for (std::size_t i = 0; i < records.size(); ++i) {

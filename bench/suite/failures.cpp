@@ -36,11 +36,11 @@ std::string scene_text(const Reproducer& r) {
 
 bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Reproducer& into) {
     std::error_code error;
-    if (!fs::is_regular_file(folder / "index.csv", error)) return false;  // it is written last
+    if (!fs::is_regular_file(folder / "index.csv", error)) return false;  // written last
     try {
         into = read_failures(folder, catalogue).at(0);
         return true;
-    } catch (const std::exception&) {  // not whole: minimised again
+    } catch (const std::exception&) {  // incomplete: minimised again
         return false;
     }
 }
@@ -65,7 +65,7 @@ std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalog
         std::vector<double>(all.size(), 1), request.jobs, listener, "failures",
         [&](std::size_t i, store::Done& done) {
             Reproducer& r = all[i];
-            Trials trials(catalogue);  // its own: a minimisation waits for no other
+            Trials trials(catalogue);  // separate Trials, so that no minimisation waits for another
             const std::string address = trials.plan_of(r.trial).jobs.front().id +
                                         name_of(r.expected.verdict) + request.program;
             const fs::path folder = request.folder.empty()
@@ -139,14 +139,13 @@ bool still(const Fails& fails, const Trial& t) {
     } catch (const std::exception&) { return false; }
 }
 
-// The parts that are taken away, in turn: what is large goes first, and one string and something
-// that moves it stay.
+// True for the parts to remove, in turn: large parts go first. One string and its excitation stay.
 bool is_removal(const Reduction& r) {
     return r.part != Part::contact_stiffness && r.part != Part::footprint &&
            r.part != Part::damping_term && r.part != Part::tap;
 }
 
-// The first tap alone: what fails is judged by taps of its own.
+// Scene with only the first of the map's taps, because the judgement uses its own taps.
 Scene heard_at_one_point(const Scene& scene) {
     Scene one = listened(scene);
     one.taps.resize(1);
@@ -162,24 +161,24 @@ bool remove_what_can_be(Trial& t, const Fails& fails) {
         if (!is_removal(r)) continue;
         Trial x = t;
         r.apply(x.scene);
-        // they went with their string
+        // taps went with their string
         if (x.scene.taps.empty()) x.scene = heard_at_one_point(x.scene);
         if (!still(fails, x)) continue;
         t = std::move(x);
-        left = reductions_of(t.scene);  // the others may have changed their places
+        left = reductions_of(t.scene);  // the other reductions may have new places
         smaller = true;
     }
     return smaller;
 }
 
-// The least n for which `fails_with` holds on a descent by n/2, n/4, ... 1.
+// Smallest n with `fails_with` on a descent by n/2, n/4, ... 1.
 long shortened(long n, long least, const std::function<bool(long)>& fails_with) {
     for (long cut = n / 2; cut >= 1; cut = std::min(cut / 2, n / 2))
         while (n - cut >= least && fails_with(n - cut)) n -= cut;
     return n;
 }
 
-// A grid takes no modes: they would only take them from the reference.
+// False for a grid: its modes would only reduce the reference's.
 bool has_modes(const Trial& t) {
     const auto five = compare::dofs_with(5, *t.scheme, t.scene, t.settings),
                six = compare::dofs_with(6, *t.scheme, t.scene, t.settings);
@@ -218,14 +217,14 @@ bool shorten(Trial& t, const Fails& fails) {
 }  // namespace
 
 Trial minimised(Trial t, const Fails& fails) {
-    if (t.settings.modes == 0 && has_modes(t)) {  // the default, said aloud
+    if (t.settings.modes == 0 && has_modes(t)) {  // the default, made explicit
         Trial explicit_modes = t;
         explicit_modes.settings.modes = modes_for(t.scene, t.settings);
         if (still(fails, explicit_modes)) t = std::move(explicit_modes);
     }
     t.scene = heard_at_one_point(t.scene);
     for (bool smaller = true; smaller;) {
-        // while there is time and bandwidth enough to fail without
+        // removing first, while duration and modes are still sufficient to fail
         smaller = remove_what_can_be(t, fails);
         smaller = shorten(t, fails) || smaller;
     }

@@ -15,11 +15,11 @@
 namespace jvari::bench::suite {
 
 namespace {
-constexpr double most_points = 1e6;  // of a map: each is a run
+constexpr double most_points = 1e6;  // for a map: each point is a run
 
 bool is_option(const std::string& key) { return key.rfind("option:", 0) == 0; }
 
-// what may stand for all points, or along an axis
+// Keys for all points, or for an axis.
 const std::map<std::string, store::Kind<double>>& plain_numbers() {
     static const std::map<std::string, store::Kind<double>> all = {
         {"rate", store::positive("Hz")},
@@ -53,7 +53,7 @@ std::vector<store::Key<MapAxis>> axis_keys() {
                        "how many, spaced by equal ratios", "")};
 }
 
-// The values between `from` and `to`.
+// Computes the values between `from` and `to`.
 void spread(MapAxis& a, const store::Entry& e) {
     for (const char* name : {"from", "to", "points"}) e.need(name);
     if (a.points < 2) e.need("points").refuse("2 or more");
@@ -64,7 +64,7 @@ void spread(MapAxis& a, const store::Entry& e) {
             i + 1 == a.points
                 ? a.to
                 : a.from * std::pow(a.to / a.from, static_cast<double>(i) / (a.points - 1));
-        // 1e6, and not 999999.9999999998
+        // 1e6 instead of 999999.9999999998
         const double tidy = std::strtod(fmt::format("{:.12g}", x).c_str(), nullptr);
         a.values.push_back(a.key == "modes" ? std::to_string(std::lround(tidy))
                                             : number_text(tidy));

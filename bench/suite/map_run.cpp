@@ -49,8 +49,8 @@ std::string axis_text(const MapAxis& axis, double x) {
     return axis.whole ? std::to_string(std::lround(x)) : store::text_of(x);
 }
 
-// Where the theory's margin changes its sign between the ends of the axis, from its first point on
-// where the theory has something to say.
+// Boundary from theory: the change of sign in the margin along the axis. The search starts at the
+// first point that the theory covers.
 double theory_along(const PointPlace& row) {
     const MapAxis& axis = row.map->x;
     if (row.map->theory.empty() || axis.at.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -70,7 +70,7 @@ double theory_along(const PointPlace& row) {
     const Bracket b = bisect(ends, 60, axis.whole, side);
     return 0.5 * (b.low + b.high);
 }
-// The theory of a row is held against the nearest of the boundaries of stability in the row.
+// Compares the theory with the nearest boundary of stability in each row.
 void compare_with_theory(std::vector<Boundary>& all) {
     for (std::size_t i = 0; i < all.size();) {
         std::size_t end = i;
@@ -109,9 +109,9 @@ double Boundary::relative_difference() const {
 
 MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogue,
                 const MapRequest& request, const store::Listener& listener) {
-    if (maps.empty()) return {};  // no folder is made for them
+    if (maps.empty()) return {};  // makes no folder
     const std::vector<PointPlace> places = places_of(maps, catalogue);
-    // scenes and keys that are none are said before anything runs
+    // reports wrong scenes and keys before anything runs
     for (const PointPlace& p : places) trial_at(p);
     Trials trials(catalogue, request);
     std::vector<Tried> tried(places.size());
@@ -122,7 +122,7 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
                             else done.postpone();
                         });
 
-    std::vector<std::size_t> changes;  // between this point and the next
+    std::vector<std::size_t> changes;  // changes between a point and the next
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         const PointPlace &p = places[i], &q = places[i + 1];
         const bool same_row = p.map == q.map && p.scheme == q.scheme && p.y == q.y;
@@ -140,7 +140,7 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
             const study::Verdict at_low = tried[changes[i]].judgement.verdict,
                                  at_high = tried[changes[i] + 1].judgement.verdict;
             const MapAxis& axis = low.map->x;
-            std::filesystem::path file;  // none: its name is that of the lock
+            std::filesystem::path file;  // empty path: the lock takes the name of the file
             if (!request.folder.empty())
                 file = request.folder / "points" /
                        store::hash_of(trials.plan_of(trial_at(low)).jobs.front().id +
@@ -179,7 +179,7 @@ namespace {
 constexpr const char* nyquist = "nyquist";
 
 double nyquist_margin(const Scene& scene, const Settings& settings) {
-    double fastest = 0;  // mode of all strings: omega^2 [rad^2/s^2]
+    double fastest = 0;  // largest omega^2 over the modes of all strings [rad^2/s^2]
     for (const String& s : scene.strings) {
         const Modes modes = modes_of(s, modes_for(s, settings));
         fastest = std::max(fastest, omega_squared_damped(modes.omega0.back(), modes.sigma.back()));

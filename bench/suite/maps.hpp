@@ -1,7 +1,6 @@
-// The maps of a suite: every point, the boundaries along x by bisection, minimised reproducers of
-// what fails, and all of it as files. Each point is content-addressed and kept as
-// DIR/points/<id>.json, so that a suite which was stopped goes on where it was and comes to the
-// same tables. Processes that share DIR run each point once.
+// Maps of a suite: all points, boundaries along x by bisection, minimised reproducers of failures,
+// and their files. Each point is content-addressed and kept in DIR/points/<id>.json, so a stopped
+// suite continues and produces the same tables. Processes that share DIR run each point once.
 #pragma once
 
 #include <cmath>
@@ -21,53 +20,54 @@
 
 namespace jvari::bench::suite {
 
-// ---- One point of a map: a scheme at its settings on one scene, run for as long as the scene says
-// and judged. A trial is what is varied; a job of bench/study is what is run of it.
+// ---- Point of a map: a scheme with its settings on one scene, run for the scene's duration and
+// judged. A trial holds the varied values; bench/study runs a trial in the form of a job.
 
 struct Trial {
     const Descriptor* scheme;
     Scene scene;
     Settings settings;
-    // "none"; a name; "": the first of the references that represents the scene
+    // "none"; a name; "": the first reference that represents the scene
     std::string reference;
-    int reference_modes = 0;  // 0: those of this trial
+    int reference_modes = 0;  // 0: this trial's modes
 };
 
-// The trial that the assignments describe; keys as an axis of a map has them. `rate` is 44100 Hz
-// unless set. Rows are taken at the rate divided by the whole number that brings it nearest to 44.1
-// kHz. Throws SceneFileError, BadScene, UsageError.
+// Trial for the assignments, with keys in the syntax of a map's axis. `rate` is 44100 Hz by
+// default. The row rate is `rate` divided by the whole number that brings it nearest to 44.1 kHz.
+// Throws SceneFileError, BadScene, UsageError.
 Trial trial_of(const std::string& scene, const Descriptor&, const std::string& reference,
                const std::vector<Assignment>&, int reference_modes = 0);
 
 double row_rate(double sample_rate);
 
-// What maps listen to in place of the scene's own taps:
-// the displacement of every string at two points, and its nut force. The worst string decides.
+// Taps for maps, in place of the scene's own: the displacement of every string at two points, and
+// its nut force. The worst string decides.
 Scene listened(Scene);
 
 struct MapRequest {
-    std::string program;  // program_identity: counts into the address of what is kept
-    // DIR, in whose points/ records are kept, and references in references/; "" for nowhere
+    std::string program;  // program_identity, part of the addresses
+    // DIR, with records in points/ and references in references/; "" for nowhere
     std::filesystem::path folder;
-    bool resume = false;  // what lies there is read back
-    int jobs = 0;         // 0: as many as there are cores
+    bool resume = false;  // true: reads back the files in DIR
+    int jobs = 0;         // 0: the number of cores
 };
 
 struct Tried {
     study::Record record;
-    double error;  // relative L2 of the worst string's nut force, NaN where there is none
+    double error;  // relative L2 error in the worst string's nut force, NaN if unknown
     study::Judgement judgement;
 };
 
-// Runs trials as jobs. Their references are kept as long as it lives.
+// Runs trials in the form of jobs, and keeps their references during its lifetime.
 class Trials {
 public:
     explicit Trials(const compare::Catalogue&, const MapRequest& = {"{}", {}, false, 0});
 
-    // Where another process or thread runs it: what that comes to, or nothing unless `wait`.
+    // Tries a trial. If another process or thread is running the trial, waits for the result, or
+    // returns nothing if not `wait`.
     std::optional<Tried> operator()(const Trial&, bool wait);
     Tried operator()(const Trial& t) { return *(*this)(t, true); }
-    study::Plan plan_of(const Trial&) const;  // of one job
+    study::Plan plan_of(const Trial&) const;  // a single job
     int ran() const { return keep_.ran; }
 
 private:
@@ -80,7 +80,7 @@ private:
 
 // ---- All points and boundaries.
 
-struct PointPlace {  // on a map
+struct PointPlace {  // place on a map
     const Map* map;
     const Descriptor* scheme;
     std::string x, y;  // "" for a map without y
@@ -96,25 +96,25 @@ struct Boundary {
     const Descriptor* scheme;
     std::string y;
     study::Verdict low, high;            // outcomes on its sides
-    std::string x_low, x_high;           // between them it lies
-    double theory;                       // NaN where there is none
-    double relative_difference() const;  // of the middle from theory
+    std::string x_low, x_high;           // the boundary lies between
+    double theory;                       // NaN if unknown
+    double relative_difference() const;  // distance from theory, for the middle
 };
 struct MapRun {
     std::vector<JudgedPoint> points;   // in the order of the file: map, scheme, y, x
-    std::vector<Boundary> boundaries;  // in that order
-    int ran = 0, read_back = 0;        // points, those of bisections included
+    std::vector<Boundary> boundaries;  // in the same order
+    int ran = 0, read_back = 0;        // number of points, including bisections
 };
 
-// Throws what a scene or a name that is none throws, before anything is run.
+// Runs maps. Throws for a wrong scene or name, before anything runs.
 MapRun run_maps(const std::vector<Map>&, const compare::Catalogue&, const MapRequest&,
                 const store::Listener&);
 
-// Bisection of a change between two outcomes along one axis: `verdict_at(x)` is asked at most
-// `times` times, at the geometric mean of positive numbers and the arithmetic of others, and not
-// between neighbours where only `whole` numbers count. Where a third outcome lies between, the
-// search goes on towards where stability ends, and where both sides are stable, or neither is,
-// towards the lower.
+// Bisection for a change between two outcomes along one axis. `verdict_at(x)` is called at most
+// `times` times, at the geometric mean of positive numbers and the arithmetic mean of others; with
+// `whole`, not between neighbouring integers. If a third outcome lies between, the search continues
+// toward the end of stability. If both sides are stable, or neither, the search continues toward
+// the lower side.
 struct Bracket {
     double low, high;
     study::Verdict at_low, at_high;
@@ -136,39 +136,38 @@ Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at) {
     return b;
 }
 
-// ---- Boundaries that are known, for maps to be compared with: those that schemes state as their
-// limit (Descriptor::limit), and
+// ---- Known boundaries, for comparison with maps: the limits declared by schemes
+// (Descriptor::limit), and
 //
 //   nyquist         the highest mode's frequency is half the rate
 //
-// Of the schemes in the program:
-//   grid_limit      the spacing of the grid is the least that is stable (finite_difference.hpp)
+// Limits from schemes in the program:
+//   grid_limit      the grid has the smallest stable spacing (finite_difference.hpp)
 //   penalty_limit   the highest root of the string in lasting contact passes z = -1
 //                   (modal_explicit_penalty.cpp)
 
 std::vector<std::string> theories();
 
-// For which motion it holds: "lasting contact: where the string parts from the barrier the boundary
-// is elsewhere".
+// Kind of motion that the theory describes: "lasting contact: where the string parts from the
+// barrier the boundary is elsewhere".
 std::string motion_of(const std::string& theory);
 
-// Positive on the sound side, 0 on the boundary; NaN where the theory has nothing to say of the
+// Margin: positive on the sound side, 0 on the boundary; NaN if the theory does not cover the
 // scheme.
 double theory_margin(const std::string& theory, const Descriptor&, const Scene&, const Settings&);
 
-// ---- Minimised reproducers: a scene file <scheme>-<outcome>.toml for each way in which a scheme
-// fails, and index.csv that says how to run it and what becomes of it.
+// ---- Minimised reproducers: a scene file <scheme>-<outcome>.toml for each kind of failure of a
+// scheme, and index.csv with the command and the outcome.
 
 struct Reproducer {
-    std::string file;  // within its folder
+    std::string file;  // name within its folder
     Trial trial;
     study::Judgement expected;
 };
 
-// Of each scheme and outcome that is neither sound nor without a run (refused, error), the failure
-// that took the fewest steps, among maps that reproduce theirs.
-// What was minimised is kept beside the points, so that processes that share a folder minimise each
-// once.
+// Reproducers for each scheme and outcome, except sound, refused and error. Starts from the failure
+// with the fewest steps, in maps with `reproduce`. The minimised files are kept beside the points,
+// so that processes with a shared folder minimise each failure once.
 std::vector<Reproducer> reproducers_of(const MapRun&, const compare::Catalogue&, const MapRequest&,
                                        const store::Listener&);
 
@@ -176,38 +175,38 @@ void write_failures(const std::filesystem::path& folder, const std::vector<Repro
 std::vector<Reproducer> read_failures(const std::filesystem::path& folder,
                                       const compare::Catalogue&);
 
-// ---- A trial that fails, made as small as it still fails in the same way: delta debugging over
-// what a scene and its settings are made of.
+// ---- Minimising a failing trial: delta debugging over the parts of a scene and its settings. The
+// smaller trial still fails in the same way.
 //
-// Taken away one by one, in turn, until nothing more can be (scenes/reduction.hpp): strings,
+// Parts are removed one by one, in turn, until no more can go (scenes/reduction.hpp): strings,
 // barriers, polarisation, pluck or initial shape (one of the two stays), thread, losses, bending
-// stiffness, contact losses, an exponent other than 1; then duration, modes or the grid's intervals
-// are shortened by halves, quarters ... down to single rows and modes.
-// What is left is minimal step by step, not the smallest of all.
+// stiffness, contact losses, an exponent other than 1. Then duration, modes or the grid's intervals
+// are reduced by halves, quarters ... down to single rows and modes. The result is minimal step by
+// step, not the smallest possible.
 
-// in the way that is to be kept; what it throws counts as no
+// True if the trial fails in the required way; an exception counts as false.
 using Fails = std::function<bool(const Trial&)>;
 
 Trial minimised(Trial, const Fails&);
 
-// ---- As rows (maps.csv, boundaries.csv), as text, and as files of a suite. The report draws them.
+// ---- Rows (maps.csv, boundaries.csv), text, and files of a suite. The report draws them.
 
 store::Table maps_table(const MapRun&);
 
-// Files of minimised reproducers by scheme and outcome. A boundary names that of the side that
-// fails, of the upper one where both do.
+// Files with minimised reproducers, by scheme and outcome. A boundary names the file for its
+// failing side, for the upper side if both fail.
 using Reproducers = std::map<std::pair<std::string, study::Verdict>, std::string>;
 store::Table boundaries_table(const MapRun&, const Reproducers&);
 
-// for the terminal: outcomes of each map and scheme, boundaries that have a theory
+// Text for the terminal: outcomes for each map and scheme, boundaries with a theory.
 std::string maps_text(const MapRun&);
 
 struct RecordedMaps {
-    std::vector<std::string> files;  // written
-    std::string text;                // for the terminal; "" where there are no maps
+    std::vector<std::string> files;  // written files
+    std::string text;                // for the terminal; "" without maps
 };
-// Runs them, and writes maps.csv, boundaries.csv and minimised reproducers in failures/ where there
-// is a folder.
+// Runs the maps. Writes maps.csv, boundaries.csv and minimised reproducers in failures/ if there is
+// a folder.
 RecordedMaps run_and_record_maps(const std::vector<Map>&, const compare::Catalogue&,
                                  const MapRequest&, const store::Listener&);
 

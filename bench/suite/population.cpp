@@ -1,10 +1,10 @@
-// Strings of a population: drawn from ranges of a scene's keys, spread out to sets of cells, and
-// frozen as files before anything runs.
+// Population: strings drawn from ranges of a scene's keys, expanded into sets of cells, and frozen
+// in files before anything runs.
 //
-// Windows are periods of the first mode, because a string scaled in time is the same problem at a
-// scaled rate, and because errors accumulate from contact to contact, of which there is about one
-// in a period. So strings of all pitches are equally hard. Drawn numbers are rounded to four
-// digits: no machine's logarithm shows in them.
+// Windows are counted in periods of the first mode, for two reasons. A string scaled in time is the
+// same problem at a scaled rate. And errors accumulate from contact to contact, with about one
+// contact in a period. So strings of all pitches are equally hard. Drawn numbers are rounded to
+// four digits, so that the machine's logarithm has no effect.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ using store::key;
 using store::needed;
 
 constexpr double heard = 20e3;      // [Hz]
-constexpr int most_strings = 2000;  // of a ground
+constexpr int most_strings = 2000;  // limit for a ground
 
 DrawnKey drawn_key(const std::string& name, const store::Entry& e) {
     const std::string expected =
@@ -60,14 +60,15 @@ std::string value_at(const DrawnKey& k, double u) {
     return fmt::format("{:.4g}", x);
 }
 
-// Another ground beside it changes nothing of a ground (FNV-1a).
+// Seed of a ground, by FNV-1a over its name: adding another ground changes nothing.
 std::uint64_t seed_of(int seed, const std::string& name) {
     auto hash = 0xcbf29ce484222325u ^ static_cast<std::uint64_t>(seed);
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return hash;
 }
 
-// Heard at the end that the headline errors are of, and as long as the population asks.
+// Set of cells for a scene, with the tap of the headline errors and the duration that the
+// population requests.
 CellSet set_of(const Population& p, Scene scene) {
     CellSet set = p;
     if (scene.taps.empty())

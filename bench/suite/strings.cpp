@@ -1,10 +1,10 @@
-// What a population says of its strings: their dimensionless numbers, what becomes of each variant
-// of a scheme on each, and how far advice errs.
+// Results of a population's strings: dimensionless numbers, the outcome for each variant of a
+// scheme, and the error of the advice.
 //
-// A string can be decided within a tolerance where its reference is known to half of it. A variant
-// solves a string where a trusted cell errs by no more than the tolerance, the uncertainty of the
-// reference added. Each string has one outcome of each variant within each tolerance, so that they
-// sum up to strings times variants.
+// A string can be decided within a tolerance if the reference's uncertainty is at most half the
+// tolerance. A variant solves a string if the error of a trusted cell plus the uncertainty of the
+// reference is within the tolerance. Each string has exactly one outcome per variant and tolerance,
+// so the outcomes add up to strings times variants.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -31,9 +31,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using store::text_of;
 
-constexpr double nudge = 1e-6;        // of the swing: how far the obstacle is moved
-constexpr double longest_nudged = 3;  // [s] of processor, of each of two runs
-constexpr double known_to = 0.5;      // of a tolerance, where it can be decided
+constexpr double nudge = 1e-6;        // displacement of the obstacle over the swing
+constexpr double longest_nudged = 3;  // limit for each of two runs [s of processor]
+// uncertainty over tolerance: a larger ratio leaves a string undecided
+constexpr double known_to = 0.5;
 const std::size_t whole = study::measure("error_l2_whole");
 
 std::string percent(double x) { return fmt::format("{:.4g} %", 100 * x); }
@@ -44,7 +45,7 @@ double static_compliance(const String& s, double x) {  // without bending stiffn
     return x * (s.length - x) / (s.tension * s.length);
 }
 
-// Of the string's start, or of a string that the pluck's largest force holds, at x [m].
+// Displacement at x [m] from the string's start, or from the pluck's largest force.
 double swing(const String& s, double x) {
     const auto triangle = [&](double at, double height) {
         return std::fabs(height) * std::fmin(x / at, (s.length - x) / (s.length - at));
@@ -67,7 +68,7 @@ double largest_swing(const String& s) {
     return most;
 }
 
-struct Contact {  // the first one
+struct Contact {  // the first contact
     double position = nan, width = nan, height = nan, stiffness = nan, exponent = nan;
 };
 Contact contact_of(const String& s) {
@@ -81,10 +82,10 @@ Contact contact_of(const String& s) {
 
 using Ratios = std::vector<std::pair<const char*, std::string>>;
 
-// f_0 and modes below 20 kHz, then ratios: B; Q of the first mode; place and width of the first
-// contact over the length; its secant stiffness under the string's own force times the compliance
-// of the string beside it; exponent; its distance over how far the string swings past it; what else
-// there is.
+// Numbers of a string: f_0 and modes below 20 kHz, then ratios. These are B; Q of the first mode;
+// place and width of the first contact over the length; the contact's secant stiffness under the
+// string's own force, times the string's compliance there; the exponent; the contact's distance
+// over the string's swing past the contact; and flags for further parts.
 Ratios numbers_of(const Scene& scene) {
     const String& s = scene.strings.front();
     const Modes first = modes_of(s, 1);
@@ -119,8 +120,8 @@ Ratios numbers_of(const Scene& scene) {
 
 // ---- Amplification and advice
 
-// The relative change of the nut force over the change of the obstacle's height, which is in parts
-// of the swing; NaN where no obstacle has a height. With half the modes of the reference.
+// Amplification: the relative change in the nut force over the change in the obstacle's height,
+// relative to the swing. NaN if no obstacle has a height. Uses half the reference's modes.
 double amplification(const Scene& scene, const study::Truth& truth) {
     study::ReferenceChoice choice = truth.reference.choice;
     if (choice.oversampled > 0) return nan;
@@ -142,10 +143,10 @@ double amplification(const Scene& scene, const study::Truth& truth) {
     try {
         const study::Errors e = study::errors_of(nut(moved), nut(scene), {whole}, free_from(scene));
         return e.at(0)[whole] / nudge;
-    } catch (const std::exception&) { return nan; }  // refused, or it takes too long
+    } catch (const std::exception&) { return nan; }  // refused, or too slow
 }
 
-// Of the advised settings, over the window of the advice.
+// True error with the advised settings, over the advice's window.
 double true_error(const Scene& scene, const compare::Advice& a, const Trace& reference) {
     if (a.settings.tap_rate != reference.tap_rate) return nan;
     const Run r = run(*a.scheme, scene, a.settings);
@@ -191,7 +192,7 @@ using study::TabledCell;
 
 struct StringOf {
     const CellSet* set = nullptr;
-    Rows rows{};  // of the cells
+    Rows rows{};  // rows of the string's cells
     Json examined{};
 };
 
@@ -202,7 +203,7 @@ double number_in(const Json& j, const char* name) {
                                  : nan;
 }
 
-// What is known of a string's reference.
+// Uncertainty of a string's reference.
 double uncertainty_of(const study::Cells& cells, const Rows& rows) {
     for (const std::size_t i : rows)
         if (const double c = cells[i].figure(whole).certificate; !std::isnan(c)) return c;
@@ -210,11 +211,12 @@ double uncertainty_of(const study::Cells& cells, const Rows& rows) {
 }
 bool is_decided(double uncertainty, double within) { return uncertainty <= known_to * within; }
 
-double error_of(const TabledCell& c) {  // at most, of a trusted cell
+double error_of(const TabledCell& c) {  // upper bound for a trusted cell
     return compare::trusted(c) ? compare::bound_of(c, whole).most() : nan;
 }
 
-// refused: by all settings; failed: no run was trusted; missed: other settings are needed
+// Outcome for a variant. refused: by all settings; failed: no run was trusted; missed: other
+// settings are needed.
 const char* outcome_of(const study::Cells& cells, const Rows& rows, double within,
                        double uncertainty) {
     const auto all = [&](const auto& is) { return std::ranges::all_of(rows, is); };
@@ -252,7 +254,7 @@ std::vector<std::string> string_row(const StringOf& s, const study::Cells& cells
     return row;
 }
 
-// The cheapest cells of a variant, each more accurate than those before it.
+// Front: a variant's cheapest cells, each more accurate than all cheaper ones.
 Rows front_of(const study::Cells& cells, Rows rows) {
     std::erase_if(rows, [&](std::size_t i) {
         return !(error_of(cells[i]) < 1) || !(cells[i].processor_s_per_s > 0);
@@ -267,7 +269,8 @@ Rows front_of(const study::Cells& cells, Rows rows) {
     return rows;
 }
 
-// Held: the true error is within the tolerance, the uncertainty of the reference added.
+// Outcome of the advice: true if the true error plus the reference's uncertainty is within the
+// tolerance.
 const char* advice_outcome(const Json& a, double within, double error, double uncertainty) {
     if (!a.value("within", false)) return "none";
     if (error + uncertainty <= within) return "true";

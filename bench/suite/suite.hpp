@@ -1,5 +1,5 @@
-// Suite files: TOML that declares what to compare. suite_file.cpp and map_file.cpp declare their
-// keys, and what can be measured; `jvari list keys` shows them.
+// Suite files: TOML with a list of comparisons. suite_file.cpp and map_file.cpp declare the keys
+// and the possible measurements; `jvari list keys` shows them.
 #pragma once
 
 #include <filesystem>
@@ -19,59 +19,60 @@
 
 namespace jvari::bench::suite {
 
-namespace measured {  // facets that more than their own file knows
+namespace measured {  // names of facets that several files use
 inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram",
                             *sound = "sound", *share = "share", *advice = "advice";
 }
 
 struct SweptKey {
-    std::string key;                  // of a scene: "string.0.tension"
+    std::string key;                  // key of a scene: "string.0.tension"
     std::vector<std::string> values;  // in TOML syntax
 };
 struct VariedOption {
-    compare::SchemeOption option;  // without its value
+    compare::SchemeOption option;  // without a value
     std::vector<std::string> values;
 };
 
 struct CellSet
-    // of each of its scenes, at each of its modes, options and swept values; `search`: of errors
-    // alone
+    // Request for each scene in the set, with each number of modes, option and swept value.
+    // `search` applies to errors only.
     : compare::CompareRequest {
     std::vector<std::string> scenes;
-    std::string tap;  // in place of the request's, whose other taps are not even run
+    // tap for the errors; the request's tap would leave the other taps out of the run
+    std::string tap;
     std::vector<VariedOption> varied;
     std::vector<SweptKey> sweep;
     std::vector<std::string> measure{measured::errors};  // names of facets
-    std::vector<Tap> taps;                               // beside those of the scene
-    double effort = 1;                                   // of its references (study::run_truth)
-    std::optional<Scene> drawn{};  // a string of a population, in place of reading its scene
+    std::vector<Tap> taps;                               // additional to the scene's taps
+    double effort = 1;             // factor for the references' limits (study::run_truth)
+    std::optional<Scene> drawn{};  // string from a population; if set, no scene is read
     bool measures(std::string_view facet) const;
 };
 
-// ---- Maps: what becomes of each scheme over two settings of one scene.
+// ---- Maps: outcomes of each scheme over two settings in one scene.
 
-// "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and plucks),
-// "option:[SCHEME:]NAME", else a key of the scene.
+// Axis of a map. Keys are "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and
+// plucks), "option:[SCHEME:]NAME", or a key of the scene.
 struct MapAxis {
     std::string key;
-    // in TOML syntax, an option's as the scheme reads it; numbers ascend
+    // in TOML syntax, or for an option in the scheme's syntax; numbers ascend
     std::vector<std::string> values;
-    // as numbers, between which a boundary can be sought; empty where one of them is none
+    // numbers, between which a boundary can be searched; empty if any value is no number
     std::vector<double> at;
-    bool whole = false;       // modes, and options given as whole numbers
-    double from = 0, to = 0;  // as the file may say its values; 0: absent, as of points
+    bool whole = false;       // true for modes, and for options given in whole numbers
+    double from = 0, to = 0;  // range in the file, in place of values; 0: absent, also for points
     int points = 0;
 };
 
-using Assignment = std::pair<std::string, std::string>;  // a key as an axis has it, and its value
+using Assignment = std::pair<std::string, std::string>;  // key on an axis, and its value
 
 struct Map {
     std::string name, scene, theory;
-    std::string reference;  // "": the highest that represents the scene; "none"
+    std::string reference;  // "": the highest reference that represents the scene; "none"
     std::vector<std::string> schemes;
     MapAxis x, y;                   // y without a key: one row
     std::vector<Assignment> fixed;  // the same at every point
-    int reference_modes = 0;        // 0: those of the point
+    int reference_modes = 0;        // 0: the number at the point
     int refine = 0;
     bool reproduce = true;
 };
@@ -79,14 +80,14 @@ struct Map {
 // [[map]] tables of a suite (map_file.cpp).
 store::Kind<std::vector<Map>> maps();
 
-// ---- A population: strings drawn from ranges of a scene's keys, and fixed ones beside them. Each
-// string becomes a set of cells of its own (population.cpp).
+// ---- Population: strings drawn from ranges of a scene's keys, and fixed strings. Each string
+// becomes its own set of cells (population.cpp).
 
 struct DrawnKey {
-    std::string key;                   // of a scene
+    std::string key;                   // key of a scene
     std::vector<std::string> choices;  // in TOML syntax; none: a range
     double from = 0, to = 0;
-    bool log = false;  // equal ratios are equally likely
+    bool log = false;  // true: equal ratios are equally likely
 };
 struct Ground {  // strings of one kind
     std::string name, scene;
@@ -95,8 +96,8 @@ struct Ground {  // strings of one kind
 };
 struct Population : CellSet {  // `scenes`: the fixed strings
     int seed = 0;
-    double periods = 8;                // of the first mode, after the last pluck
-    std::vector<double> multiples{1};  // of the modes below 20 kHz
+    double periods = 8;                // periods of the first mode, after the last pluck
+    std::vector<double> multiples{1};  // factors on the number of modes below 20 kHz
     std::vector<std::string> measure{measured::errors, measured::cost, measured::share};
 };
 
@@ -104,83 +105,85 @@ struct Population : CellSet {  // `scenes`: the fixed strings
 
 struct Suite {
     std::string name, question, source;
-    std::vector<CellSet> sets;  // of a population one for each string
+    std::vector<CellSet> sets;  // in a population, one for each string
     std::vector<Map> maps;
     std::optional<Population> population;
     std::vector<Ground> grounds;
 };
 
-// A file, or a suite of the library by its name. Throws SceneFileError "suite.toml:12:
+// Reads a file, or a suite from the library by its name. Throws SceneFileError "suite.toml:12:
 // cells.0.raets: unknown key; did you mean rates?".
 Suite read_suite(const std::string& file_or_library_name);
 Suite parse_suite(std::string_view text, const std::string& file_name);
 
-// The keys of a suite file, of each of its tables: "", "cells", "map", "population", "ground".
+// Keys for each table in a suite file: "", "cells", "map", "population", "ground".
 struct TableWords {
     std::string table;
     std::vector<store::KeyWords> keys;
 };
 std::vector<TableWords> suite_keys();
 
-// The sets of cells of a population's strings, in order: its grounds, then its fixed scenes. The
+// Sets of cells for a population's strings, in order: first the grounds, then the fixed scenes. The
 // same file gives the same scenes to the byte. Throws SceneFileError, BadScene.
 std::vector<CellSet> sets_of(const Population&, const std::vector<Ground>&);
 std::vector<store::Key<Ground>> ground_keys();
 
-// Writes the scenes into the folder before anything runs. Throws UsageError where one lies there
-// that differs, for its cells are of another string.
+// Writes the scenes into the folder before anything runs. Throws UsageError if the folder has a
+// different scene with the same name, because the cells there belong to another string.
 void freeze(const Suite&, const std::filesystem::path& folder, bool resume);
 
-// Names of the suites in the library, sorted: the directory $JVARI_SUITES, else that of the
+// Sorted names of the suites in the library: the directory $JVARI_SUITES, else the directory in the
 // sources, else the installed one.
 std::vector<std::string> library_suites();
 
-// What compare would be asked for one scene of the set at one point of modes, options and sweep; in
-// the order in which they stand.
+// Point of a suite: the request to compare for one scene in the set, with one choice of modes,
+// options and swept values. points_of returns the points in the order of the file.
 struct SuitePoint {
     const CellSet* set;
     compare::CompareRequest request;
 };
 std::vector<SuitePoint> points_of(const Suite&);
 
-// The suite spread out to its jobs: each a scheme at its settings on one scene.
-// `plugins` are files whose contents count as part of the program. The suite must outlive the plan.
-// Throws UsageError, SceneFileError, BadScene, Refusal.
-// `advised`: whose settings are cells as well.
-struct Advised {  // on a scene of a set that measures it
+// Plan of a suite: its jobs, each a scheme with its settings on one scene. Contents of the files in
+// `plugins` count toward the program's identity. The suite must outlive the plan. Throws
+// UsageError, SceneFileError, BadScene, Refusal. `advised`: advised settings, added to the cells.
+struct Advised {  // advice on a scene in a set that measures advice
     const CellSet* set;
-    std::string asked, scene;  // as the set has it; its name
+    std::string asked, scene;  // asked: in the set's words; scene: its name
     compare::Advice advice;
 };
 study::Plan plan_of(const Suite&, const compare::Catalogue&,
                     const std::vector<std::string>& plugins, std::span<const Advised> = {});
 std::vector<Advised> advice_of(const Suite&, const compare::Catalogue&, const store::Listener&);
-// Of each scene what was advised, and whether it held; a line each.
+// Verdicts on the advice for each scene, a line each.
 std::string verdicts_on(std::span<const Advised>, const study::Cells&);
 
-// ---- What a suite can measure of a cell: errors and cost as compare has them, a spectrogram, and
-// its sound.
+// ---- Facets, the possible measurements on a cell: errors and cost (the same figures that compare
+// gives), a spectrogram, and the sound.
 
 struct Facet {
     const char *name, *meaning;
 };
 std::span<const Facet> facets();
 
-// A cell's samples and its reference's lie in its record, and become sounds/*.wav and sounds.csv.
+// Stores the samples of a cell and its reference in the record; write_sounds turns them into
+// sounds/*.wav and sounds.csv.
 void keep_sounds(const study::Ran&, study::Record&);
 void write_sounds(const std::filesystem::path& folder, const study::Plan&,
                   const std::vector<study::Record>&);
 
-// ---- What a population finds out beside its cells, and the tables of it (strings.cpp).
+// ---- Results of a population beside its cells, and their tables (strings.cpp).
 
-// Of a string, once: how much a change of the obstacle's height is amplified, and how far advice
-// errs, as JSON.
+// Examines a string once, for JSON: the amplification of a change in the obstacle's height, and the
+// error of the advice.
 std::string examined(const study::Point&, const study::Truth*, const compare::Catalogue&);
 
+// Tables of a population:
 // strings.csv:  a row per string: its dimensionless numbers, reference, uncertainty, outcome
 // outcomes.csv: a row per string and variant: the outcome within 10, 1 and 0.1 %
-// advice.csv:   a row per string and tolerance: what `run --within` takes, and its true error
-// fronts.csv:   measured: the cheapest cells of each variant, with error and cost
+// advice.csv:   a row per string and tolerance: the settings from `run --within`, and their true
+// error
+// fronts.csv:   measured times: the cheapest cells in each variant, with error and cost
 struct StringTables {
     store::Table strings, outcomes, advice, fronts;
     std::string text;  // for the terminal

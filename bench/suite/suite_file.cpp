@@ -1,4 +1,4 @@
-// Reads by scenes/document.hpp, the one reader of TOML there is, and by declared keys
+// Reader for suite files, with scenes/document.hpp (the only TOML reader) and declared keys
 // (store/keys.hpp).
 #include "bench/suite/suite.hpp"
 
@@ -220,8 +220,8 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     if (suite.sets.empty() && !suite.population && (suite.maps.empty() || root.at("cells")))
         root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") +
                                              "expected at least one [[cells]]");
-    // a scene's file is looked for beside the suite's, then where the program runs; a name of the
-    // library is neither
+    // Search order for a scene's file: first beside the suite's file, then in the working
+    // directory. A name from the library is left alone.
     const auto find = [&](std::string& scene) {
         std::error_code error;
         if (const fs::path beside = fs::path(file_name).parent_path() / scene;
@@ -242,8 +242,8 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
 Suite read_suite(const std::string& name) {
     std::error_code error;
     const fs::path shelved = library() / (name + ".toml");
-    // a bare name is the library's where it has it, whatever lies where the program runs: ./NAME is
-    // a file
+    // A bare name means the library's suite if there is one, even if the working directory has such
+    // a file: ./NAME is a file.
     const bool known = name.find('/') == std::string::npos && fs::is_regular_file(shelved, error);
     const bool file = !known && fs::is_regular_file(name, error);
     if (!file && !known)

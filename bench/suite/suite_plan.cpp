@@ -16,9 +16,10 @@ namespace jvari::bench::suite {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr double most_of_rate = 0.49;  // the highest mode of a string of a population
+constexpr double most_of_rate = 0.49;  // highest mode of a population's string over the rate
 
-// Spectrogram and sound of a job's accuracy run, and what they are made of as JSON.
+// Adds the measurements on a job's accuracy run (spectrogram and sound), and describes them in
+// JSON.
 void add_facets(study::Job& job, const CellSet& set, int tap) {
     Json measured = Json::array();
     for (const Facet& f : facets())
@@ -33,8 +34,9 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
     };
 }
 
-// A string of a population is one point with all modes and options. Modes that a rate cannot hold
-// are left out, but the fewest. The first job examines the string where that is measured.
+// Adds a string of a population: one point with all modes and options. Leaves out modes that a rate
+// cannot hold, but keeps the smallest number. The first job examines the string if the set measures
+// advice or share.
 void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellSet& set,
                 const compare::Catalogue& catalogue, study::Point& common, study::Job& like) {
     common.begin = 0;
@@ -44,7 +46,7 @@ void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellS
     like.errors = {study::measure("error_l2_whole")};
     const std::size_t from = plan.jobs.size(), notes = plan.notes.size();
     compare::add_jobs(plan, r, catalogue, common, like);
-    plan.notes.resize(notes);  // of each string the same
+    plan.notes.resize(notes);  // the notes repeat for each string
     const auto held = [&](const study::Job& job) {
         const int modes = job.cell.settings.modes;
         return modes == set.modes.front() ||
@@ -67,7 +69,7 @@ std::vector<SuitePoint> points_of(const Suite& suite) {
     for (const CellSet& set : suite.sets) {
         std::vector<compare::CompareRequest> requests{set};
         requests.front().controls = true;
-        // as they are where there is no value
+        // leaves the requests unchanged if there are no values
         const auto vary = [&requests](const auto& values, const auto& apply) {
             if (values.empty()) return;
             std::vector<compare::CompareRequest> more;
@@ -136,7 +138,7 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
         study::Point common;
         common.scene = set.drawn ? *set.drawn : compare::load_scene(r);
         common.time_limit = set.time_limit.value_or(HUGE_VAL);
-        // of a sweep over modes one reference for all
+        // common reference for a sweep over modes
         common.begin = set.modes.empty() ? 0 : *std::ranges::max_element(set.modes);
         for (const std::string& assignment : r.set) {
             const auto equals = assignment.find('=');

@@ -14,7 +14,7 @@
 namespace jvari::bench::suite {
 
 namespace {
-// of the length: no low mode has a node at both
+// Tap positions over the length: no low mode has a node at both.
 constexpr double listening_points[] = {0.3, 0.437};
 
 double worst_nut(const study::Errors& errors, const Scene& scene) {
@@ -41,7 +41,8 @@ Trial trial_of(const std::string& scene, const Descriptor& scheme, const std::st
         else if (key == "duration") duration = store::number_of(value);
         else if (key == "amplitude") amplitude = store::number_of(value);
         else if (key.rfind("option:", 0) == 0) {
-            const auto o = compare::SchemeOption::of(key.substr(7), value);  // behind "option:"
+            // the text behind "option:"
+            const auto o = compare::SchemeOption::of(key.substr(7), value);
             if (o.scheme.empty() || o.scheme == scheme.name)
                 t.settings.options.emplace_back(o.name, o.value);
         } else overrides.push_back(key + "=" + value);
@@ -73,7 +74,8 @@ Trials::Trials(const compare::Catalogue& catalogue, const MapRequest& request)
     store::must_be_writable(keep_.folder / "any");
 }
 
-// Nothing stands in: where no reference represents the scene a point is judged by its own figures.
+// References without stand-ins: if no reference represents the scene, a point is judged by its own
+// figures.
 std::vector<study::ReferenceChoice> Trials::references_of(const Trial& t) const {
     if (t.reference == "none") return {};
     Settings at = t.settings;

@@ -1,13 +1,13 @@
-// Step 1 and 3 of the search: with given parts left out, the cheapest scheme, options, rate and
+// Steps 1 and 3 of the search: with given parts left out, the cheapest scheme, options, rate and
 // number of modes within the tolerance.
 //
-// Modes are searched up to four times those below 20 kHz, as far as half the rate allows.
+// The search covers up to four times the modes below 20 kHz, limited by half the rate.
 //
-// Every variant (a scheme, own or matched compliance) is looked at first at two rates, with the
-// most modes down to a quarter of them. Whose error is not within at either and would not be at the
-// highest rate, even if it fell by twice the order seen between the two, is passed over. The others
-// are searched in the order of what the first look says they cost, so that the clock ends the dear
-// ones early.
+// First, every variant (a scheme with own or matched compliance) gets a look at two rates, with the
+// largest number of modes and fewer, down to a quarter. A variant is passed over if its error is
+// beyond the tolerance at both rates, and would be at the highest rate even with twice the order
+// seen between the two. The search then tries the others in the order of their costs in the first
+// look, so that the cost limit ends expensive variants early.
 #pragma once
 
 #include <fmt/core.h>
@@ -24,29 +24,30 @@
 
 namespace jvari::bench::trim {
 
-inline constexpr std::array multiples{1, 2, 4, 8, 16, 32};  // of the tap rate
-inline constexpr double fewer = 0.7;  // from one number of modes to the next that is tried
+inline constexpr std::array multiples{1, 2, 4, 8, 16, 32};  // multiples of the tap rate
+inline constexpr double fewer = 0.7;             // ratio from one number of modes to the next
 inline constexpr double first_looks[] = {1, 4};  // multiples of the tap rate
-// numbers of modes: from the most to a quarter of them, for more at one rate can be worse
+// Numbers of modes in a look, from the largest to a quarter: more modes at one rate can be worse.
 inline constexpr std::size_t looked_at = 5;
 
 struct Found {
     Model model;
-    double error, cost;  // worst of the starts; [s of processor per s]
-    // Cheaper by a twentieth, which a clock can tell; of costs that are closer the more accurate.
+    double error, cost;  // worst error over the starts; cost [s of processor per s]
+    // Better: cheaper by a twentieth, a difference that timing can resolve; or at similar cost,
+    // more accurate.
     bool better_than(const Found& o) const {
         return cost < worth * o.cost || (worth * cost <= o.cost && error < o.error);
     }
 };
 
-// `limit` is a cost [s per s] from which on a model is pointless.
+// Searches settings. `limit`: a cost [s per s] above which a model is useless.
 class CheapestSettings {
 public:
     CheapestSettings(Judge& judge, const std::vector<const Descriptor*>& schemes,
                      const std::vector<int>& starts, const store::Listener& listener)
         : judge_(judge), schemes_(schemes), starts_(starts), progress_(listener.begin("trim")) {}
 
-    // the worst; nothing where one start is not within
+    // Worst error over the starts; nothing if a start is not within.
     std::optional<double> error_within(const Model& m, double limit) {
         double worst = 0;
         for (const int s : starts_) {
@@ -57,7 +58,7 @@ public:
         return worst;
     }
 
-    // Between two rates.
+    // Searches between two rates.
     std::optional<Found> of_variant(const Variant& v, const std::vector<int>& left_out, double from,
                                     double to, double limit) {
         std::optional<Found> best;
@@ -90,8 +91,8 @@ public:
         return of_variants(variants, left_out, limit);
     }
 
-    // The whole scene with no option set, so that compliance is the scheme's own: the cheapest that
-    // serves, else the nearest that was judged; nothing where none was sound.
+    // Model of the whole scene without options, so with the scheme's own compliance: the cheapest
+    // within the tolerance, else the nearest judged model; nothing if none was sound.
     std::optional<Found> as_published(bool& within) {
         std::vector<Variant> variants;
         for (const Descriptor* d : schemes_)
@@ -102,7 +103,8 @@ public:
         return Found{*nearest_, judge_.worst_error(*nearest_, starts_), judge_.cost(*nearest_)};
     }
 
-    std::vector<std::string> passed_over() const {  // after a first look: "name (its errors)"
+    // variants after a first look: "name (its errors)"
+    std::vector<std::string> passed_over() const {
         std::vector<std::string> all;
         for (const auto& [name, text] : passed_over_) all.push_back(text);
         return all;
@@ -124,7 +126,7 @@ private:
         return j;
     }
 
-    // From few modes to many, the fewest that serve; beyond `limit` it gives up.
+    // Smallest number of modes within the tolerance, searched upward; gives up beyond `limit`.
     std::optional<Found> fewest(const Variant& v, const std::vector<int>& left_out, double rate,
                                 double limit, bool& too_dear) {
         Model m{left_out, v.scheme, {rate, judge_.tap_rate(), 0, v.options}};
@@ -134,7 +136,7 @@ private:
             m.settings.modes = modes;
             if (auto error = error_within(m, limit)) {
                 Model x = m;
-                // between the last that failed and the first that serves
+                // between the last failure and the first success
                 while (last > 0 && m.settings.modes - last > 1) {
                     x.settings.modes = (last + m.settings.modes) / 2;
                     if (const auto e = error_within(x, limit)) m = x, error = e;
@@ -145,7 +147,7 @@ private:
             last = modes;
             const Judged failed = judged(m, starts_.front(), limit);
             if (std::isinf(failed.seconds) || failed.seconds > longest_run(limit)) {
-                // with more modes or at a higher rate it is dearer still
+                // more modes or a higher rate would cost even more
                 too_dear = modes == rungs.front();
                 return std::nullopt;
             }
@@ -153,7 +155,7 @@ private:
         return std::nullopt;
     }
 
-    // From few modes to the most that are sought; {0} where the scheme takes its own.
+    // Numbers of modes, ascending to the largest in the search; {0} if the scheme has its own.
     std::vector<int> ladder(const Model& m) const {
         const Scene scene = judge_.scene_of(m);
         const double rate = m.settings.sample_rate;
@@ -166,7 +168,7 @@ private:
         std::vector<int> modes;
         for (double n = all; n >= 2; n *= fewer) modes.push_back(static_cast<int>(std::lround(n)));
         std::ranges::reverse(modes);
-        // it has a number of its own, as one whose nodes are points of contact
+        // a scheme with its own number, for example with nodes at its points of contact
         if (dofs(0) > 0 && dofs(0) != dofs(all)) modes.push_back(0);
         return modes;
     }
@@ -184,14 +186,15 @@ private:
         return best;
     }
 
-    // By cost [s per s] as judged, at the cheaper rate that is within; infinite where neither is.
+    // Costs of the judged runs [s per s], sorted, at the cheaper rate within the tolerance;
+    // infinite if neither rate is within.
     std::vector<std::pair<double, const Variant*>> looked(const std::vector<Variant>& variants,
                                                           const std::vector<int>& left_out,
                                                           double limit) {
         std::vector<std::pair<double, const Variant*>> looks;
         for (const Variant& v : variants) {
             double cost = HUGE_VAL;
-            std::vector<double> errors;  // at the rates where nothing but it speaks against a run
+            std::vector<double> errors;  // errors at rates with an otherwise trusted run
             for (const double k : first_looks) {
                 Model m{
                     left_out, v.scheme, {k * judge_.tap_rate(), judge_.tap_rate(), 0, v.options}};
@@ -233,9 +236,9 @@ private:
 
     Judge& judge_;
     const std::vector<const Descriptor*>& schemes_;
-    std::vector<int> starts_;  // that it is judged by
+    std::vector<int> starts_;  // starts for judging
     std::unique_ptr<store::Progress> progress_;
-    std::optional<Model> nearest_;  // as published
+    std::optional<Model> nearest_;  // nearest model for as_published
     double nearest_error_ = HUGE_VAL;
     std::string best_text_ = "none is within the tolerance yet";
     std::map<std::string, std::string> passed_over_;  // by variant

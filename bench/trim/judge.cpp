@@ -24,16 +24,17 @@ namespace jvari::bench::trim {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr double sample = 5e-3;  // least time of one sample of a cost [s]
+constexpr double sample = 5e-3;  // minimum time for one sample of a cost [s]
 constexpr int samples = 3;
-constexpr double deepest_absent = 1;    // penetration of a reference that touches nothing [m]
-constexpr double worth_keeping = 5e-3;  // of a model: below, a file takes longer than the run [s]
+constexpr double deepest_absent = 1;  // penetration of a reference without contact [m]
+// limit for keeping a model: writing a file takes longer than a shorter run [s]
+constexpr double worth_keeping = 5e-3;
 
-// What is unknown of a reference by this measure: its certificate for waveforms; of the others no
-// bound is known, and what the doublings tell stands for it.
+// Uncertainty of a reference in this measure: for waveforms its certificate. Other measures have no
+// known bound, so the estimate from the doublings is taken.
 double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, double from) {
     const study::Reference& of = t.reference;
-    // the waveform's windows come first among the measures
+    // The waveform's windows are the first measures.
     if (measure < study::Trust::columns.size())
         return of.trust.any() ? of.trust.of_scene(tap, measure) : nan;
     const double rate = of.run.trace.tap_rate;
@@ -105,11 +106,11 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
 
 bool Judge::may_go(int k) const {
     const Reduction& r = reductions_[k];
-    // that is the question, not the model
+    // excitation belongs to the question, not to the model
     if (r.part == Part::initial_shape || r.part == Part::pluck) return false;
     const bool loss =
         r.part == Part::damping || r.part == Part::damping_term || r.part == Part::contact_loss;
-    // 50 ms hardly hear it, and without it the sound never ends
+    // A loss is hardly audible in 50 ms, but without loss the sound never ends.
     if (loss && !judges_decay()) return false;
     Scene left = scene_;
     r.apply(left);

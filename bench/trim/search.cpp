@@ -15,13 +15,13 @@ namespace jvari::bench::trim {
 namespace {
 struct Candidate {
     int part;
-    // saved: in twentieths of the cost; what is less a clock cannot tell, and then the error
-    // decides
+    // saved: in twentieths of the cost. Timing cannot resolve smaller savings; then the error
+    // decides.
     double saved_per_error, error;
 };
 
-// The parts that may be left out or put back, in the order in which they are tried: what saves most
-// for the error that it costs goes first, what is put back or not within at these settings last.
+// Parts to leave out or put back, in the order of trying: the largest saving per added error first.
+// Parts to put back, and parts not within the tolerance at these settings, come last.
 std::vector<Candidate> candidates(Judge& judge, CheapestSettings& s, const Found& now) {
     std::vector<Candidate> order;
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
@@ -36,7 +36,7 @@ std::vector<Candidate> candidates(Judge& judge, CheapestSettings& s, const Found
                 c = {k, saved / std::max(1e-3 * judge.target().most, *e - now.error), *e};
             }
         } catch (const std::exception&) {
-            continue;  // what is left makes no scene
+            continue;  // remaining scene is impossible
         }
         order.push_back(c);
     }
@@ -107,7 +107,7 @@ Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
     const auto cheaper = [&now](const std::optional<Found>& found) {
         return found && found->cost <= worth * now->cost;
     };
-    // Step 2: one part toggled, settings sought anew.
+    // Step 2: toggles one part and searches the settings anew.
     const auto descend = [&] {
         for (const Candidate& c : candidates(judge, s, *now)) {
             const Settings& settings = now->model.settings;

@@ -10,16 +10,16 @@
 namespace jvari::bench::trim {
 
 namespace {
-// Each start of its own: of displacements and forces, of velocities, of the string's length, of the
-// time that a pluck takes.
+// Factors for each start: on displacements and forces, on velocities, on the string's length, on
+// the pluck's duration.
 constexpr double sizes[starts] = {1, 0.8, 0.7, 0.9, 0.6};
 constexpr double speeds[starts] = {1, 1.5, 0.7, 2, 0.5};
 constexpr double places[starts] = {0, 0.88, 0.31, 0.42, 0.67};
 constexpr double shortest[starts] = {1, 0.5, 0.7, 0.9, 0.6};
-constexpr int sharp = 1;        // the start with a corner that nothing rounds
-constexpr double narrow = 0.2;  // of the length: a footprint that has room elsewhere
+constexpr int sharp = 1;        // start with an unrounded corner
+constexpr double narrow = 0.2;  // width over length: narrower footprints have room elsewhere
 
-// At the start's place, or as far from the other end where that is where it was.
+// Position of the start, or its mirror image if the original position is too near.
 double elsewhere(double position, double length, int start) {
     const double there = places[start] * length;
     return std::abs(there - position) < 0.05 * length ? length - there : there;
@@ -36,7 +36,7 @@ Shape other_shape(const Shape& own, double length, double size, int start) {
                                         : 0.05 * length};
 }
 
-// A start of a file is scaled, and one in equilibrium stays.
+// Other start for a string: scales a start from a file, and leaves an equilibrium unchanged.
 Start other_start(const String& s, int start) {
     if (const auto* mode = std::get_if<ModeShape>(&*s.start))
         return std::visit([](auto x) -> Start { return x; },
@@ -69,7 +69,7 @@ Scene started(Scene scene, int start) {
     for (String& s : scene.strings) {
         if (s.start) s.start = other_start(s, start);
         if (s.velocity) s.velocity = other_shape(*s.velocity, s.length, speeds[start], start);
-        for (Mass& m : s.masses) {  // one that stands still is a part of the scene
+        for (Mass& m : s.masses) {  // a mass at rest is a part of the scene
             if (m.velocity == 0) continue;
             m.velocity *= speeds[start];
             if (m.width < narrow * s.length) m.position = elsewhere(m.position, s.length, start);

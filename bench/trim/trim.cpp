@@ -16,7 +16,7 @@
 namespace jvari::bench::trim {
 
 namespace {
-constexpr int rounds = 7, rounds_of_needs = 5;  // of the clock
+constexpr int rounds = 7, rounds_of_needs = 5;  // rounds of timing
 
 std::vector<const Descriptor*> schemes_of(const Request& r, const Scene& scene,
                                           const compare::Catalogue& catalogue) {
@@ -61,7 +61,7 @@ std::vector<std::string> not_tried(const Judge& judge, const Request& r, const P
     return left;
 }
 
-// Nothing where two runs do not tell, or no rung is within.
+// Nothing if two runs give no estimate, or no rung is within.
 std::optional<compare::Advice> advice_on(const Judge& judge, const Request& r,
                                          const compare::Catalogue& catalogue,
                                          const store::Listener& listener) {
@@ -89,7 +89,7 @@ Verified verified(Judge& judge, const Model& m, int start, bool judged_by) {
             judge.certain(start)};
 }
 
-// where the reference is no better than the tolerance nothing is told
+// False if the reference is no better than the tolerance: then there is no verdict.
 bool fails(const Verified& v, const Target& target) {
     return !v.within && v.certificate < target.most;
 }
@@ -99,7 +99,7 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
     std::vector<Need> needs;
     std::vector<Model> timed{whole};
     std::vector<std::size_t> timed_needs;
-    std::vector<bool> gone;  // from the whole model already: a tap that is not judged
+    std::vector<bool> gone;  // missing from the whole model already: an unjudged tap
     for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k) {
         if (!judge.may_go(k)) continue;
         const Reduction& r = judge.reductions()[k];
@@ -184,11 +184,11 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
 namespace {
 using Json = nlohmann::ordered_json;
 
-std::string rounded(double x) {  // three digits: no more is known of an error or a clock
+std::string rounded(double x) {  // three digits, the precision of errors and times
     return std::isfinite(x) ? fmt::format("{:.3g}", x) : "";
 }
 
-// a line of TOML, whatever stands in the names that it holds
+// Line of TOML, safe for any name in the text.
 std::string comment(std::string text) {
     std::ranges::replace_if(
         text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
