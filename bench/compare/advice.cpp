@@ -31,9 +31,9 @@ namespace {
 constexpr double periods = 8;  // A period has about one contact, so problems are equally hard.
 constexpr std::array rungs{1, 2, 4, 8, 16, 32};  // multiples of the tap rate
 constexpr double of_rate = 0.49;                 // highest mode over the rate
-constexpr double rise = 1.5;                     // ratio of modes, finer run over first
+constexpr double rise = 1.5;                     // ratio of modes, finer run over the first
 constexpr double enough = 0.4;                   // share of own's modes that must allow matching
-constexpr double fall = 3;                       // ratio of differences from one rung to the next
+constexpr double fall = 3;      // smallest ratio between differences on consecutive rungs
 constexpr double margin = 2.5;  // an estimate within a tolerance includes this factor
 // numbers of modes; at least twice those below 20 kHz
 constexpr int fewest = 5, most_needed = 1400;
@@ -85,7 +85,7 @@ private:
         Settings coarse, fine;
     };
 
-    // ---- Modes and compliance of a rung
+    // ---- Modes and compliance on a rung
 
     int most_modes(double rate) const {
         int most = jvari::most_modes;

@@ -11,9 +11,9 @@
 namespace jvari::bench::compare {
 
 namespace {
-// A certificate of a tenth leaves the first digit of an error certain.
+// A tenth leaves the first digit of an error certain.
 constexpr double small_share = 0.1;
-constexpr double nothing_is_right = 1;  // relative L2 error of silence
+constexpr double nothing_is_right = 1;  // relative L2 error for silence
 }  // namespace
 
 double Bound::most() const { return at_most(error, certificate); }

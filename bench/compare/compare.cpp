@@ -58,7 +58,7 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
 }
 
 // Runs all cells over the headline's window and marks the needed ones. The jobs use the scene cut
-// short there, compared with the motion of the whole scene.
+// short there, compared with the motion in the whole scene.
 std::vector<study::Record> search(const Comparison& c, study::References& references, int threads,
                                   const store::Listener& listener) {
     const double from = free_from(c.scene()), length = study::headline_window(c.scene()),
@@ -197,7 +197,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
 // ---- Cells that are needed
 
 namespace {
-constexpr double as_good = 0.9;  // factor on the larger of two errors
+constexpr double as_good = 0.9;  // factor on the cheaper cell's error
 constexpr double less_work =
     // More than the difference between schemes in time per step and number of state: four over a
     // lumped contact.

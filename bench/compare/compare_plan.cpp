@@ -1,10 +1,10 @@
 // Numbers of modes. By default every cell has the modes below 20 kHz and below half the lowest
-// rate, and the reference starts from the same number. If no mode lies below 20 kHz, the number is
-// limited by the lowest rate. variants.cpp adds further numbers. Each of several strings has the
-// modes below 20 kHz.
+// rate, and the reference starts from the same number. If no mode lies below 20 kHz, the lowest
+// rate limits the number. variants.cpp adds further numbers. Several strings each have their modes
+// below 20 kHz.
 //
-// Two kinds of schemes take other numbers. A grid takes its nodes from the rate. A scheme with
-// points of contact at the nodes of its modes may need more modes; a note says so.
+// Two kinds of schemes take other numbers. A grid takes its nodes from the rate. A scheme whose
+// contact points are nodes of its modes may need more modes; a note says so.
 #include "bench/compare/compare_plan.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +63,7 @@ int modes_for(const CompareRequest& r, const Scene& scene, double lowest_rate) {
 struct SchemeSize {
     bool refused = false;
     int modes = 0;     // 0: a grid, or unknown
-    int contacts = 0;  // points of contact
+    int contacts = 0;  // number of contact points
 };
 SchemeSize size_of(const Descriptor& d, const Scene& scene, const Settings& settings) {
     try {
@@ -84,7 +84,7 @@ void note(study::Plan& plan, const std::string& text) {
 }
 
 // Number of modes for a scheme: the common number, or 0 (the scheme's default) if the scheme has to
-// differ. It has to if its points of contact are nodes of its modes, and the common number gives
+// differ. A scheme has to if its contact points are nodes of its modes, and the common number gives
 // fewer such points or none.
 int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, Settings settings,
              study::Plan& plan) {
@@ -123,7 +123,7 @@ std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalo
     return chosen;
 }
 
-// Choices of the reference, with the options requested for the reference's scheme.
+// References with the options requested for them.
 std::vector<study::ReferenceChoice> references_for(const CompareRequest& r,
                                                    const Catalogue& catalogue, const Scene& scene,
                                                    const Settings& at_highest,
@@ -168,7 +168,7 @@ Settings settings_of(const CompareRequest& r, const Scene& scene,
     return settings;
 }
 
-// Adds the cells for one form of a scheme: its numbers of modes, each at the possible rates.
+// Adds the cells for one form of a scheme: all numbers of modes, each at the possible rates.
 void add_cells(study::Plan& into, study::Job job, const CompareRequest& r, const Descriptor& d,
                Settings settings, const Form& form) {
     const Scene& scene = job.point->scene;
@@ -234,7 +234,7 @@ double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
 
 void add_jobs(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue,
               const study::Point& common, const study::Job& like) {
-    std::string kinds;  // kinds of rows
+    std::string kinds;  // row rates
     for (const CompareRequest& part : with_common_rows(r))
         if (add_point(into, part, catalogue, common, like, kinds.empty()))
             kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ",

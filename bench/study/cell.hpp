@@ -28,7 +28,7 @@ struct Summary : Figures {
 
 Summary summary_of(const Descriptor&, const Scene&, const Settings&, const Run&);
 
-// Calls act(name, figure) for each number in a summary, except its status and its facts.
+// Calls act(name, figure) for each number in a summary, except status and facts.
 template <class Summary_, class Act>
 void each_figure(Summary_& s, Act act) {
     act("rate", s.rate);
@@ -52,9 +52,9 @@ void each_figure(Summary_& s, Act act) {
 
 // measured times of a cell (cost.hpp)
 struct Timing {
-    // wall time of the timed runs [s], for the whole scene or up to the failure
+    // wall time for the timed runs [s], over the whole scene or up to the failure
     Spread wall{};
-    // processor time of the same runs [s], after subtracting the drift of the machine
+    // processor time for the same runs [s], corrected for the drift of the machine
     Spread processor{};
     double worst_block = std::numeric_limits<double>::quiet_NaN();  // fraction of its deadline
     store::Stamp stamp{};                                           // machine and date
@@ -66,10 +66,10 @@ struct Cell {
     // "" if the cell ran; else its status: "refused", "past_time_limit", "error"
     std::string failure{};
     std::string reason{};  // reason for the failure, or for leaving the cell out
-    std::string cause{};   // explanation for most of its headline error (cause.hpp); "": unknown
+    std::string cause{};   // explanation for most of the headline error (cause.hpp); "": unknown
     Summary summary{};     // from the accuracy run; empty without a run
     Errors errors{};       // relative to the scene's own motion (truth.hpp)
-    // errors relative to a string with the same number of modes, so errors of the scheme alone;
+    // errors relative to a string with the same number of modes, so errors due to the scheme alone;
     // empty if no such string ran
     Errors in_model{};
     // sound of the headline's nut tap, if the run reached its end and the study stores sounds

@@ -1,4 +1,4 @@
-// Certificate of the references: which of them agree on a scene, until when, how closely, and at
+// Certificate of the references: which references agree on a scene, until when, how closely, and at
 // what cost. The certificate tells how far a reference may be trusted.
 //
 // Every reference that represents the scene runs at its default accuracy and at the other
@@ -7,7 +7,7 @@
 // reference with itself, started a relative 1e-12 apart: no two programs can agree more closely for
 // long.
 //
-// All these runs share one cut of the modes and one set of points for each profile. They agree
+// All these runs share the same cut of the modes and the same points for each profile. They agree
 // about both, but the scene has neither. So the first reference also runs with twice the modes, and
 // with twice the points. The change shows the effect of the modes and points left out.
 //
@@ -55,7 +55,7 @@ struct Certificate {
     std::string scene;
     int modes = 0;
     double tap_rate = 0, duration = 0;  // [Hz], [s]
-    // start of the windows and zero of the instants of agreement [s]: free_from(scene)
+    // start of the windows and zero for instants of agreement [s]: free_from(scene)
     double from = 0;
     std::vector<std::string> taps;
     std::vector<Entry> entries;  // in order of authority
@@ -67,7 +67,7 @@ struct Certificate {
     std::string program = store::run_identity();
 
     std::string identity() const;  // JSON of all fields above that are known before the runs
-    std::string key() const;       // hash_of the identity
+    std::string key() const;       // hash_of(identity)
     // true for the same sources, compiler, flags and vector instructions
     bool of_this_program() const { return program == store::run_identity(); }
 };
@@ -98,8 +98,8 @@ std::string json_of(const Certificate&);
 std::string cost_json_of(const Certificate&);  // wall seconds of each entry
 
 // Reads a certificate. Returns nothing if the file is absent, incomplete or in another format. A
-// certificate from another program is accepted: its figures describe the references of that
-// program. The wall seconds are NaN.
+// certificate from another program is accepted: its figures describe that program's references. The
+// wall seconds are NaN.
 std::optional<Certificate> read_certificate(const std::filesystem::path&);
 
 // path of the cost file: a.cost.json for a.json

@@ -12,7 +12,7 @@ namespace jvari::bench::study {
 
 namespace {
 using Json = nlohmann::ordered_json;
-constexpr int format = 4;  // version of the file format
+constexpr int format = 4;  // version number
 
 std::string window_name(std::size_t w) {
     return w + 1 < agreement_windows.size() ? fmt::format("{:.0f}ms", 1e3 * agreement_windows[w])

@@ -23,7 +23,7 @@ struct Timed : Contender {
     int repeats;                              // samples
     std::vector<double> wall{}, processor{};  // [s] for one run
 };
-// Subtracts the drift of the machine. A disturbance during a round (another clock frequency, a busy
+// Removes the drift of the machine. A disturbance during a round (another clock frequency, a busy
 // neighbour) affects all cells at one rate alike, because they are timed next to each other. So
 // each sample is divided by the median, over these cells, of their relative times: sample over the
 // cell's own median.

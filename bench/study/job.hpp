@@ -27,22 +27,22 @@ struct Point {
     std::vector<ReferenceChoice> references;
     // 0: found by doubling; none: the only reference has the cells' modes
     std::optional<int> truth_modes = 0;
-    int begin = 0;               // modes at the start of the doubling; 0: modes_to_begin_with
-    double effort = 1;           // factor on the limits of the doubling (run_truth)
+    int begin = 0;               // first number of modes in the doubling; 0: modes_to_begin_with
+    double effort = 1;           // factor on the limits in run_truth
     bool settles_whole = false;  // argument of run_truth
-    bool alone = false;          // true: the uncertainty of the reference is not needed
+    bool alone = false;          // true: nobody needs the reference's uncertainty
     // true: if the truth has another number of modes, errors from a string with the cell's modes
     // are computed too
     bool in_model = true;
     // full scene, whose motion is the truth, if `scene` is a part of the full scene
     std::optional<Scene> whole{};
     const Scene& true_scene() const { return whole ? *whole : scene; }
-    double time_limit = HUGE_VAL;  // limit of each run, including references [s]
-    // hashes of the scene, and of the scene whose motion is the truth
+    double time_limit = HUGE_VAL;  // limit for each run, including references [s]
+    // hashes: the scene's, and the hash for the scene whose motion is the truth
     std::string hash{}, true_hash{};
-    // key of the reference's run: points with the same key share the run
+    // key for the reference's run: points with the same key share the run
     std::string reference_key{};
-    // key of the truth's run, with other modes than the cells; "": the point has none
+    // key for the truth's run, with other modes than the cells; "": the point has no such run
     std::string truth_key{};
 };
 
@@ -58,22 +58,22 @@ struct Job {
     Cell cell;
     bool judged = true;  // true: compared with the point's reference
     Measures errors{};   // measures to compute
-    // limit of processor time [s]; a run that takes longer is ended and not kept
+    // limit for processor time [s]; a longer run is ended and not kept
     double patience = HUGE_VAL;
-    bool sounds = false;  // true: the sound of the headline's nut tap is stored
+    bool sounds = false;  // true: stores the sound at the headline's nut tap
     int repeats = 0;      // number of timings; 0: not timed
-    // Jobs of one set are timed in one interleaved run.
+    // Jobs in the same set are timed in one interleaved run.
     int set = 0;
     std::function<void(const Ran&, Record&)> measure{};  // takes further measurements on the run
     // examines the point, even if the cell fails
     std::function<std::string(const Point&, const Truth*)> beside{};
-    std::string measured{};  // JSON of `measure` and `beside`, a part of the identity
+    std::string measured{};  // JSON for `measure` and `beside`, a part of the identity
     std::string identity{};  // JSON: everything that the result depends on
     std::string id{};        // hash_of the identity
 };
 
 struct Plan {
-    std::deque<Point> points;  // deque: addresses of points must not change
+    std::deque<Point> points;  // deque: addresses must not change
     std::vector<Job> jobs;     // each identity once
     std::vector<std::string> notes;
 };
@@ -81,28 +81,26 @@ struct Plan {
 // Fills in keys and identities, and keeps each job once. `program`: store::program_identity.
 void address(Plan&, const std::string& program);
 
-std::string identity_of(const Plan&);  // identity of all jobs, independent of the program
+std::string identity_of(const Plan&);  // covers all jobs, independent of the program
 
 // Text for people: "tanpura_c3_release: modal_two_point at 44100 Hz".
 std::string what_of(const Job&);
 
-// References of a study. The first job that needs a reference runs it; the last job to finish
-// deletes it.
+// References of a study. The first job that needs a reference runs it; the last user deletes it.
 class References {
 public:
     explicit References(std::span<const Job> = {});  // counts the needs of these jobs
     ~References();
 
-    struct Of {                        // references of one point
+    struct Of {                        // references for one point
         const Truth* truth = nullptr;  // nullptr: no reference could be run
         // reference with the cells' modes; nullptr: could not be run
         const Reference* model = nullptr;
-        const Errors* floor = nullptr;  // difference of the truth from itself, started 1e-12 apart
+        const Errors* floor = nullptr;  // error of the truth started 1e-12 apart
         std::string refused{};          // reason if there is no truth
         Against against() const;        // empty if there is no truth
     };
-    // Runs the missing references, with `jobs` threads; waits for those that another thread or
-    // process is running.
+    // Runs the missing references with `jobs` threads; waits for runs in another thread or process.
     Of make(const Point&, int jobs, const store::Listener&);
     void hold(const Point&);     // counts one more user
     void release(const Point&);  // counts a user less

@@ -15,10 +15,10 @@ struct Size {
     std::string text() const;  // "266 modes and 64 points"
 };
 
-// Sizes for a reference. By default there is one size, from which modes and points are doubled. If
-// the user asks for a number of modes or points, a quarter and a half of both run first. The
-// differences show the effect of the modes and points left out, because any finite number leaves
-// something out.
+// Sizes for a reference. By default there is a single size, from which modes and points are
+// doubled. If the user asks for a number of modes or points, a quarter and a half of both run
+// first. The differences show the effect of the modes and points left out, because any finite
+// number leaves something out.
 struct Sizes {
     std::vector<Size> each;  // the coarsest first
     bool doubled = false;    // true: doubling continues beyond the last entry of `each`
@@ -28,8 +28,8 @@ struct Sizes {
 // `modes`: number asked for, 0 if none. `begin`: number in the cells, 0 for their default.
 Sizes sizes_of(const ReferenceChoice&, const Scene&, int modes, int begin);
 
-// True if a run of this size takes at most about ten to twenty seconds, times `effort`. The
-// duration of the scene is counted in rows, so that its unit does not matter.
+// True if a run with this size takes at most about ten to twenty seconds, times `effort`. The
+// scene's duration is counted in rows, so that its unit does not matter.
 bool within_budget(const Descriptor& reference, const Scene&, double tap_rate, const Size&,
                    double effort = 1);
 

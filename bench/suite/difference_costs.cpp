@@ -53,8 +53,8 @@ double median_of(const std::vector<Ratio>& ratios, Of of) {
     return spread_of(values).median;
 }
 
-// Divides by the drift. Cells at one rate are timed in turn, so they drift together; if too few,
-// the drift of all cells counts.
+// Sets the drift. Cells at one rate are timed in turn, so they drift together; if too few, the
+// drift over all cells counts.
 void take_off_drift(std::vector<Ratio>& ratios) {
     const auto middle = [](const std::vector<Ratio>& of) {
         return median_of(of, [](const Ratio& r) { return r.value; });

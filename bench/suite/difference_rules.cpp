@@ -7,22 +7,23 @@
 // depend on the scale of the start, so 1e-9 of a kilohertz is added. The tolerance thus covers
 // relative changes of 1e-9. Another vector width changes the order of sums. With SSE2 in place of
 // AVX-512, 5 of 6632 figures in the smoke suite moved by more than 100 floors, and only centroids
-// by more than 350. A changed equation moves figures by far more. Facts and the modes' own
-// frequencies follow from closed forms: 1e-9. Results of the matrix pencil on a trace: 1e-4 cents.
+// by more than 350. A changed equation moves figures by far more.
 //
-// An error against a reference with the cell's modes has the floor of the error against the scene,
-// but at least the following tolerances:
-//   numbers from the motion without a noise floor (contact force, penetration, certificates of
-//   stand-ins): 1000 times the row's largest floor and 1e-6 of the number
-//   residuals of the ledger: 1e-9 in addition
-//   an instant: two rows
-//   a noise floor, which is rounding itself: a factor of ten
-//   counts and residuals of iterations: a hundredth
+// Numbers that follow the motion and have no noise floor (contact force, penetration, certificates
+// for stand-ins) may move by 1000 times the cell's largest floor plus 1e-6 of themselves. An error
+// against a reference with the cell's modes has the larger of both tolerances. The other
+// tolerances:
+//   closed forms   facts and the modes' own frequencies: 1e-9
+//   pencil         results from a trace by the matrix pencil: 1e-4 cents
+//   ledger         residuals: the tolerance for the motion, plus 1e-9
+//   instant        two rows
+//   noise floor    a factor of ten, because a floor is rounding itself
+//   iterations     counts and residuals: a hundredth
 //
 // A larger move is better or worse if it exceeds both certificates together. Otherwise neither side
 // knows the true error so well, and the error only moved. The later certificate counts no more than
-// the earlier one, and a larger certificate is itself worse: less knowledge excuses no result. A
-// known number that becomes unknown is worse.
+// the earlier, and a larger certificate is itself worse: less knowledge excuses no result. A known
+// number that becomes unknown is worse.
 #include "bench/suite/difference.hpp"
 
 #include <algorithm>

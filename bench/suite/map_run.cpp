@@ -140,7 +140,7 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
             const study::Verdict at_low = tried[changes[i]].judgement.verdict,
                                  at_high = tried[changes[i] + 1].judgement.verdict;
             const MapAxis& axis = low.map->x;
-            std::filesystem::path file;  // empty path: the lock takes the name of the file
+            std::filesystem::path file;  // names the lock; empty: no lock
             if (!request.folder.empty())
                 file = request.folder / "points" /
                        store::hash_of(trials.plan_of(trial_at(low)).jobs.front().id +

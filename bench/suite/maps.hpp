@@ -165,9 +165,10 @@ struct Reproducer {
     study::Judgement expected;
 };
 
-// Reproducers for each scheme and outcome, except sound, refused and error. Starts from the failure
-// with the fewest steps, in maps with `reproduce`. The minimised files are kept beside the points,
-// so that processes with a shared folder minimise each failure once.
+// Reproducers for each scheme and each kind of failure. Cells without a run (refused, error) and
+// outcomes sound, flagged and unjudged are no failures. Starts from the failure with the fewest
+// steps, in maps with `reproduce`. The minimised files are kept beside the points, so that
+// processes with a shared folder minimise each failure once.
 std::vector<Reproducer> reproducers_of(const MapRun&, const compare::Catalogue&, const MapRequest&,
                                        const store::Listener&);
 

@@ -1,9 +1,9 @@
-// Population: strings drawn from ranges of a scene's keys, expanded into sets of cells, and frozen
+// Population: strings drawn from ranges for a scene's keys, expanded into sets of cells, and frozen
 // in files before anything runs.
 //
 // Windows are counted in periods of the first mode, for two reasons. A string scaled in time is the
 // same problem at a scaled rate. And errors accumulate from contact to contact, with about one
-// contact in a period. So strings of all pitches are equally hard. Drawn numbers are rounded to
+// contact in a period. So strings with any pitch are equally hard. Drawn numbers are rounded to
 // four digits, so that the machine's logarithm has no effect.
 #include <fmt/core.h>
 

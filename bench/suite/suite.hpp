@@ -35,7 +35,7 @@ struct VariedOption {
 
 struct CellSet
     // Request for each scene in the set, with each number of modes, option and swept value.
-    // `search` applies to errors only.
+    // `search` applies only to a set that measures errors.
     : compare::CompareRequest {
     std::vector<std::string> scenes;
     // tap for the errors; the request's tap would leave the other taps out of the run
@@ -80,7 +80,7 @@ struct Map {
 // [[map]] tables of a suite (map_file.cpp).
 store::Kind<std::vector<Map>> maps();
 
-// ---- Population: strings drawn from ranges of a scene's keys, and fixed strings. Each string
+// ---- Population: strings drawn from ranges for a scene's keys, and fixed strings. Each string
 // becomes its own set of cells (population.cpp).
 
 struct DrawnKey {
@@ -105,7 +105,7 @@ struct Population : CellSet {  // `scenes`: the fixed strings
 
 struct Suite {
     std::string name, question, source;
-    std::vector<CellSet> sets;  // in a population, one for each string
+    std::vector<CellSet> sets;  // a population has one for each string
     std::vector<Map> maps;
     std::optional<Population> population;
     std::vector<Ground> grounds;
@@ -136,8 +136,8 @@ void freeze(const Suite&, const std::filesystem::path& folder, bool resume);
 // sources, else the installed one.
 std::vector<std::string> library_suites();
 
-// Point of a suite: the request to compare for one scene in the set, with one choice of modes,
-// options and swept values. points_of returns the points in the order of the file.
+// Point of a suite: the request to compare for one scene in the set, with one choice among modes,
+// options and swept values. points_of returns them in the order of the file.
 struct SuitePoint {
     const CellSet* set;
     compare::CompareRequest request;

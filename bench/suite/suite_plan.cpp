@@ -34,9 +34,9 @@ void add_facets(study::Job& job, const CellSet& set, int tap) {
     };
 }
 
-// Adds a string of a population: one point with all modes and options. Leaves out modes that a rate
-// cannot hold, but keeps the smallest number. The first job examines the string if the set measures
-// advice or share.
+// Adds a string from a population: one point with all modes and options. Leaves out modes that a
+// rate cannot hold, but keeps the smallest number. The first job examines the string if the set
+// measures `share`.
 void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellSet& set,
                 const compare::Catalogue& catalogue, study::Point& common, study::Job& like) {
     common.begin = 0;

@@ -135,8 +135,8 @@ private:
     Scene scene_;
     double own_duration_;
     std::size_t tap_ = 0;
-    // Measure for the uncertainty: the whole run's error if the run is shorter than the measure's
-    // window.
+    // the target's measure, or the whole run's error if the run is shorter than the measure's
+    // window
     std::size_t measure_;
     std::string program_;
     std::vector<Reduction> reductions_;

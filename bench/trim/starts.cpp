@@ -19,7 +19,7 @@ constexpr double shortest[starts] = {1, 0.5, 0.7, 0.9, 0.6};
 constexpr int sharp = 1;        // start with an unrounded corner
 constexpr double narrow = 0.2;  // width over length: narrower footprints have room elsewhere
 
-// Position of the start, or its mirror image if the original position is too near.
+// Position at the start's place, or at the mirror image if the original position is too near.
 double elsewhere(double position, double length, int start) {
     const double there = places[start] * length;
     return std::abs(there - position) < 0.05 * length ? length - there : there;

@@ -28,7 +28,7 @@
 namespace jvari::bench::trim {
 
 inline constexpr double longest = 10;  // longest judged run [s]
-// a judged run has its energy probed: at most this much longer than a timed run
+// factor on the time limit, because a judged run has its energy probed
 inline constexpr double judged_over_timed = 4;
 
 struct Variant {
