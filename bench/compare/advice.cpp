@@ -33,7 +33,7 @@ constexpr std::array rungs{1, 2, 4, 8, 16, 32};  // multiples of the tap rate
 constexpr double of_rate = 0.49;                 // highest mode over the rate
 constexpr double rise = 1.5;                     // ratio of modes, finer run over the first
 constexpr double enough = 0.4;                   // share of own's modes that must allow matching
-constexpr double fall = 3;      // smallest ratio between differences on consecutive rungs
+constexpr double fall = 3;      // largest fall of the estimate from one rung to the next
 constexpr double margin = 2.5;  // an estimate within a tolerance includes this factor
 // numbers of modes; at least twice those below 20 kHz
 constexpr int fewest = 5, most_needed = 1400;

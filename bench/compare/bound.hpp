@@ -37,8 +37,8 @@ struct Bound {
     };
     Says says() const;
     double shown() const;  // value for pictures: e if measured or unsure, else e + c
-    // True if the error is larger than noise floor and certificate: then the scheme decides how it
-    // falls with the rate.
+    // True if the error is larger than noise floor and certificate: then the scheme decides how the
+    // error falls with the rate.
     bool decides() const;
 };
 
@@ -70,9 +70,9 @@ struct Fall {
 Fall fall_over_rates(const study::Cells&, const study::Rows&, std::size_t measure,
                      const std::string& tap = "");
 
-// Object per cell, with the columns of cells.csv, facts.csv and cost.csv, and two additions.
-// bound_l2_10ms and similar keys have e + c for a headline error, or null if c is too large or the
-// error is missing. errors has the contents of errors.csv, by tap and measure.
+// Object per cell, with the columns of cells.csv, facts.csv and cost.csv, and two additions. Keys
+// such as bound_l2_10ms have e + c for a headline error, or null if c is too large or the error is
+// missing. Key `errors` has the contents of errors.csv, by tap and measure.
 nlohmann::ordered_json json_of(const study::Cells&);
 
 }  // namespace jvari::bench::compare

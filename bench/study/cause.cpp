@@ -23,7 +23,8 @@ namespace {
 using Signal = std::span<const double>;
 constexpr double pi = std::numbers::pi;
 constexpr double negligible = 1e-2, most_of_it = 0.5, nearly_all = 0.1;
-constexpr double of_a_delay = 0.2;  // Aliasing of modes above half the rate adds to a delay.
+// share of the error left by a delay, because modes above half the rate alias
+constexpr double of_a_delay = 0.2;
 constexpr int most_partials = 12;
 // length of signal for the search for partials, in periods of the first mode
 constexpr double periods = 60;
@@ -32,7 +33,7 @@ constexpr double inaudible =
     1e-3;
 constexpr double half_a_semitone = 50;  // [cents]
 constexpr long furthest = 1024;         // rows early or late
-constexpr double first_part = 50e-3;    // [s] over which a string in contact is followed
+constexpr double first_part = 50e-3;    // duration over which a string in contact is followed [s]
 
 struct Compared {  // tap in the run and in the reference, from row `first` on
     const Scene& scene;
@@ -133,8 +134,9 @@ double first_frequency(const String& s) {  // [Hz]
     return modes_of(s, 1).omega0[0] / (2 * pi);
 }
 
-// Partials that sound at the tap in both traces. The search in the run starts from the ratio of the
-// preceding partial: at another rate, a partial may lie beyond its neighbours.
+// Partials that sound at the tap in both traces. The search in the run starts from the frequency
+// ratio found for the preceding partial, because at another rate a partial may lie beyond its
+// neighbours.
 std::vector<MatchedPartial> partials(const Compared& c) {
     const String& s = c.scene.strings.front();
     std::vector<MatchedPartial> all;
@@ -251,7 +253,7 @@ std::string octave(const Compared& c) {
                : "";
 }
 
-// True if the run's first partials match the reference and the partials above are missing.
+// Text if the run's first partials match the reference and the partials above are missing.
 std::string few_partials(const Compared& c) {
     const String& s = c.scene.strings.front();
     std::vector<double> apart;

@@ -13,9 +13,9 @@ namespace jvari::bench::study {
 //   "is 1.1 times too large"
 //   "is off by +0.012 N throughout, an offset"
 //   "comes 3.00 rows late, 68 us"
-//   for a free string: "sounds an octave low", "is out of tune, 3.0 cents flat: ...", "decays too
-//   slowly by 2 1/s: ..." and "has 20 partials"
-//   for any other string: its tuning and decay over the first 50 ms
+//   free string     "sounds an octave low", "is out of tune, 3.0 cents flat: ...", "decays too
+//                   slowly by 2 1/s: ..." and "has 20 partials"
+//   other strings   tuning and decay over the first 50 ms
 // Returns "" if no cause explains half the error (a factor or an offset nine tenths, a delay four
 // fifths), or if the error is below 1 %.
 std::string cause_of(const Scene&, const Trace& run, const Trace& reference, int tap, double from);

@@ -182,7 +182,7 @@ void fill(TabledCell& c, const store::Table& t, std::size_t row) {
     }
 }
 
-bool is_swept(const std::string& column) {  // of those between scene and scheme
+bool is_swept(const std::string& column) {  // column between scene and scheme
     return column != "cell" && !column.starts_with("fact_") &&
            std::ranges::find(columns(), column, &Column::name) == columns().end();
 }

@@ -42,7 +42,7 @@ struct Certificate {
         double wall_seconds = 0;  // duration of the stepping
         // own error estimate by tap and window; empty if the reference makes none
         std::vector<ByWindow> estimate;
-        std::string reason;  // reason of a refusal; if set, the other fields are empty
+        std::string reason;  // reason of a refusal; if set, the entry has no results
         // "modes" or "points": the size that is doubled; "": the size of the certificate's model
         std::string doubled;
         const Descriptor* scheme = nullptr;  // set in a plan only, not stored

@@ -46,8 +46,9 @@ Record run_job(const Job& job, const References::Of& known, const ProgressOf& pr
             cell.sound =
                 store::sound_of(trace.column(headline_of(point.scene).nut), trace.tap_rate);
         if (job.measure) job.measure({point, cell, trace, truth}, r);
-        // Any exception from a scheme affects only the row of this scheme.
-    } catch (const std::exception& e) { fail(cell, e); }
+    } catch (const std::exception& e) {  // an exception from a scheme affects only its own row
+        fail(cell, e);
+    }
     if (job.beside) r.beside = job.beside(point, known.truth);
     if (!known.refused.empty()) cell.reason += (cell.reason.empty() ? "" : "; ") + known.refused;
     r.against = known.against();

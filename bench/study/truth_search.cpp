@@ -19,7 +19,7 @@
 namespace jvari::bench::study {
 
 namespace {
-// [s] for all doublings together, and at most the same again for own modes beside them
+// limit for all doublings together, and the same limit again for own modes beside them [s]
 constexpr double patience = 60;
 
 // Confirms a table of modes by another solver with the same modes, over 50 ms if the whole run
@@ -175,7 +175,8 @@ void Search::judge() {
     t_.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
 }
 
-// Runs half the size if even one doubling takes too long, for some information about the error.
+// Runs half the size if even one doubling takes too long, because half the size also tells
+// something about the error.
 void Search::half() {
     const Size half{sizes_.measured > 0 ? size_.modes : size_.modes / 2, size_.points / 2};
     if (!find_ || !unknown() || half.modes == 0 || half == size_) return;
@@ -190,8 +191,7 @@ void Search::own() {
     try {
         t_.own = own_motion(choice_, scene_, size_, jobs_, listener_,
                             find_ ? std::min(time_limit_, patience * effort_) : time_limit_);
-        // Without own modes, the doublings alone give the estimate.
-    } catch (const store::PastItsLimit&) {
+    } catch (const store::PastItsLimit&) {  // the doublings alone then give the estimate
     } catch (const Refusal&) {}
     if (!t_.own.empty()) t_.reference.trust = trust_of(solved_, t_, size_, from_);
     unsettled_ = t_.reference.trust.left_out[tap()][window_];

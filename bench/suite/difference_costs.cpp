@@ -13,11 +13,11 @@
 // distribution).
 //
 // A series is a scheme with its options on a problem, over its rates. A series got slower under two
-// conditions. The median of its ratios exceeds the drift by 15 % and by five standard errors of a
-// median, sqrt(pi/2n) disturbances for n cells. And in most of its cells the quartiles stay apart
-// after the drift is taken off. With fewer than three series, drift and change cannot be told
-// apart: a cell with separate quartiles counts only as moved. Costs on two machines are not
-// compared.
+// conditions. The median of its ratios exceeds the drift by 15 % and by five standard errors. A
+// standard error of the median over n cells is sqrt(pi/2n) disturbances. And in most cells the
+// quartiles stay apart after the drift is taken off. With fewer than three series, drift and change
+// cannot be told apart: a cell with separate quartiles counts only as moved. Costs on two machines
+// are not compared.
 #include "bench/suite/difference.hpp"
 
 #include <fmt/core.h>

@@ -20,10 +20,10 @@
 //   noise floor    a factor of ten, because a floor is rounding itself
 //   iterations     counts and residuals: a hundredth
 //
-// A larger move is better or worse if it exceeds both certificates together. Otherwise neither side
-// knows the true error so well, and the error only moved. The later certificate counts no more than
-// the earlier, and a larger certificate is itself worse: less knowledge excuses no result. A known
-// number that becomes unknown is worse.
+// An error with a larger move is better or worse if the move exceeds both certificates together.
+// Otherwise neither side knows the true error so well, and the error only moved. The later
+// certificate counts no more than the earlier, and a larger certificate is itself worse: less
+// knowledge excuses no result. A known number that becomes unknown is worse.
 #include "bench/suite/difference.hpp"
 
 #include <algorithm>

@@ -49,8 +49,8 @@ std::string axis_text(const MapAxis& axis, double x) {
     return axis.whole ? std::to_string(std::lround(x)) : store::text_of(x);
 }
 
-// Boundary from theory: the change of sign in the margin along the axis. The search starts at the
-// first point that the theory covers.
+// Boundary from theory: the change of sign in the margin along the axis, found by bisection. The
+// search starts at the first point that the theory covers.
 double theory_along(const PointPlace& row) {
     const MapAxis& axis = row.map->x;
     if (row.map->theory.empty() || axis.at.empty()) return std::numeric_limits<double>::quiet_NaN();

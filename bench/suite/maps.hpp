@@ -179,11 +179,11 @@ std::vector<Reproducer> read_failures(const std::filesystem::path& folder,
 // ---- Minimising a failing trial: delta debugging over the parts of a scene and its settings. The
 // smaller trial still fails in the same way.
 //
-// Parts are removed one by one, in turn, until no more can go (scenes/reduction.hpp): strings,
-// barriers, polarisation, pluck or initial shape (one of the two stays), thread, losses, bending
-// stiffness, contact losses, an exponent other than 1. Then duration, modes or the grid's intervals
-// are reduced by halves, quarters ... down to single rows and modes. The result is minimal step by
-// step, not the smallest possible.
+// Parts are removed one by one, in turn, until no more can go (scenes/reduction.hpp). The order is
+// strings, barriers, polarisation, pluck or initial shape (one of the two stays), thread, losses,
+// bending stiffness, contact losses, an exponent other than 1. Then duration, modes or the grid's
+// intervals are reduced by halves, quarters ... down to single rows and modes. The result is
+// minimal step by step, not the smallest possible.
 
 // True if the trial fails in the required way; an exception counts as false.
 using Fails = std::function<bool(const Trial&)>;

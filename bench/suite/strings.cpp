@@ -82,10 +82,10 @@ Contact contact_of(const String& s) {
 
 using Ratios = std::vector<std::pair<const char*, std::string>>;
 
-// Numbers of a string: f_0 and modes below 20 kHz, then ratios. These are B; Q of the first mode;
-// place and width of the first contact over the length; the contact's secant stiffness under the
-// string's own force, times the string's compliance there; the exponent; the contact's distance
-// over the string's swing past the contact; and flags for further parts.
+// Numbers of a string: f_0 and modes below 20 kHz, then ratios. First come B, Q of the first mode,
+// and place and width of the first contact over the length. Next is the contact's secant stiffness
+// under the string's own force, times the string's compliance there. The exponent follows, then the
+// contact's distance over the string's swing past the contact, then flags for further parts.
 Ratios numbers_of(const Scene& scene) {
     const String& s = scene.strings.front();
     const Modes first = modes_of(s, 1);

@@ -179,11 +179,11 @@ void write_sounds(const std::filesystem::path& folder, const study::Plan&,
 std::string examined(const study::Point&, const study::Truth*, const compare::Catalogue&);
 
 // Tables of a population:
-// strings.csv:  a row per string: its dimensionless numbers, reference, uncertainty, outcome
-// outcomes.csv: a row per string and variant: the outcome within 10, 1 and 0.1 %
-// advice.csv:   a row per string and tolerance: the settings from `run --within`, and their true
-// error
-// fronts.csv:   measured times: the cheapest cells in each variant, with error and cost
+//   strings.csv   a row per string: its dimensionless numbers, reference, uncertainty, outcome
+//   outcomes.csv  a row per string and variant: the outcome within 10, 1 and 0.1 %
+//   advice.csv    a row per string and tolerance: the settings from `run --within`, and their true
+//                 error
+//   fronts.csv    measured times: the cheapest cells in each variant, with error and cost
 struct StringTables {
     store::Table strings, outcomes, advice, fronts;
     std::string text;  // for the terminal

@@ -4,10 +4,10 @@
 // The search covers up to four times the modes below 20 kHz, limited by half the rate.
 //
 // First, every variant (a scheme with own or matched compliance) gets a look at two rates, with the
-// largest number of modes and fewer, down to a quarter. A variant is passed over if its error is
-// beyond the tolerance at both rates, and would be at the highest rate even with twice the order
-// seen between the two. The search then tries the others in the order of their costs in the first
-// look, so that the cost limit ends expensive variants early.
+// largest number of modes and fewer, down to a quarter. A variant is passed over under two
+// conditions. Its error is beyond the tolerance at both rates. And its error would be beyond at the
+// highest rate, even with twice the order seen between the two. The search then tries the others in
+// the order of their costs in the first look, so that the cost limit ends expensive variants early.
 #pragma once
 
 #include <fmt/core.h>

@@ -2,8 +2,8 @@
 // measure at one tap, and times the model.
 //
 // A model is the scene without some of its parts, with a scheme and its settings. bench/study runs
-// a model in the form of a job. DIR/cells and DIR/references keep models that took more than a few
-// milliseconds, costs and reference runs. A stopped study, or the next one with another tolerance,
+// a model in the form of a job. DIR/cells and DIR/references keep costs, reference runs, and models
+// that took more than a few milliseconds. A stopped study, or the next one with another tolerance,
 // reads them back.
 #pragma once
 
@@ -44,7 +44,7 @@ inline constexpr double worth = 0.95;  // a cheaper model costs less than this s
 struct Request {
     std::string scene, measure = "l2_50ms", within, tap, scheme = "any", reference, out;
     std::vector<std::string> set, plugins;  // plugins: their files, because verdicts depend on them
-    // [s] to run; absent: the duration that the measure needs (Judge)
+    // duration of the run [s]; absent: the duration that the measure needs (Judge)
     std::optional<double> duration{};
     double tap_rate = 44100;  // [Hz]
     int reference_modes = 0;  // 0: doubled until the result settles

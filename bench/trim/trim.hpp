@@ -1,17 +1,17 @@
 // Trimming: the cheapest model of a scene within a tolerance.
 //
 // A model is a set of parts left out, a scheme with its options, a rate and a number of modes.
-//   0. Start: the whole scene with the scheme's own compliance, the published form. The trimmed
-//   model is compared with this one.
-//   1. For the whole scene without unjudged taps: the smallest sufficient number of modes, for each
-//   scheme, own and matched compliance, and each rate. The cheapest stays (cheapest_settings.hpp).
-//   The search begins with the advised settings (compare/advice.hpp).
-//   2. In turn, the part with the largest saving per added error is left out. The smallest number
-//   of modes at half, the same and twice the rate is searched again, and a cheaper model stays.
-//   Parts left out earlier are put back in the same way, because the cost of a part depends on
-//   other parts.
-//   3. Step 1 for the remaining scene, because more schemes can run a simpler scene. A cheaper
-//   model stays, and step 2 begins again.
+//   0.  Start: the whole scene with the scheme's own compliance, the published form. The trimmed
+//       model is compared with this one.
+//   1.  For the whole scene without unjudged taps: the smallest sufficient number of modes, for
+//       each scheme, own and matched compliance, and each rate. The cheapest stays
+//       (cheapest_settings.hpp). The search begins with the advised settings (compare/advice.hpp).
+//   2.  In turn, the part with the largest saving per added error is left out. The smallest number
+//       of modes at half, the same and twice the rate is searched again, and a cheaper model stays.
+//       Parts left out earlier are put back in the same way, because the cost of a part depends on
+//       other parts.
+//   3.  Step 1 for the remaining scene, because more schemes can run a simpler scene. A cheaper
+//       model stays, and step 2 begins again.
 // "Cheaper" means by a twentieth or more. A part that saves less stays, and so do losses unless the
 // decay is judged. At similar costs the more accurate model wins, so that timing noise decides
 // nothing. Costs are processor times, so that other programs hardly affect them.

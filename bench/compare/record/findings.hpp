@@ -56,7 +56,7 @@ store::Table convergence_table(const study::Cells&);
 // falling error are included if the difference in third octaves rises by at least 1 dB.
 struct Rising {
     std::size_t low, high;
-    std::string text;  // "its error rises with the rate, from 1.2 % at 44100 Hz to 3.4 %"
+    std::string text;  // sentence: "its error rises with the rate, from 1.2 % at 44100 Hz to 3.4 %"
 };
 std::vector<Rising> rising_with_the_rate(const study::Cells&);
 
