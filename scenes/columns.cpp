@@ -201,7 +201,7 @@ void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
 void force_from(const std::string& path, const std::string& text, Pluck& p) {
     const ColumnTo columns[] = {{{"time_s", "time", not_negative}, &p.time},
                                 {{"force_N", "newtons", any}, &p.share}};
-    std::string ending = std::filesystem::path(path).extension();
+    std::string ending = std::filesystem::path(path).extension().string();
     for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 'a' - 'A' : c);
     if (ending == ".wav" || text.starts_with("RIFF")) samples_of(path, text, p);
     else read_columns(path, text, columns);

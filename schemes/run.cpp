@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <stdexcept>
@@ -24,6 +25,19 @@ FlushDenormals::FlushDenormals() noexcept : saved_(_mm_getcsr()) {
     _mm_setcsr(saved_ | 0x8040u);
 }  // FTZ | DAZ
 FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+#elif defined(__aarch64__)
+namespace {
+std::uint64_t control() noexcept {
+    std::uint64_t fpcr = 0;
+    asm volatile("mrs %0, fpcr" : "=r"(fpcr));
+    return fpcr;
+}
+void set_control(std::uint64_t fpcr) noexcept { asm volatile("msr fpcr, %0" : : "r"(fpcr)); }
+}  // namespace
+FlushDenormals::FlushDenormals() noexcept : saved_(static_cast<unsigned>(control())) {
+    set_control(saved_ | 1u << 24);  // FZ
+}
+FlushDenormals::~FlushDenormals() { set_control(saved_); }
 #else
 FlushDenormals::FlushDenormals() noexcept : saved_(0) {}
 FlushDenormals::~FlushDenormals() = default;

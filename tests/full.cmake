@@ -148,6 +148,17 @@ jvari_gate(Installed.TheSchemesAloneNeedNoLibraryUnderTheGpl host/check.sh $<TAR
     ${CMAKE_BINARY_DIR}/host/host ${prefix})
 set_tests_properties(Installed.TheSchemesAloneNeedNoLibraryUnderTheGpl PROPERTIES FIXTURES_REQUIRED
     host_built)
+# The same libraries for other systems.
+jvari_out_of_tree(elsewhere ${without})
+set_tests_properties(elsewhere.configure PROPERTIES ENVIRONMENT
+    PKG_CONFIG_LIBDIR=${CMAKE_CURRENT_BINARY_DIR}/needed)
+foreach(system arm64 windows)
+    jvari_gate(Elsewhere.TheSchemesPlayTheSameOn.${system} elsewhere.sh ${system} ${prefix}
+        ${CMAKE_BINARY_DIR}/elsewhere.${system})
+    set_tests_properties(Elsewhere.TheSchemesPlayTheSameOn.${system} PROPERTIES COST 200
+        TIMEOUT 1800 FIXTURES_REQUIRED elsewhere_built)
+    jvari_full(Elsewhere.TheSchemesPlayTheSameOn.${system})
+endforeach()
 jvari_gate(Installed.AllThatIsInstalledIsMadeWithTheProgram installable.sh ${CMAKE_BINARY_DIR})
 jvari_gate(Installed.TheDebianPackageHoldsWhatItNeeds package.sh ${CMAKE_BINARY_DIR})
 jvari_full(Installed.TheEngineIsALibraryForAnyProgram

@@ -2,8 +2,6 @@
 // nothing of another version.
 #include "schemes/open/open_plugin.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstring>
 #include <deque>
@@ -11,6 +9,7 @@
 
 #include "schemes/making.hpp"
 #include "schemes/open/problem.hpp"
+#include "schemes/open/shared_object.hpp"
 
 namespace jvari {
 
@@ -206,12 +205,12 @@ Guest guest_of(const std::string& path, const jvari_plugin& theirs) {
 }  // namespace
 
 Guest open_plugin(const std::string& path) {
-    void* library =
-        dlopen(path.find('/') == std::string::npos ? ("./" + path).c_str() : path.c_str(),
-               RTLD_NOW | RTLD_LOCAL);
-    if (!library) throw std::runtime_error("cannot load plugin " + path + ": " + dlerror());
-    const auto table = reinterpret_cast<decltype(&jvari_schemes)>(dlsym(library, "jvari_schemes"));
-    if (!table && dlsym(library, "jvari_plugin"))
+    std::string why;
+    void* library = load_shared_object(path, why);
+    if (!library) throw std::runtime_error("cannot load plugin " + path + ": " + why);
+    const auto table =
+        reinterpret_cast<decltype(&jvari_schemes)>(symbol_of(library, "jvari_schemes"));
+    if (!table && symbol_of(library, "jvari_plugin"))
         throw std::runtime_error("plugin " + path +
                                  " is of an older jvari, which passed C++ objects: compile it with "
                                  "the headers of this program");
