@@ -1,8 +1,8 @@
-// A signal beside the same signal late, or on another clock and with another decay: how much of
-// their difference that explains.
+// Compares a signal with a late copy, or with a copy on another clock and with another decay, and
+// says how much of the difference this explains.
 //
 // Both signals have one row per 1/rate. Between rows they are band-limited: a sinc under a Hann
-// window of 32 rows, good to 0.45 of the rate. Rows that lack this neighbourhood are left out.
+// window of 32 rows, good to 0.45 of the rate. Rows without this neighbourhood are left out.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,15 @@ namespace jvari {
 
 struct Alignment {
     double late = 0;     // the run behind the reference [rows]
-    double stretch = 0;  // frequencies of the run over those of the reference, less 1
-    double decay = 0;    // of the run beyond that of the reference [1/row]
-    // norm of the difference that is left, over the norm of the whole; 1: nothing is explained
+    double stretch = 0;  // ratio between the run's frequencies and the reference's, minus 1
+    double decay = 0;    // decay of the run minus decay of the reference [1/row]
+    // norm of the remaining difference, over the norm of the whole difference; 1: nothing is
+    // explained
     double left = 1;
 };
 
-// run[n] = reference[n - late], within `furthest` rows and an eighth of the signal. Of two delays
-// that do as well, as of a periodic signal, the smaller.
+// Model: run[n] = reference[n - late], within `furthest` rows and an eighth of the signal. If two
+// delays fit equally well, for example for a periodic signal, the smaller one is returned.
 Alignment delayed(std::span<const double> run, std::span<const double> reference, long furthest);
 
 // run[n] = exp(-decay n) reference[n (1 + stretch)], judged from row `first` on, with a stretch of

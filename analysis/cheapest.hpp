@@ -1,4 +1,5 @@
-// The cheapest of several runs that is as accurate as asked, and which others may be it.
+// Finds the cheapest of several runs with the requested accuracy, and other runs that may be
+// cheapest.
 #pragma once
 
 #include <limits>
@@ -9,23 +10,24 @@
 
 namespace jvari {
 
-// What is known of a run that is measured against a reference (error e), which is itself uncertain
-// by c: by the triangle inequality it differs from the motion of the scene by e + c at most and by
-// e - c at least, relative to the norm of the reference.
-double at_most(double error, double uncertainty);   // NaN where c is unknown
-double at_least(double error, double uncertainty);  // 0 at least; 0 where c is unknown
+// Bounds on the error of a run with error e against a reference that is itself uncertain by c. By
+// the triangle inequality the run differs from the motion of the scene by e + c at most and by e -
+// c at least, relative to the norm of the reference.
+double at_most(double error, double uncertainty);   // NaN if c is unknown
+double at_least(double error, double uncertainty);  // 0 at least; 0 if c is unknown
 
 struct Offer {
     std::string scheme;
-    double most, least;         // of its error
-    double cost, lower, upper;  // its median and quartiles
+    double most, least;         // bounds on the error
+    double cost, lower, upper;  // median and quartiles of the cost
 };
 
-// `best`: of the runs within `accuracy` the one of least cost. `ties` never change it: runs within
-// whose quartiles of cost touch its own and that cost less than 1.2 times as much; first the one of
-// least error of its own scheme, then of each other scheme the cheapest. `perhaps`: other schemes
-// with a cheaper run (without a best: any run) of which it is not certain that it is within; each
-// scheme once, by its cheapest such run, in the order of the offers.
+// `best`: the run with the least cost among the runs within `accuracy`. `ties` never change `best`:
+// runs within `accuracy` whose cost quartiles touch those of `best` and that cost less than 1.2
+// times as much. The first tie has the least error among runs of the best scheme, and then follows
+// the cheapest tie of each other scheme. `perhaps`: other schemes with a cheaper run (without a
+// `best`: with any run) that may or may not be within `accuracy`. Each scheme occurs once, by its
+// cheapest such run, in the order of the offers.
 struct Choice {
     std::optional<std::size_t> best;
     std::vector<std::size_t> ties, perhaps;

@@ -1,4 +1,4 @@
-// Source: the definitions of error.hpp; the sums are those of schemes/trace.hpp.
+// Implements the definitions of error.hpp with the sums of schemes/trace.hpp.
 #include "analysis/error.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace jvari {
 
 namespace {
-double largest(std::span<const double> x) {  // NaN where any value is
+double largest(std::span<const double> x) {  // NaN if any value is NaN
     double most = 0;
     for (double v : x) most = std::isnan(most) || std::isnan(v) ? nan : std::max(most, std::abs(v));
     return most;

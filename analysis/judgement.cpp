@@ -32,8 +32,8 @@ double over_bound(const Scene& scene, const Trace& trace, int modes) {
 Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& run) {
     const EnergyBalance balance = energy_balance(run.trace);
     const EnergyGain gain = energy_gain(run.trace);
-    // A scheme that promises no balance may leave its columns empty: zeros that "close" say
-    // nothing.
+    // A scheme that promises no balance may leave its columns empty: a balance of zeros "closes"
+    // without any meaning.
     const bool silent = promised == Balance::none && !(balance.largest_stored > 0);
     Figures f{run.status,
               silent ? nan : balance.step,
@@ -54,7 +54,7 @@ Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& r
 
 double pull_of(double least, double largest) {
     if (least >= -pull_floor) return 0;
-    // of an unknown one and 0 the other
+    // 0 if the force is unknown and the other is NaN
     return -least / std::fmax(largest, std::numeric_limits<double>::min());
 }
 

@@ -1,4 +1,4 @@
-// Left out: scrambling of digits, which a study of some hundred points does not need.
+// Left out: scrambling of digits. A study with some hundred points does not need it.
 #include "analysis/sobol.hpp"
 
 #include <gsl/gsl_qrng.h>
@@ -14,7 +14,7 @@ std::vector<std::vector<double>> sobol_points(int dimensions, int number, std::u
     if (dimensions == 0) return points;
     const std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)> sequence(
         gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(dimensions)), gsl_qrng_free);
-    std::mt19937_64 random(seed);  // its numbers are the standard's, on every machine
+    std::mt19937_64 random(seed);  // the standard defines its numbers, equal on every machine
     std::vector<double> shift;
     for (int d = 0; d < dimensions; ++d) shift.push_back(std::ldexp(random() >> 11, -53));
     for (auto& point : points) {

@@ -5,8 +5,8 @@
 
 namespace jvari {
 
-// Fills in as many nodes, ascending, and weights as the spans hold, which are equally long. Each is
-// right to its last bit but one.
+// Fills both spans with nodes, ascending, and their weights; the spans are equally long. Each
+// number is right to its last bit but one.
 void gauss_legendre(std::span<double> node, std::span<double> weight);
 
 }  // namespace jvari

@@ -1,6 +1,7 @@
-// A string's free masses as its references have them. Each is one more mode, of frequency 0 and
-// behind those of the string. As all modes there have one modal mass m, that of a mass M moves it
-// by share q, share = sqrt(m/M). Its contact reads the string's footprint less that.
+// Free masses of a string in the form of its references. Each mass is one more mode with frequency
+// 0, behind the modes of the string. All modes there share one modal mass m. A displacement q of
+// the mode moves a mass M by share q, with share = sqrt(m/M). The contact of the mass reads the
+// string's footprint minus that displacement.
 #pragma once
 
 #include <vector>
@@ -11,15 +12,15 @@
 namespace jvari {
 
 Modes with_masses(Modes, const String&);
-// of start_of() for the modes without them
+// The argument is start_of() for the modes without the masses.
 ModalStart with_masses(ModalStart, const Modes&, const String&);
 double share_of(const Modes&, const Mass&);
 
 struct Touched {
     LumpedBarrier law;
-    std::vector<double> weights;  // of each mode
+    std::vector<double> weights;  // for each mode
 };
-// the string's barriers, which all are lumped, and its masses; the modes are with_masses()
+// Lists the string's barriers, which all are lumped, and its masses. The modes are with_masses().
 std::vector<Touched> touched_by(const Modes&, const String&);
 
 }  // namespace jvari

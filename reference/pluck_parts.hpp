@@ -1,5 +1,5 @@
-// The parts of an interval in which the pluck's force is one smooth function: before it, between
-// two rows of its file or from its start to its end, after it.
+// Splits an interval into parts with a smooth pluck force: before the pluck, between two rows in
+// its file or from its start to its end, and after it.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,9 @@ public:
         if (!pluck->time.empty()) knots_.clear();
         for (const double t : pluck->time) knots_.push_back(t - start_);
     }
-    // Calls part(from, to, plucked) for each part of the interval that begins at `now` [s], from 0
-    // to `length`, which is `unit` times as many seconds; false where a part says so.
+    // Calls part(from, to, plucked) for each part of the interval that begins at `now` [s] and runs
+    // from 0 to `length`; in seconds it lasts `unit` times longer. Returns false if a call returns
+    // false.
     template <class Part>
     bool each(double now, double length, double unit, Part part) const {
         double from = 0;

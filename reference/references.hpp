@@ -14,13 +14,13 @@ extern const Descriptor exact_linear, characteristic_lattice, exact_contact, sun
 
 std::span<const Descriptor> references();
 
-// Those that represent the scene, and the first of them or nullptr.
+// References that represent the scene, and the first among them or nullptr.
 std::vector<const Descriptor*> references_of(const Scene&);
 const Descriptor* best_reference(const Scene&);
 
-// The options with compliance=matched, which is nearer to the scene with the same modes: where it
-// says something and nobody chose another. Nothing where it does not. The reference may refuse it
-// still.
+// Adds compliance=matched to the options, which is nearer to the scene with the same modes. Returns
+// nothing if matching has no effect or if the caller chose another compliance. The reference may
+// still refuse the options.
 std::optional<OptionValues> matched(const Descriptor& reference, const Scene&, OptionValues);
 bool is_matched(const OptionValues&);
 

@@ -1,5 +1,5 @@
-// The only file that sees SUNDIALS (6.4): CVODE behind integrator.hpp, and what an event asks of
-// it.
+// Wraps CVODE behind integrator.hpp and does the work for its events. No other file includes
+// SUNDIALS (6.4).
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
@@ -18,17 +18,17 @@ namespace jvari {
 static_assert(std::is_same_v<realtype, double>, "SUNDIALS in double precision");
 
 namespace {
-constexpr double unweighted = 1e-30;  // error weight of what is not controlled
-// of steps that might have touched or left and come back, in one go
+constexpr double unweighted = 1e-30;  // error weight for uncontrolled components
+// number of splits in one go, for steps that might have touched or left and come back
 constexpr int most_splits = 40;
 
-// The greatest value of what is known at the ends of steps: where it turned, that of the parabola
-// through the last three.
+// Finds the greatest value of a quantity known at step ends. At a turning point the value comes
+// from the parabola through the last three.
 class Peak {
 public:
     double most = -HUGE_VAL;
 
-    void forget() noexcept { known_ = 0; }  // what follows does not go on from what was
+    void forget() noexcept { known_ = 0; }  // the next values do not continue the previous ones
     void next(double t, double x) noexcept {
         most = std::max(most, x);
         if (known_ == 2 && x_[1] > 0 && x_[1] >= x_[0] && x_[1] >= x) {
@@ -80,7 +80,7 @@ struct Integrator::Library {
     }
     ~Library() {
         if (memory) CVodeFree(&memory);
-        if (solver) solver->content = nullptr;  // it is this object
+        if (solver) solver->content = nullptr;  // this object owns the content
         if (solver) SUNLinSolFree(solver);
         if (z) N_VDestroy(z);
         if (context) SUNContext_Free(&context);
@@ -93,8 +93,9 @@ struct Integrator::Library {
     };
 
     double* state() noexcept { return N_VGetArrayPointer(z); }
-    // A step from rest, out of contact: what the library allocates late, it allocates now. And what
-    // lay on a surface it does not look at until it has left, which outlives CVodeReInit.
+    // Makes a step from rest, out of contact, so that the library allocates everything here. The
+    // library also ignores a root function that starts on its surface until the function has left;
+    // this state survives CVodeReInit.
     bool begin() noexcept {
         floor = 1;
         longest_step = 1e-9;
@@ -114,7 +115,7 @@ struct Integrator::Library {
                (equations.contacts == 0 ||
                 CVodeSetRootDirection(memory, direction.data()) == CV_SUCCESS);
     }
-    // one step of the library's own
+    // Makes one step chosen by the library.
     int step(double to) noexcept {
         ++effort.steps;
         if (CVodeSetStopTime(memory, to) != CV_SUCCESS) return -1;
@@ -129,9 +130,9 @@ struct Integrator::Library {
         CVodeGetLastStep(memory, &h);
         return h;
     }
-    // When, in the last step, a barrier's surface may have been crossed twice; -1 where it cannot.
-    // Between its turning point's two tangents a convex penetration stays on its side of the
-    // surface if their intersection does.
+    // Time in the last step at which a barrier's surface may have been crossed twice; -1 if
+    // impossible. A convex penetration stays on its side between its turning point's two tangents,
+    // provided that their intersection does.
     double turns_beyond() const noexcept {
         for (int a = 0; a < equations.contacts; ++a) {
             const double side = equations.touched[a] ? 1 : -1, h = time - time_before;
@@ -248,9 +249,8 @@ void Integrator::reset() noexcept { library_->begin(); }
 void Integrator::restart(double longest_step) noexcept {
     Library& l = *library_;
     l.longest_step = longest_step;
-    // By what presses as well as by what moves: a string at rest that a barrier or a thread is
-    // about to push has no size of its own yet.
-    // [m/s]
+    // The floor counts pressing forces beside motion: a string at rest that a barrier or a thread
+    // is about to push has no scale yet. [m/s]
     l.floor =
         std::max({1e-3 * std::sqrt(l.equations.scale_squared(l.state()) / (2 * l.equations.padded)),
                   l.equations.rounding(l.state()) / l.settings.tolerance, 1e-30});
@@ -278,7 +278,7 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
         std::swap(l.depth, l.depth_before);
         const int result = l.step(target);
         if (result < 0 || out.stopped()) return Stop::failed;
-        // what is that stiff would need 1e12 steps
+        // A system this stiff would need 1e12 steps.
         crawled = l.time - l.time_before < 1e-12 * to ? crawled + 1 : 0;
         if (crawled > 10000) return Stop::failed;
         l.contact = -1;
@@ -294,10 +294,10 @@ Integrator::Stop Integrator::advance(double to, const Block& out) noexcept {
             split = l.turns_beyond();
             for (int a = 0; a < contacts; ++a)
                 if (l.equations.touched[a] ? l.depth[a].eta < 0 : l.depth[a].eta > 0)
-                    l.contact = a;  // no crossing: it started on the surface
+                    l.contact = a;  // no crossing: the contact started on the surface
         }
-        // From the surface inwards and back through it within one step: root finding mistakes the
-        // rounding at its start for the crossing.
+        // Inwards from the surface and back within one step: root finding mistakes the rounding at
+        // the start for the crossing.
         if (l.contact >= 0 &&
             inward(l.contact, (crosses ? l.depth : l.depth_before)[l.contact].speed))
             split = l.time_before + 0.25 * l.last_step();

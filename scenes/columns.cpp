@@ -125,7 +125,7 @@ std::vector<int> read_columns(const std::string& path, const std::string& text,
 
 namespace {
 template <class Number, class Bits>
-Number of_bits(Bits bits) {  // std::bit_cast, which Emscripten of Debian 12 does not have
+Number of_bits(Bits bits) {  // replaces std::bit_cast, missing from the Emscripten in Debian 12
     static_assert(sizeof(Number) == sizeof(Bits));
     Number x;
     std::memcpy(&x, &bits, sizeof x);
@@ -138,8 +138,8 @@ std::uint64_t little_endian(std::string_view bytes) {
     return n;
 }
 
-// A RIFF WAVE file is chunks of a name, a size and a content. A sample of fewer bits than its bytes
-// hold, as of 20 or 12, has them at the top.
+// A RIFF WAVE file consists of chunks, each with a name, a size and a content. If a sample has
+// fewer bits than its bytes hold (20 or 12, for example), the bits are at the top.
 void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
     constexpr int pcm = 1, floating = 3, extensible = 0xfffe;
     const auto check = [&path](bool holds, const std::string& found) {
@@ -188,7 +188,7 @@ void samples_of(const std::string& path, std::string_view bytes, Pluck& p) {
     check(rate > 0, "no sample rate");
     for (std::size_t n = 0; n < data.size() / size; ++n) {
         const std::uint64_t sample = little_endian(data.substr(n * size, size));
-        const auto whole = static_cast<std::int64_t>(sample << (64 - 8 * size));  // with its sign
+        const auto whole = static_cast<std::int64_t>(sample << (64 - 8 * size));  // sign extended
         p.share.push_back(tag == pcm  ? std::ldexp(static_cast<double>(whole), -63)
                           : size == 8 ? of_bits<double>(sample)
                                       : of_bits<float>(static_cast<std::uint32_t>(sample)));

@@ -29,15 +29,15 @@ double decay_rate(const QualityFactorDamping& law, const String& s, double nu) {
 
 double decay_rate(const PerPeriodDamping& law, double f1) { return -f1 * std::log(law.factor); }
 
-// ---- Measured modes, of a file.
+// ---- Measured modes, from a file.
 
 namespace {
 [[noreturn]] void refuse_row(const std::string& path, int line, const std::string& what) {
     throw SceneFileError(path + ":" + std::to_string(line) + ": " + what);
 }
 
-// Without numbers the rows are the modes one by one. A mode that is missing makes one spacing of
-// frequencies twice as wide as the one before, or the first.
+// Rows without numbers list the modes one by one. A missing mode makes one frequency spacing twice
+// as wide as the spacing before, or as the first.
 void refuse_gaps(const std::string& path, const std::vector<int>& lines,
                  const std::vector<double>& hertz) {
     constexpr double wide = 1.6;

@@ -1,4 +1,4 @@
-// TOML by toml++; the only file that sees it.
+// Parses TOML with toml++; no other file includes that library.
 #include "scenes/document.hpp"
 
 #include <toml++/toml.h>
@@ -15,7 +15,7 @@ namespace jvari {
 
 namespace {
 constexpr int deepest = 16;  // levels of nesting; scenes have five
-// a key of very many parts would nest tables deeper than the stack is high
+// A key with very many parts would nest tables more deeply than the stack allows.
 constexpr int dots_in_a_key = 64;
 
 template <class Indexed>
@@ -26,8 +26,8 @@ std::optional<std::size_t> index_in(const Indexed& name) {
     return i;
 }
 
-// One past the text of TOML that begins at `from`: "", '', """ """ or ''' '''. One that is not
-// closed ends with its line, or with all.
+// Position behind the TOML text that begins at `from`: "", '', """ """ or ''' '''. A text without a
+// closing mark ends with its line, or with the document.
 std::size_t end_of_text(std::string_view all, std::size_t from) {
     const char mark = all[from];
     const bool lines = all.substr(from, 3) == std::string(3, mark);
@@ -104,8 +104,8 @@ struct Reading {
     int place;                 // 0: take the line from the document
     std::string at(int line) const { return place ? where : where + ":" + std::to_string(line); }
 
-    // Between two of , = [ ] { } and the ends of lines stands at most one key; dots in texts and
-    // comments are none of its own.
+    // Between two of , = [ ] { } and line ends there is at most one key. Dots in texts and comments
+    // do not count.
     void refuse_long_keys(std::string_view text) const {
         int line = 1, dots = 0;
         for (std::size_t i = 0; i < text.size(); ++i) {
@@ -175,8 +175,8 @@ struct Reading {
     }
 };
 
-// A bare number as number_of reads it; else TOML syntax, where what is no TOML value, or a number
-// of another form (0x10), is a text.
+// Reads a bare number by number_of, and any other value by TOML syntax. Text that is not a TOML
+// value, or a number in another form (0x10), is taken literally.
 Value override_value(std::string_view text, const Reading& reading) {
     const auto one = [&](std::string_view value) {
         Value root = reading.parse("value = " + std::string(value));
@@ -206,8 +206,8 @@ bool is_index(std::string_view s) {
     return !s.empty() && s.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// The value at the path, made where it is absent: a table by its key, an entry of an array by its
-// index or one past the last.
+// Returns the value at the path and creates it if absent: a table by its key, an entry of an array
+// by its index or by the index after the last.
 Value& reach(Value& root, const std::vector<std::string>& path, const std::string& where,
              int place) {
     Value* at = &root;
@@ -247,8 +247,8 @@ Value& reach(Value& root, const std::vector<std::string>& path, const std::strin
     return *at;
 }
 
-// Scenes from before `start` call it `initial`. Where a string has both, both stay, and the reader
-// refuses them.
+// Old scenes call `start` `initial`. If a string has both keys, both stay, and the reader refuses
+// them.
 void rename_initial(Value& root) {
     for (Member& part : std::get<TomlTable>(root.content)) {
         auto* strings = std::get_if<Array>(&part.value.content);

@@ -1,9 +1,9 @@
-// A plain round wire of a material: what it weighs and how stiff it is, from its diameter.
+// Computes weight and stiffness of a plain round wire from its material and diameter.
 //
-// Handbook values. Of a metal they are right within a few per cent, whatever its temper. The
-// modulus of nylon, fluorocarbon and gut depends on stress, time and humidity, by half and more
-// (Lynch-Aird & Woodhouse 2017, 2018, Materials 10:497 and 11:2160). A wound string is no wire: it
-// is as stiff as its core, and weighs more. Its numbers stand in the scene.
+// The numbers are handbook values. For a metal they are right within a few per cent, whatever the
+// temper. The modulus of nylon, fluorocarbon and gut depends on stress, time and humidity, by half
+// and more (Lynch-Aird & Woodhouse 2017, 2018, Materials 10:497 and 11:2160). A wound string is no
+// wire: it has the stiffness of the core, and weighs more. Its numbers stand in the scene.
 #pragma once
 
 #include <numbers>

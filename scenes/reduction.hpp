@@ -1,10 +1,10 @@
-// The parts of a scene that can be left out or simplified.
+// Lists the parts of a scene that can be left out or simplified.
 //
-// The body is kept: its filters change only what is heard, and its modes stay as they are.
+// The body is kept: its filters change only the sound at the taps, and its modes stay unchanged.
 //
-// Keys are those of scene files. Any of the reductions can be applied in the order of the list:
-// first those that change a value, then those that empty a part, then those that shorten an array,
-// from its last entry on. So each key keeps its meaning.
+// Keys are the keys of scene files. Any subset of the reductions can be applied in list order:
+// first the changes of a value, then the removals of a part, then removals from arrays, last entry
+// first. So each key keeps its meaning.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,9 @@ namespace jvari {
 
 enum class Part {
     contact_stiffness,  // becomes a tenth or a hundredth
-    exponent,           // of a contact, becomes 1
+    exponent,           // the exponent of a contact becomes 1
     contact_loss,
-    footprint,     // of a barrier or a thread, becomes a point
+    footprint,     // the footprint of a barrier or a thread becomes a point
     damping_term,  // one of several terms of a law
     damping,
     bending_stiffness,
@@ -30,7 +30,7 @@ enum class Part {
     tap,  // if there is another
     barrier,
     mass,   // with its taps
-    string  // with its taps, if there is another
+    string  // with its taps, if there is another string
 };
 
 struct Reduction {
@@ -43,11 +43,11 @@ struct Reduction {
     }
 };
 
-// All that apply to this scene. A contact whose exponent becomes 1 keeps its force at `penetration`
-// [m].
+// Returns all reductions that apply to this scene. A contact whose exponent becomes 1 keeps its
+// force at a penetration of `penetration` [m].
 std::vector<Reduction> reductions_of(const Scene&, double penetration = 1);
 
-// Removes taps of forces that nothing exerts any more, except the tap `kept`.
+// Removes the force taps of contacts that no longer exist, except the tap `kept`.
 void remove_idle_taps(Scene&, const std::string& kept = "");
 
 }  // namespace jvari

@@ -1,4 +1,5 @@
-// Names, and what a scene asks of a scheme. What a scene may not say is in validate.cpp.
+// Names, and the features that a scene needs from a scheme. validate.cpp has the rules for valid
+// scenes.
 #include "scenes/scene.hpp"
 
 #include <algorithm>

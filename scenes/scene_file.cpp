@@ -1,4 +1,4 @@
-// Finding a scene, reading it, and putting file and line to what is wrong with it.
+// Finds a scene, reads it, and adds file and line to error messages.
 #include "scenes/scene_file.hpp"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ fs::path library() {
     return {};
 }
 
-// "scenes/a.toml" and "./a" are files; "a" is one too where it lies in the working directory as a
-// file.
+// "scenes/a.toml" and "./a" are files; "a" is a file too if the working directory has one of that
+// name.
 std::string path_of(const std::string& name) {
     std::error_code error;
     const bool plain = !name.empty() && name.find('/') == std::string::npos &&
@@ -89,7 +89,8 @@ Scene parse_scene(std::string_view text, const std::string& file_name,
     Scene scene;
     try {
         scene = scene_of(document);
-    } catch (const SceneFileError& e) {  // --set string.1.tension=40 of one string begins another
+        // --set string.1.tension=40 on a scene of one string begins another
+    } catch (const SceneFileError& e) {
         const std::string why = e.what();
         if (why.starts_with("--set ") && why.find(": found nothing") != std::string::npos)
             throw SceneFileError(why + "; strings, barriers and taps are counted from 0");

@@ -1,4 +1,4 @@
-// Two passes over the schema: Names refuses unknown keys (and chooses the alternatives of
+// Makes two passes over the schema: Names refuses unknown keys (and chooses the alternatives of
 // variants), Reader takes the values.
 #include <algorithm>
 #include <filesystem>
@@ -37,12 +37,12 @@ void emplace(std::variant<T...>& v, std::size_t index) {
 
 constexpr const char* tension_keys[] = {"tension", "frequency", "note"};
 
-// ---- Which keys this table may have. Where the key that chooses an alternative is missing or
-// wrong, those of every alternative.
+// ---- Keys that this table may have. If the key that chooses an alternative is missing or wrong,
+// the keys of every alternative are allowed.
 struct Names : Pass<Names> {
     const Value& table;
     std::vector<std::string> names{};
-    std::vector<std::string> idle{};  // keys of alternatives that an override has turned from
+    std::vector<std::string> idle{};  // keys of alternatives that an override has abandoned
 
     explicit Names(const Value& of) : table(of) {}
     void seen(const char* key) {
@@ -75,7 +75,7 @@ struct Names : Pass<Names> {
     }
 };
 
-// ---- The values of one table
+// ---- Values of one table
 class Reader {
 public:
     Reader(const Document& document, const Value& table, std::string path)
@@ -114,8 +114,8 @@ public:
         if (d && *d == rigid)
             fail(*v, at(key), v->found(), std::string(positive_or_rigid.says) + " [" + unit + "]");
     }
-    // A wire of a material, or its two numbers: where an override brings one of them, those of the
-    // file stay unread.
+    // Reads a wire of a material, or its two numbers. If an override brings one of the two forms,
+    // the other form in the file stays unread.
     void material() {
         const Value *name = table_.find("material"), *width = table_.find("diameter");
         if (!name && !width) return;
@@ -135,7 +135,7 @@ public:
             if (!beside || overridden) wire_[key] = value;
         }
     }
-    // Of the three keys one: where an override brings one, those of the file stay unread.
+    // Reads one of three keys. If an override brings one, the others in the file stay unread.
     void tension(String& s) {
         const char* chosen = nullptr;
         for (const char* key : tension_keys) {
@@ -165,7 +165,7 @@ public:
         if (!positive.holds(hertz))
             fail(v, at(chosen), v.found(), std::string(positive.says) + " [Hz]");
         number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
-        s.tension = 1;  // where what it follows from is out of range validate() says so
+        s.tension = 1;  // placeholder: validate() reports the quantities that are out of range
         if (!positive.holds(s.length) || !positive.holds(s.linear_density) ||
             !not_negative.holds(s.bending_stiffness))
             return;
@@ -299,7 +299,8 @@ private:
     std::string beside(const std::string& file) const {
         return (std::filesystem::path(document_.file).parent_path() / file).string();
     }
-    // The file of an override is found from where the program runs, and its place kept.
+    // A file named by an override is found from the working directory of the program, and that
+    // place is kept.
     std::string found_from(const Value& v, const std::string& file) const {
         return v.place < 0 ? (std::filesystem::current_path() / file).string() : file;
     }

@@ -1,14 +1,14 @@
-// The schema of a scene file: the keys of every part in the order in which they are written, each
-// with its unit, its range and its default. Four passes use it: naming the keys, reading, writing,
-// and checking ranges. validate.cpp checks what depends on several values, such as a bridge beyond
-// the end of the string.
+// Schema of a scene file: the keys of every part in the order in which they are written, each with
+// its unit, its range and its default. Four passes use the schema: naming the keys, reading,
+// writing, and checking ranges. validate.cpp checks rules that involve several values, such as a
+// bridge beyond the end of the string.
 //
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
 // scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), modes
-// (columns whose rows have numbers), one_of
-// (a variant and the key that chooses it), material (with a diameter, in place of two numbers),
-// tension (or a pitch), start ("rest" or a CSV file, in place of a table), start_table (its
-// columns), force (a file), part (a table) and parts (an array of tables).
+// (columns whose rows have numbers), one_of (a variant and the key that chooses it), material (with
+// a diameter, in place of two numbers), tension (or a pitch), start ("rest" or a CSV file, in place
+// of a table), start_table (its columns), force (a file), part (a table) and parts (an array of
+// tables).
 #pragma once
 
 #include <concepts>
@@ -41,7 +41,7 @@ inline constexpr Range not_negative{"a number >= 0", 0};
 inline constexpr Range one_or_more{"a number >= 1", 1};
 inline constexpr Range fraction{"a number above 0 and at most 1", 0, 1, true};
 
-struct Column {  // of a CSV file
+struct Column {  // one column in a CSV file
     const char* name;
     const char* alias;
     Range range;
@@ -56,11 +56,11 @@ inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* shape_names[] = {"mode", "triangle"};
 
-// What a pass is that does nothing but to walk through all tables. Self derives from it and has
-// what it does with a key in place of what stands here; `seen` is told of each other key.
+// Walks through all tables and does nothing else. Self derives from Pass and replaces the functions
+// for the keys that it handles; `seen` receives every other key.
 template <class Self>
 struct Pass {
-    std::string path{};  // of the table in hand: "string.0.barrier.1"
+    std::string path{};  // path to the current table: "string.0.barrier.1"
 
     Self& self() { return static_cast<Self&>(*this); }
     std::string at(const std::string& key) const { return path.empty() ? key : path + "." + key; }
@@ -180,7 +180,7 @@ void fields(auto& pass, Is<Mass> auto& m) {
     pass.choice("loss_law", m.loss_law, loss_law_names, LossLaw::hunt_crossley);
 }
 
-// ---- What sets it in motion
+// ---- Initial shape and excitation
 
 void fields(auto& pass, Is<ModeShape> auto& m) {
     pass.count("number", m.number);
@@ -234,7 +234,7 @@ void fields(auto& pass, Is<String> auto& s) {
     pass.part("polarisation", s.polarisation);
 }
 
-// ---- What is listened to
+// ---- Taps
 
 constexpr bool has_position(Quantity q) {
     return q == Quantity::displacement || q == Quantity::velocity;

@@ -1,4 +1,4 @@
-// What the modes of a string have at t = 0: of a shape, of a file, or of the static equilibrium.
+// State of a string's modes at t = 0: from a shape, a file, or the static equilibrium.
 #pragma once
 
 #include <optional>
@@ -10,46 +10,50 @@
 namespace jvari {
 
 struct ModalStart {
-    std::vector<double> displacement, velocity;  // of each mode [m], [m/s]
-    // of barriers and thread on a string that starts in equilibrium [N]; else none
+    std::vector<double> displacement, velocity;  // for each mode [m], [m/s]
+    // forces from barriers and thread on a string that starts in equilibrium [N]; empty otherwise
     std::vector<double> force;
 };
 
-// How a scheme's string yields under steady forces, where not as its modes do. Empty: as they do.
+// Compliance of a scheme's string under steady forces, if it differs from the compliance in its
+// modes. An empty field means the modal compliance.
 struct Yield {
-    std::span<const double> modes = {};   // of each mode under 1 N on it [m/N]; 1/(m omega0^2)
+    // each mode's displacement under 1 N on it [m/N]; 1/(m omega0^2)
+    std::span<const double> modes = {};
     std::span<const double> series = {};  // beside the modes: barriers and thread, squared [m/N]
-    std::span<const double> pluck = {};   // of each of these points by 1 N of the pluck [m/N]
+    // each point's displacement under 1 N from the pluck [m/N]
+    std::span<const double> pluck = {};
 };
 
-// The equilibrium: barriers push by k [h - y]^exponent, the thread pulls by k (h - y), and the
-// pluck pushes as it does at t = 0. A profile acts in the middles of 32 equal parts. Throws
-// BadScene where Newton's steps do not find it.
+// The equilibrium balances three forces: barriers push by k [h - y]^exponent, the thread pulls by k
+// (h - y), and the pluck pushes with its force at t = 0. A profile acts in the middles of 32 equal
+// parts. Throws BadScene if Newton's steps do not find the equilibrium.
 ModalStart start_of(const Modes&, const String&, const Yield& = {});
 
-// At x [m]: of a table that is no table of modes the straight lines, of modes their sum.
+// Displacement at x [m]: straight lines between table rows, or the sum for a table that lists
+// modes.
 double displacement_at(const TableStart&, double length, double x);
 
-// The nut force [N] at t = 0 of a stiff string that is let go from a sharp corner: that of the
-// shape, T A/(L - x0). What its modes sum up to then has no limit, for its bending energy has none.
-// Nothing where no string that the tap hears starts so, or where its tension grows.
+// Nut force [N] at t = 0 for a stiff string released from a sharp corner: the force of the shape, T
+// A/(L - x0). The modal sum at that instant has no limit, because the bending energy has none.
+// Empty if no string that the tap hears starts this way, or if its tension grows.
 std::optional<double> force_of_a_corner(const Scene&, const Tap&);
 
-double largest_displacement(const String&);  // of its start, 0 of an equilibrium [m]
+double largest_displacement(const String&);  // of the initial shape, 0 for an equilibrium [m]
 
-// With displacement, velocity and pluck times `factor`; an equilibrium stays as it is.
+// Multiplies displacement, velocity and pluck by `factor`; an equilibrium stays unchanged.
 String scaled(String, double factor);
 
-// ---- The forces F >= 0 of contacts at rest, h_p - sum_q C_pq F_q = (F_p/k_p)^(1/exponent_p) where
-// F_p > 0.
+// ---- Contact forces F >= 0 at rest, from h_p - sum_q C_pq F_q = (F_p/k_p)^(1/exponent_p) for all
+// p with F_p > 0.
 
 struct RestingPoint {
     double stiffness = 0;  // [N/m^exponent], or rigid
     double exponent = 1;
     double height = 0;       // above the string without these forces [m]
-    bool both_ways = false;  // a spring that pulls as well
+    bool both_ways = false;  // true for a spring that also pulls
 };
-// C: row-major [m/N]. None where Newton's steps do not end.
+// C: row-major [m/N]. Returns no forces if Newton's steps do not end.
 std::vector<double> resting_forces(std::span<const RestingPoint>, std::span<const double> C);
 
 }  // namespace jvari

@@ -1,5 +1,5 @@
-// What a scene may not say: the range of every number (a pass over the schema), then what no number
-// tells alone.
+// Validates a scene: the range of each number (a pass over the schema), then rules that involve
+// several values.
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -64,7 +64,8 @@ struct Ranges : Pass<Ranges> {
 struct On {
     const String& string;
     std::string path;
-    double slack = 1e-12 * string.length;  // a footprint of the whole string may round past its end
+    // rounding can put the footprint of a whole string past its end
+    double slack = 1e-12 * string.length;
 
     std::string between(const char* sign) const {
         return std::string("0 ") + sign + " x " + sign + " " + number_text(string.length) +
@@ -108,9 +109,9 @@ struct On {
             throw BadScene(path + part + ".contact_loss", number_text(b.contact_loss),
                            "none, as the barrier is rigid");
     }
-    // The part of the string under a width moves as a mass, 8 mu w/pi^2. Over a rigid barrier a law
-    // of impact would have to say how it rebounds (docs/compliance-matching.md, "Rigid barriers").
-    // 1e4 to 1e5 times as stiff as the string over that width stands for rigid.
+    // The string part under a width moves like a mass, 8 mu w/pi^2. Over a rigid barrier a law of
+    // impact would have to define its rebound (docs/compliance-matching.md, "Rigid barriers"). A
+    // stiffness 1e4 to 1e5 times the string's over that width represents rigid.
     void rigid_point(const std::string& part, const LumpedBarrier& b) const {
         constexpr double pi = std::numbers::pi, stiffer = 1e5, stiffest = 1e13;  // [1], [N/m]
         if (b.width == 0) return;
@@ -183,7 +184,7 @@ struct On {
 };
 
 // ---- Taps
-bool name_is_plain(const std::string& name) {  // it heads a column of CSV files
+bool name_is_plain(const std::string& name) {  // the name heads a column in CSV files
     return !name.empty() &&
            name.find_first_not_of(
                "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-") ==

@@ -1,4 +1,4 @@
-// Which of the tree's schemes are controls (schemes.def): known to be wrong somewhere.
+// Lists the controls among the tree's schemes (schemes.def): schemes known to be wrong somewhere.
 #pragma once
 
 #include "schemes/scheme.hpp"
@@ -7,8 +7,9 @@ namespace jvari {
 
 bool is_control(const Descriptor&);
 
-// Whether a comparison leaves it out unless asked: controls, and on a string that does not stretch
-// the schemes of those that do, which then are dearer twins of others.
+// Tells whether a comparison leaves the scheme out unless asked for it. Controls are left out. On a
+// string that does not stretch, schemes for stretching strings are left out too, because there they
+// are slower twins of other schemes.
 inline bool left_out_unasked(const Descriptor& d, const Scene& scene) {
     return is_control(d) || (d.represents - needed_by(scene)).has(Feature::tension_modulation);
 }

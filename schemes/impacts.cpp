@@ -13,7 +13,7 @@ Impacts::Impacts(const String& s) {
     last_.resize(profile_.size());
 }
 
-// A scheme that touches at points of a profile has as many for each profile.
+// A scheme that touches a profile at points has equally many points on each profile.
 int Impacts::barrier_of(const BarrierOf& of) const {
     const int barriers = static_cast<int>(profile_.size()),
               profiles = static_cast<int>(std::count(profile_.begin(), profile_.end(), 1));
@@ -25,7 +25,7 @@ int Impacts::barrier_of(const BarrierOf& of) const {
 }
 
 void Impacts::add(const Impact& part) {
-    constexpr double rounding = 1e-12;  // of instants [s]
+    constexpr double rounding = 1e-12;  // in times [s]
     Last& last = last_[part.barrier];
     if (last.row < 0 || part.start > all_[last.row].end + rounding) {
         last.row = static_cast<int>(all_.size());

@@ -1,6 +1,6 @@
-// What the contacts of one string do: one row from touching a barrier or a mass to letting go of
-// it. A scheme tells it step by step, the exact reference from event to event, and only where a run
-// asks (Block::impacts).
+// Contacts of one string: one row from touching a barrier or a mass to letting go. A scheme reports
+// them step by step and the exact reference from event to event, only if a run asks for them
+// (Block::impacts).
 #pragma once
 
 #include <vector>
@@ -9,53 +9,55 @@
 
 namespace jvari {
 
-struct BarrierOf {  // which barrier of which string of the scheme
+struct BarrierOf {  // names a barrier by its string in the scheme
     int string = 0, barrier = 0;
-    // barriers of that string, where a scheme may have one for each point of a profile
+    // number of barriers on that string; a scheme may have one for each point of a profile
     int barriers = 1;
 };
 
 struct Impact {
-    int barrier = 0;            // of the string, or the mass behind its barriers
+    int barrier = 0;            // barrier on the string, or the mass, numbered behind the barriers
     double start = 0, end = 0;  // [s]
-    double largest_force = 0;   // of all points of the barrier together [N]
+    double largest_force = 0;   // sum over all points of the barrier [N]
     double impulse = 0;         // [N s]
-    // Towards the barrier before the contact, and away from it after [m/s]. NaN: not seen, where it
-    // is on at t = 0 or at the end, or the string moves the other way in the step beside it
+    // Speeds towards the barrier before the contact, and away from it after [m/s]. NaN if not seen:
+    // the contact is on at t = 0 or at the end, or the string moves the other way in the adjacent
+    // step.
     double speed_in = 0, speed_out = 0;
-    double energy_lost = 0;  // by contact loss; what a spring holds is not lost [J]
+    double energy_lost = 0;  // by contact loss; energy stored in a spring is not lost [J]
 };
 
 class Impacts {
 public:
-    explicit Impacts(const String&);  // of the scene
+    explicit Impacts(const String&);  // a string of the scene
 
-    // a part of a contact in which the barrier touched all the time
+    // Adds a part of a contact in which the barrier touched all the time.
     void add(const Impact& part);
 
-    struct Step {                   // of a scheme, on one contact
-        double to, lasts, span;     // its end, what it stands for, in what it moved [s]
+    struct Step {  // one step of a scheme, on one contact
+        // end of the step, time that it counts for, time in which the string moved by `moved` [s]
+        double to, lasts, span;
         double force, moved, lost;  // [N], [m], [J]
     };
     void step(const BarrierOf& of, int a, const Step&);
 
     const std::vector<Impact>& all() const { return all_; }
-    bool told = false;  // by a scheme that tells of its contacts
+    bool told = false;  // true after a scheme has reported its contacts
 
 private:
     struct Point {
         double speed = 0;  // in the last step
         bool known = false, touches = false;
     };
-    struct Last {  // of a barrier: its row, and the force of all points in the step to `until`
+    struct Last {  // last row of a barrier, and the force of all its points in the step to `until`
         int row = -1;
         double force = 0, until = -1;
     };
     int barrier_of(const BarrierOf&) const;
 
-    std::vector<char> profile_;  // of each barrier: whether it is one
+    std::vector<char> profile_;  // for each barrier: whether it is a profile
     std::vector<Impact> all_;
-    std::vector<Last> last_;  // of each barrier
+    std::vector<Last> last_;  // for each barrier
     std::vector<Point> points_;
 };
 

@@ -1,8 +1,8 @@
-// The rows of a run whose energy is looked at: one in `rows_between_looks`, and the last two. A
-// row's energy costs as much as many steps. While a pluck supplies energy, some `samples` rows tell
-// how much that is: each stands for those between it and the next. The rows follow from the scene
-// alone, so that what a run is called depends neither on its caller's energy probe nor on the size
-// of its blocks.
+// Chooses the rows of a run at which the energy is evaluated: one in `rows_between_looks`, and the
+// last two. The energy of a row costs about the same time that many steps cost. While a pluck
+// supplies energy, some `samples` rows measure the supplied energy, and each stands for the rows up
+// to the next sample. The rows follow from the scene alone, so that the verdict on a run depends
+// neither on the energy probe of the caller nor on the block size.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr long rows_between_looks = 256;
 
 struct Look {
     bool now;    // at this row
-    long until;  // the first row after it of which the same is not known
+    long until;  // the first later row with another answer
 };
 
 class Looks {
@@ -26,7 +26,8 @@ public:
             return static_cast<long>(
                 std::clamp(seconds * tap_rate, 0.0, static_cast<double>(rows)));
         };
-        for (const String& s : scene.strings)  // a row tells what was supplied since the row before
+        // a row reports the energy supplied since the previous row
+        for (const String& s : scene.strings)
             if (s.pluck)
                 plucks_.push_back({row(s.pluck->start) - 1,
                                    std::min(row(s.pluck->start + s.pluck->duration) + 3, rows)});
@@ -45,22 +46,22 @@ public:
         if (const Pluck* p = pluck_at(row)) {
             if (p->each() == 1) return {true, p->to};
             const long after = (row - p->from) % p->each();
-            // two, for the first tells nothing of what was before it
+            // Two rows, because the first one does not know the energy supplied before it.
             if (after < 2) return {true, std::min(row - after + 2, p->to)};
             return {false, std::min({row - after + p->each(), p->to, until})};
         }
         if (row % rows_between_looks == 0) return {true, row + 1};
         return {false, std::min(row - row % rows_between_looks + rows_between_looks, until)};
     }
-    // For how many rows this one tells what was supplied; 0: not even for itself, and its energy is
-    // not judged.
+    // Number of rows for which this row reports the supplied energy. 0: not even for itself, and
+    // its energy is not judged.
     long stands_for(long row) const {
         const Pluck* p = pluck_at(row);
         return !p || p->each() == 1 || row + 1 == rows_ ? 1
                : (row - p->from) % p->each() == 1       ? p->each()
                                                         : 0;
     }
-    // Rows that tell all that was supplied, and the energy of each from `since` on.
+    // Rows that report all the supplied energy, and the energy of each row from `since` on.
     Look back_at(long row, long since) const {
         if (row >= since) return {true, rows_};
         if (row == 0) return {true, 1};
@@ -70,7 +71,7 @@ public:
 
 private:
     static constexpr long samples = 64;
-    struct Pluck {  // rows, the last one excluded
+    struct Pluck {  // range of rows, without its last
         long from, to;
         long each() const { return to - from < 4 * samples ? 1 : (to - from) / samples; }
     };

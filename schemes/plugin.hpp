@@ -1,11 +1,12 @@
-// A table of Descriptor as a shared object, for schemes that are written as those of the tree are
-// and linked with jvari's libraries. Its source ends with
+// Exports a table of Descriptor from a shared object. The schemes are written like those of the
+// tree and linked with jvari's libraries. The source ends with
 //
 //     JVARI_PLUGIN(table)    // an array of Descriptor
 //
-// What crosses is C alone (open/jvari_scheme.h): the scene is read again from its text, so its
-// tables of obstacles must be found from where the program runs. open/jvari_scheme.hpp is for
-// schemes that need the arrays of the problem and no library. Leaves out: limits.
+// Only C crosses the boundary (open/jvari_scheme.h). The scene is read again from its text, so that
+// its tables of obstacles must be found from the working directory of the program.
+// open/jvari_scheme.hpp is for schemes that need the arrays of the problem and no library. Leaves
+// out: limits.
 #pragma once
 
 #include <deque>
@@ -102,7 +103,7 @@ inline std::int64_t facts(void* self, jvari_fact* to, std::int64_t room) {
     return -1;
 }
 
-class Tables {  // of the schemes of one plugin, made when they are first asked for
+class Tables {  // tables for the schemes of one plugin, made on first use
 public:
     explicit Tables(std::span<const Descriptor> all, const char* flags, bool optimised) {
         for (const Descriptor& d : all) add(d);
@@ -158,7 +159,7 @@ inline constexpr bool optimised = true;
 #else
 inline constexpr bool optimised = false;
 #endif
-inline const std::string& compiled_with() {  // the flags of the plugin
+inline const std::string& compiled_with() {  // compiler flags of the plugin
     static const std::string flags = std::string(optimised ? "optimised" : "not optimised") +
 #if defined(NDEBUG)
                                      ", NDEBUG"
@@ -182,7 +183,7 @@ inline const std::string& compiled_with() {  // the flags of the plugin
     return flags;
 }
 
-// Exported although all else is compiled with -fvisibility=hidden.
+// Exported although the rest is compiled with -fvisibility=hidden.
 #define JVARI_PLUGIN(schemes)                                                                      \
     extern "C" JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {                              \
         static const jvari::plugin::Tables tables(schemes, jvari::plugin::compiled_with().c_str(), \

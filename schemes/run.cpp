@@ -45,12 +45,12 @@ FlushDenormals::~FlushDenormals() = default;
 
 namespace {
 using Steady = std::chrono::steady_clock;
-constexpr auto patience = std::chrono::milliseconds(20);  // between two calls of progress
+constexpr auto patience = std::chrono::milliseconds(20);  // between two progress calls
 constexpr double most_rows =
     std::min(0x1p40, 0.5 * static_cast<double>(std::numeric_limits<long>::max()));
 
-// Tells the caller's progress how far the run is, and keeps what it throws out of a scheme's
-// noexcept code.
+// Reports progress to the caller, and carries the callback's exceptions past the scheme's noexcept
+// code.
 class Teller {
 public:
     Teller(const std::function<void(long, long)>& progress, long rows)
@@ -62,8 +62,8 @@ public:
         block.stop = [](void* self) { return static_cast<Teller*>(self)->tell(); };
         block.caller = this;
     }
-    // true: the run is to end. The clock costs as much as some steps: where questions come fast,
-    // few look at it
+    // true: the run is to end. Reading the clock costs about the same time that some steps cost, so
+    // only a few of many fast questions read it
     bool tell() noexcept {
         if (!thrown_ && ++calls_ < each_) return false;
         calls_ = 0;
@@ -92,7 +92,7 @@ private:
     std::exception_ptr thrown_;
 };
 
-// A scheme's word about the block it has just made, whose first step is `first` and whose rows have
+// Checks a scheme's status for the block just made, whose first step is `first` and whose rows have
 // `steps` each.
 void check(const Status& status, long first, const Block& block, double steps) {
     if (status.outcome == Outcome::ok) return;
@@ -111,9 +111,9 @@ std::vector<Fact> facts_of(const Scheme& scheme) {
     return with_context("tells its facts", [&] { return scheme.facts(); });
 }
 
-// Makes the rows of a trace, and knows which of them are sound: their taps are within what
-// `energy_budget` times the scene's energy could make of them, and they store no more than
-// `energy_budget` times the energy that was there at the start and has been supplied since.
+// Makes the rows of a trace, and decides which rows are sound. In a sound row the taps are within
+// the bound for `energy_budget` times the scene's energy. Its stored energy is at most
+// `energy_budget` times the initial plus the supplied energy.
 class Stepper {
 public:
     Stepper(Scheme& scheme, Trace& trace, const Scene& scene, int modes, const RunOptions& options,
@@ -126,13 +126,13 @@ public:
           kept_(options.energy),
           bounds_(tap_bounds(scene, modes)),
           beside_(static_cast<std::size_t>(options.block_rows) * (trace.names.size() + 3)) {
-        // a mode that aliases yields otherwise than the string's
+        // An aliasing mode has another compliance than the string's.
         const bool aliases = fact_of(facts_of(scheme), facts::modes_above_nyquist) > 0;
         constexpr double most = std::numeric_limits<double>::max();
         for (double& b : bounds_) b = aliases ? most : std::min(std::sqrt(energy_budget) * b, most);
     }
 
-    // The next rows, as many at most: their energy is looked at, or it is that of none of them.
+    // Returns the next rows, at most `rows`. Their energy is evaluated for all or for none.
     Block next(int rows) {
         const long row = trace_.rows;
         look_ = options_.timed ? Look{false, trace_.stride} : looks_.at(row);
@@ -144,9 +144,9 @@ public:
         return advance(told, trace_.rows);
     }
 
-    // The end of the rows up to `end` that are sound, once a block of them was made. Where one does
-    // not seem so, or the scheme has failed, the supply is summed row by row, and the rows since
-    // the last look are looked at as well.
+    // Returns the end of the sound rows up to `end`, after a block was made. If a row seems
+    // unsound, or the scheme has failed, the supply is summed row by row, and the rows since the
+    // last look are evaluated too.
     long sound_until(const Block& block, long end, bool failed) {
         double given = given_;
         const auto stands_for = [this](long row) { return looks_.stands_for(row); };
@@ -155,13 +155,13 @@ public:
         if (options_.timed) return sound;
         if (sound < end || failed) return look_back(end);
         if (look_.now) given_ = given;
-        // rows that are looked at together are so whatever blocks they come in
+        // rows that are evaluated together stay together in blocks of any size
         if (look_.now && end == look_.until) unlooked_ = end;
         return end;
     }
 
-    // Makes the rows up to `end` once more: what a block went on to do beyond those that are sound
-    // is in none of the scheme's facts, which would else be a matter of how long the block was.
+    // Makes the rows up to `end` once more. The scheme's facts then exclude the rest of the block
+    // beyond the sound rows, and so do not depend on the block length.
     void make_anew(long end) {
         scheme_.reset();
         for (long row = 0; row < end; row += options_.block_rows)
@@ -200,7 +200,7 @@ private:
         return block;
     }
 
-    // In a block that begins at `row`; `end` where there is none.
+    // For a block that begins at `row`; `end` if all are within bounds.
     long first_out_of_bounds(const Block& block, long row, long end) const {
         for (long n = row; n < end; ++n)
             for (int k = 0; k < block.taps; ++k)
@@ -209,7 +209,7 @@ private:
                     return n;
         return end;
     }
-    // Likewise, where its energy was asked for; `given` sums the supply.
+    // Likewise, for rows with evaluated energy; `given` sums the supply.
     template <class StandsFor>
     long first_unsound(const Block& block, long row, long end, double& given,
                        const StandsFor& stands_for) const {
@@ -244,12 +244,13 @@ private:
     const RunOptions& options_;
     Teller& teller_;
     const Looks looks_;
-    const bool kept_;             // the energy, in the trace
-    Look look_{};                 // at the rows of the block in hand
-    long unlooked_ = 0;           // the first row since the last look
-    double given_ = 0;            // energy until then [J]
-    std::vector<double> bounds_;  // of the taps; finite, so that what is not finite is beyond
-    // rows that are looked at where the trace keeps no energy: taps, then energy
+    const bool kept_;    // the energy, in the trace
+    Look look_{};        // for the rows in the current block
+    long unlooked_ = 0;  // the first row since the last look
+    double given_ = 0;   // energy until then [J]
+    // for the taps; finite, so that a value that is not finite is beyond
+    std::vector<double> bounds_;
+    // evaluated rows for which the trace keeps no energy: taps, then energy
     std::vector<double> beside_;
 };
 }  // namespace
@@ -268,7 +269,7 @@ long rows_of(const Scene& scene, const Settings& settings) {
     return std::lround(intervals) + 1;
 }
 
-// A scheme in continuous time has no rate: its rows are its steps.
+// A scheme in continuous time has no rate: its rows count as steps.
 Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunOptions& options) {
     Run result;
     Trace& trace = result.trace;
@@ -288,7 +289,7 @@ Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunO
     Teller teller(options.progress, trace.stride);
     Stepper stepper(scheme, trace, scene, modes_for(scene, settings), options, teller);
     const bool listened = options.progress || options.slow;
-    int rows = listened ? 1 : options.block_rows;  // of the next block
+    int rows = listened ? 1 : options.block_rows;  // rows in the next block
     while (trace.rows < trace.stride && result.status.outcome == Outcome::ok) {
         const long before_last = trace.stride - 1 - trace.rows;
         if (options.state && before_last == 0) result.state = scheme.state();

@@ -1,4 +1,4 @@
-// What every scheme checks before it is made.
+// Checks every scheme before the scheme is made.
 #include "schemes/scheme.hpp"
 
 #include <algorithm>
@@ -122,7 +122,7 @@ int steps_per_row(const Settings& s) {
 }
 
 namespace {
-double default_limit(const Settings& s) {  // of the modes that are carried unasked [Hz]
+double default_limit(const Settings& s) {  // for the modes carried by default [Hz]
     return s.sample_rate > 0 ? std::min(20e3, 0.5 * s.sample_rate) : 20e3;
 }
 }  // namespace

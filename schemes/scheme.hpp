@@ -1,8 +1,8 @@
-// The seam: everything a scheme has to offer, and all that the rest of the program knows of one.
+// Defines the interface between the schemes and the rest of the program.
 //
-// A scheme is made once for a scene and a setting (the only place that allocates or throws), then
-// steps block by block into a window of the caller's trace. Checks and values for `make`:
-// making.hpp. Out-of-tree schemes come as shared objects: plugin.hpp.
+// A scheme is made once for a scene and a setting; only then may it allocate or throw. Afterwards
+// it steps block by block into a window of the caller's trace. Checks and values for `make`:
+// making.hpp. Out-of-tree schemes come in shared objects: plugin.hpp.
 #pragma once
 
 #include <memory>
@@ -19,19 +19,19 @@ namespace jvari {
 
 class Impacts;
 
-// A window of the caller's trace: column-major, one row per tap interval.
+// Window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
-    long stride = 0;        // rows of the whole trace
+    long stride = 0;        // number of rows of the whole trace
     double* tap = nullptr;  // one column per tap of the scene
     // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
     double* energy = nullptr;
-    // one for each string, to be told what its contacts do (impacts.hpp); nullptr: nobody asks
+    // one for each string, to be filled with its contacts (impacts.hpp); nullptr: not requested
     Impacts* impacts = nullptr;
 
-    // Whether the caller wants no more of this run: advance() then returns at once, and nobody
-    // looks at what it returns or wrote. A scheme asks within a row, every few milliseconds of
-    // work, so that a long row can be ended; between blocks the caller sees to it itself.
+    // Tells whether the caller has abandoned this run. advance() then returns at once, and both its
+    // result and the rows are ignored. A scheme asks within a row, every few milliseconds of work,
+    // so that a long row can be ended. Between blocks the caller checks for itself.
     bool (*stop)(void* caller) = nullptr;  // nullptr: never
     void* caller = nullptr;
     bool stopped() const noexcept { return stop && stop(caller); }
@@ -45,18 +45,18 @@ inline void write_energy(const Block& out, int row, double stored, double suppli
     out.energy[out.stride + row] = supplied;
     out.energy[2 * out.stride + row] = dissipated;
 }
-constexpr long steps_between_questions = 1024;  // of a step that takes microseconds at most
+constexpr long steps_between_questions = 1024;  // for steps that take microseconds at most
 
 enum class Outcome { ok, diverged, not_converged };
 const char* name_of(Outcome);
 
 struct Status {
     Outcome outcome = Outcome::ok;
-    long step = 0;  // where it failed
+    long step = 0;  // step of the failure
 };
 
-// One number a scheme reports about its run: what it approximated, how hard it worked, what contact
-// did.
+// Number that a scheme reports about its run: an approximation, the work done, or a property of the
+// contacts.
 struct Fact {
     Fact(const FactName& known, double v) : name(known.name), value(v), unit(known.unit) {}
     // a plugin's own
@@ -67,21 +67,21 @@ struct Fact {
     std::string unit;  // "N"
 };
 
-// The value of a fact, NaN where the scheme does not report it. Where each of several strings has
-// its own: the least of smallest contact forces, of any other the largest.
+// Value of a fact, or NaN if the scheme does not report it. If each of several strings reports the
+// fact, the value is the least for smallest contact forces and the largest for any other fact.
 double fact_of(const std::vector<Fact>&, const std::string& name);
 inline double fact_of(const std::vector<Fact>& all, const FactName& known) {
     return fact_of(all, known.name);
 }
 
-// A mode of the free string as a scheme's own recursion has it: z = exp((i omega - sigma) dt) is a
-// root of it.
+// Mode of the free string in the scheme's own recursion, which has the root z = exp((i omega -
+// sigma) dt).
 struct FreeMode {
-    double omega = 0;  // damped angular frequency [rad/s]; 0 where overdamped
+    double omega = 0;  // damped angular frequency [rad/s]; 0 if overdamped
     double sigma = 0;  // decay rate [1/s]
 };
 
-// Of the modes of one string at one instant.
+// Modal displacements and velocities of one string at one instant.
 struct ModalState {
     std::vector<double> displacement, velocity;  // [m], [m/s]
 };
@@ -90,29 +90,31 @@ class Scheme {
 public:
     virtual ~Scheme() = default;
     virtual void reset() noexcept = 0;  // back to t = 0
-    // As reset(), but from where another stands between two blocks: a string that sounds is tuned,
-    // damped or plucked again without a cut. That one is of the same scheme, with as many modes,
-    // barriers and threads. False, and as it was, where the scheme cannot; else there is no start
-    // of the scene any more that reset() could go back to. Allocates nothing.
+    // Starts like reset(), but from the state of another scheme between two blocks: a sounding
+    // string is tuned, damped or plucked again without a cut. `from` is made by the same scheme,
+    // with equally many modes, barriers and threads. Returns false and changes nothing if the
+    // scheme cannot do this. After success there is no start of the scene left for reset() to
+    // restore. Allocates nothing.
     virtual bool start_from(const Scheme&) noexcept { return false; }
 
-    // For each row: write the state of this instant, then make the steps to the next row's
+    // For each row: writes the state of this instant, then makes the steps to the next row
     // (sample_rate/tap_rate of them). So the first row after reset() is the initial state. Contact
     // forces are means over the interval that ends at the row, 0 in row 0; supplied and dissipated
     // energy are sums over the same interval. Allocates nothing.
     virtual Status advance(const Block& out) noexcept = 0;
 
-    // doubles of state carried: no more than the scene needs
+    // number of doubles of state, no more than the scene needs
     virtual int dofs() const = 0;
-    // of the run so far; between blocks only
+    // Facts of the run so far; call this between blocks only.
     virtual std::vector<Fact> facts() const { return {}; }
 
-    // Modes 1, 2, ... of the string, of several the first, without its barriers and its thread;
-    // none where the scheme has no relation in closed form.
+    // Modes 1, 2, ... of the string (of the first string, if there are several), without its
+    // barriers and its thread. Empty if the scheme has no relation in closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
 
-    // At the instant of the next row, where another run that starts from it goes on as this one
-    // does: a scheme that keeps more than this, as of its contacts, has none. Between blocks only.
+    // State at the instant of the next row, from which another run would continue like this one. A
+    // scheme that keeps further state, for example of its contacts, returns an empty one. Call this
+    // between blocks only.
     virtual ModalState state() const { return {}; }
 };
 
@@ -122,85 +124,85 @@ struct Settings {
     double tap_rate = 44100;  // [Hz]
     // modes, or interior nodes for a scheme on a grid; 0: the scheme's default
     int modes = 0;
-    // of this scheme alone; an unknown one is refused
+    // options of this scheme; an unknown one is refused
     std::vector<std::pair<std::string, std::string>> options;
 };
 
-// The scheme cannot represent this scene, or not with these settings; the text names what is
-// missing.
+// Thrown if the scheme cannot represent this scene, or not with these settings; the text names the
+// missing part.
 struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What a scheme can be told beside its settings. Its value is a word where there are choices, else
-// what the meaning says.
+// Option of a scheme beside its settings. The value is a word if there are choices; otherwise the
+// meaning describes it.
 struct Option {
     const char* name;
-    // as it would be written; "": depends on scene and settings as `meaning` tells
+    // written like a value of the option; "": depends on scene and settings, see `meaning`
     const char* fallback;
     const char* meaning;          // with the unit
-    const char* choices[6] = {};  // the words that it takes; none: a number or another text
+    const char* choices[6] = {};  // the words that the option takes; none: a number or another text
     std::span<const char* const> words() const;
 };
 
-// A feature that a scheme takes and changes, at any rate and with any number of modes. Where a
-// scene needs the feature the scheme reports the fact, which says how; of several facts for one
-// feature at least one.
+// Feature that a scheme takes but changes, at any rate and with any number of modes. If a scene
+// needs the feature, the scheme reports the fact, which says how. If there are several facts for
+// one feature, it reports at least one.
 struct Approximation {
     Feature feature;
     FactName fact;
 };
 
-// A boundary of soundness that is known: positive on the sound side, 0 on it, NaN where it has
-// nothing to say of the scene.
+// Known limit of soundness: positive on the sound side, 0 at the limit, NaN if the limit does not
+// apply to the scene.
 struct Limit {
-    const char* name = nullptr;  // as maps call it, "grid_limit"
-    // of a scene of one string; margin_of asks for all
+    const char* name = nullptr;  // name in maps, "grid_limit"
+    // for a scene with one string; margin_of covers all strings
     double (*margin)(const Scene&, const Settings&) = nullptr;
 };
 
-// How a reference confirms itself in a certificate: options to run it with.
+// Ways in which a reference confirms itself in a certificate: options to run it with.
 using OptionValues = std::vector<std::pair<std::string, std::string>>;
 struct Confirmation {
-    // of its own accuracy; {} is what it does unasked
+    // other accuracies of this reference; {} is the default run
     std::vector<OptionValues> accuracies = {{}};
     // another method, for a scene that no other reference represents
     std::vector<OptionValues> other_methods = {};
 };
 
-enum class Balance { exact, to_tolerance, none };  // what the energy columns promise
-// continuous: a reference that has no sample rate
+enum class Balance { exact, to_tolerance, none };  // promise about the energy columns
+// continuous: a reference without a sample rate
 enum class Clock { stepped, continuous };
 
 struct Descriptor {
     const char* name;
     const char* source;   // "van Walstijn et al. 2016, eqs 38-49"
-    Features represents;  // what it takes, those that it approximates among them
+    Features represents;  // all features that it takes, including the approximated ones
     Balance balance;
     Clock clock;
-    // Called by make_scheme alone, for one string or for all on a moving body; throws Refusal or
+    // Called only by make_scheme, for one string or for all on a moving body; throws Refusal or
     // BadScene.
     std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&, const Settings&);
     std::span<const Option> options = {};
     std::span<const Approximation> approximates = {};
-    // what the features cannot express, one sentence for the capability table
+    // one sentence for the capability table about properties that the features cannot express
     const char* note = "";
     Limit limit = {};
-    // of those able the highest stands in where there is no reference
+    // The able scheme of the highest rank stands in if there is no reference.
     int stand_in_rank = 1;
-    Confirmation (*confirmation)(const Scene&) = nullptr;  // of a reference
-    // `make` gets all strings of a scene also where nothing couples them
+    Confirmation (*confirmation)(const Scene&) = nullptr;  // for a reference
+    // `make` gets all strings of a scene even if nothing couples them
     bool all_strings = false;
-    // of a scheme from outside: what its `make` knows it by
+    // for a scheme from outside: a pointer by which its `make` recognises it
     const void* own = nullptr;
-    // why its cost is no measure: "interpreted, not compared"
+    // reason why the cost is not a measurement: "interpreted, not compared"
     const char* untimed = "";
 };
 
-// The only way to make a scheme: refuses features that the scheme does not represent, options that
-// it does not declare or finds twice and words that an option does not take, then calls `make`,
-// once for each string of the scene, or for all on a moving body. Throws Refusal, BadScene, or
-// BadScheme.
+// Makes a scheme; there is no other way. Refuses features that the scheme does not represent,
+// options that it does not declare or finds twice, and words that an option does not take. Then
+// calls `make`, once for each string of the scene, or once for all on a moving body. Throws
+// Refusal, BadScene, or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
 }  // namespace jvari

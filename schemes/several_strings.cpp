@@ -7,7 +7,7 @@
 namespace jvari {
 
 namespace {
-constexpr int rows_at_a_time = 64;  // of one string after the other
+constexpr int rows_at_a_time = 64;  // rows for one string before the next string's turn
 
 struct OneOfSeveral {
     std::unique_ptr<Scheme> scheme;
@@ -80,11 +80,11 @@ private:
         }
     }
 
-    Status advance_part(const Block& out) noexcept {  // of no more than rows_at_a_time
+    Status advance_part(const Block& out) noexcept {  // advances rows_at_a_time rows at most
         advance_each(out, out.rows);
         if (out.stopped()) return {};
         Status failed;
-        int rows = out.rows;  // to the row of the first failure
+        int rows = out.rows;  // ends at the row with the first failure
         for (const auto& [own, status] : of_each_) {
             if (status.outcome == Outcome::ok ||
                 (failed.outcome != Outcome::ok && status.step >= failed.step))
@@ -107,8 +107,8 @@ private:
         return failed;
     }
 
-    // To the end of the rows that count: what a string went on to do beyond the failure of another
-    // is in none of its facts.
+    // Repeats the run up to the end of the valid rows. A string's motion after another string's
+    // failure thus enters none of its facts.
     void step_anew(Block out) noexcept {
         out.impacts = nullptr;
         for (auto& s : strings_) s.scheme->reset();
@@ -122,12 +122,13 @@ private:
     double steps_per_row_;
     long done_ = 0;  // rows since the start
     std::vector<double> tap_, energy_;
-    std::vector<std::pair<Block, Status>> of_each_;  // what each wrote last, and how it ended
+    // for each string: the block last written, and its status
+    std::vector<std::pair<Block, Status>> of_each_;
 };
 
 std::string of_string(int k) { return "string." + std::to_string(k); }
 
-// of the one string a scheme was made for: "string.0.tension", "string.damping.file"
+// Key in the scene of one string: "string.0.tension", "string.damping.file"
 std::string renamed(const std::string& key, int k) {
     for (const std::string own : {"string.0.", "string."})
         if (key.starts_with(own)) return of_string(k) + "." + key.substr(own.size());

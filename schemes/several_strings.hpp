@@ -1,5 +1,5 @@
-// Several strings as one scheme. Strings act on each other only through a body; without one each is
-// a scheme of its own, and what is heard of all of them is a sum.
+// Runs several strings as one scheme. Strings act on each other only through a body. Without a body
+// each string is a scheme by itself, and a tap that hears several strings hears the sum.
 #pragma once
 
 #include <memory>
@@ -10,25 +10,25 @@
 
 namespace jvari {
 
-// One scheme per string of the scene, advanced one after the other: taps of one string are that
-// string's, forces of all strings and the energy columns are sums in the order of the strings. The
-// outcome is that of the string that fails first; what fails names its string.
+// Makes one scheme per string of the scene and advances them one after the other. A tap on a string
+// comes from that string alone; forces on all strings and the energy columns are sums in string
+// order. The outcome is the one from the string that fails first, and a failure names its string.
 std::unique_ptr<Scheme> several_strings(const Descriptor&, const Scene&, const Settings&);
 
-// ---- One string of several, for whatever steps them together.
+// ---- One string of several, for any scheme that steps them together.
 
-struct HeardTap {  // of the scene, by one string
+struct HeardTap {  // a tap of the scene, on one string
     int column;
-    bool first;  // the first string that is heard there, so that nothing is added to nothing
+    bool first;  // true for the first string heard there, so that nothing is added to nothing
 };
 std::vector<HeardTap> heard_taps(const Scene&, int string, std::vector<bool>& heard_already);
 
-std::vector<Fact> facts_of_string(int, std::vector<Fact>);  // named after it
+std::vector<Fact> facts_of_string(int, std::vector<Fact>);  // names each fact after the string
 std::string named_after_string(int, const char* refusal);
-// its key: that of the scene of this string alone
+// The error gets the key from the scene of this string alone.
 BadScene named_after_string(int, const BadScene&);
 
-// make(scene of that string alone); what it refuses names the string, where there are several.
+// Calls make(scene of that string alone); a refusal names the string if there are several.
 template <class Make>
 auto made_of_string(const Scene& scene, int string, Make make) {
     if (scene.strings.size() == 1) return make(alone(scene, string));

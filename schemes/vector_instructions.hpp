@@ -1,6 +1,6 @@
-// The vector instructions that the kernels of this tree run with on this machine: the last digits
-// of a trace depend on them. They are the best of those that the processor has and Highway
-// compiled, by the same dispatch as the kernels'.
+// Names the vector instructions that the kernels use on this machine: the last digits of a trace
+// depend on them. They are the best set that the processor has and Highway compiled, chosen by the
+// dispatch that the kernels use.
 #pragma once
 
 #include <string>

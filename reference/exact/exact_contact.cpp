@@ -1,17 +1,18 @@
-// The exact reference: a string against one-sided contacts, event-driven, no step size in it.
+// Exact reference: a string against one-sided contacts, event-driven, without a step size.
 //
-// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck); contact loss of
+// Sources: van Walstijn et al. 2016, eqs 1-22 (string, thread, barrier, pluck); contact loss from
 // Issanchou et al. 2016, eq 24. The string is linear, only the contact points are not. So the modes
 // are touched twice a window (macro_window.hpp), and between its events a few short vectors move.
 // From one event to the next the points follow
-//   - their free motion, where nothing touches;
-//   - touching_set.hpp, where linear contacts touch: a slow polynomial and one fast part per point,
-//   or a polynomial where they are soft;
-//   - collocated_contact.hpp, step by step (contact_steps.hpp), where the law is no spring or there
-//   are many contacts.
-// crossing.hpp finds the next event and misses none. A profile acts as the points of
-// profile_points.hpp. With compliance=matched what the modes left out would yield and radiate
-// stands in series with barriers and thread (in_series.hpp).
+// - their free motion, if nothing touches;
+// - touching_set.hpp, if linear contacts touch: a slow polynomial and one fast part per point, or a
+// polynomial if they are soft;
+// - collocated_contact.hpp, step by step (contact_steps.hpp), if the law is no spring or there are
+// many contacts.
+//
+// crossing.hpp finds the next event and misses none. A profile acts like the points in
+// profile_points.hpp. With compliance=matched the yield and radiation of the omitted modes stand in
+// series with barriers and thread (in_series.hpp).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -36,23 +37,24 @@
 namespace jvari {
 
 namespace {
-// contacts, for every set of them to be split beforehand
+// number of contacts for which every touching set is split in advance
 constexpr int most_sets_of = most_pairs / 2;
 constexpr double negligible = 1e-18;
-// What one window, and one step of a collocated contact, may cut off of the tolerance, so that
-// every tap keeps it: 1317 taps of 400 random lossless strings of 20 to 60 modes over 20 ms do, but
-// for those that change by more where the start moves by 1e-11.
+// Share of the tolerance that one window, and one step of a collocated contact, may cut off, so
+// that every tap keeps the tolerance. A test on 1317 taps from 400 random lossless strings with 20
+// to 60 modes over 20 ms confirms this. The only exceptions are taps that change by more if the
+// start moves by 1e-11.
 constexpr double window_share = 5e-4, step_share = 0.02;
 constexpr double share_of(double tolerance, double share) {
     constexpr double least = 1e-14;
     return std::max(share * tolerance, std::min(tolerance, least));
 }
-// (Block::stopped): of one contact in collocation, 1 ms; of twenty, half a second
+// (Block::stopped): 1 ms for one contact in collocation; half a second for twenty
 constexpr long phases_between_questions = 64;
 
-// The largest value in [from, end]. A lossy contact pushes hardest on the way in and may pull on
-// the way out: the extremes of its force are those of a polynomial in time, sought by samples and,
-// where a sample is the largest of three, by golden sections around it.
+// Largest value in [from, end]. A lossy contact pushes hardest on the way in and may pull on the
+// way out. The extremes of its force are extremes of a polynomial in time. They are sought by
+// samples, and by golden sections around each sample that is the largest among three.
 template <class Force>
 double most_in(double from, double end, const Force& force) {
     constexpr int samples = 16;
@@ -73,11 +75,11 @@ double most_in(double from, double end, const Force& force) {
     return most;
 }
 
-// [windows] A shorter phase makes no progress: in a contact that ends so soon the penetration is
-// below rounding. A run ends after a thousand of them in a row.
+// [windows] A shorter phase makes no progress: in such a brief contact the penetration is below
+// rounding. A run ends after a thousand of them in a row.
 constexpr double least_progress = 1e-9;
 
-struct Extremes {  // of the run so far
+struct Extremes {  // over the run so far
     double events = 0, windows = 0, steps = 0, smallest_force = HUGE_VAL, largest_force = 0,
            deepest = 0, tolerance = 0;
 };
@@ -97,9 +99,9 @@ double exponent_of(const std::vector<BarrierLaw>& laws) {  // the one farthest f
     return exponent;
 }
 
-// A spring that gives way by 1e-8 of what the string lacks at the barrier stands for one that does
-// not give way at all: the motion errs by about as much. Where the modes alone meet it nothing but
-// the barrier would give way.
+// A rigid barrier is represented by a spring with 1e-8 of the compliance that the string lacks at
+// the barrier; the motion errs by about this ratio. If only the kept modes meet the barrier,
+// nothing but the barrier would give way.
 String with_springs(String s, const Descriptor& descriptor, const std::optional<InSeries>& series) {
     constexpr double share = 1e-8;
     for (std::size_t a = 0; a < s.barriers.size(); ++a) {
@@ -273,7 +275,7 @@ private:
         if (w.series()) std::copy_n(w.series_state(), z_.size(), z_.begin());
         return std::isfinite(y_[0]);
     }
-    // to the next event, or as far as this way of going on reaches
+    // to the next event, or to the end of the validity of the present method
     double phase(double now, double left, bool probe) noexcept {
         MacroWindow& w = window_;
         settle();
@@ -313,7 +315,7 @@ private:
                 else collocation_.moments(i, until, count, at(moment_, i));
         };
         if (probe && end > 0) {
-            // of the phases before, seen from an earlier instant, and of this
+            // from earlier phases, seen from an earlier instant, and from this phase
             const auto all_moments = [&](double when, double* M, double* F) {
                 double earlier[3 * most_terms];
                 std::fill_n(earlier, w.size, 0.0);
@@ -347,7 +349,7 @@ private:
         }
         return end;
     }
-    // One collocation step, no longer than `left` and than the first crossing.
+    // Makes one collocation step, no longer than `left` and than the first crossing.
     double collocated(double left, int& crossed) noexcept {
         const MacroWindow& w = window_;
         using From = CollocatedContact::From;
@@ -361,7 +363,7 @@ private:
             ++extremes_.steps;
             if (steps_.fits(error)) break;
             leaves_ = HUGE_VAL;
-            if (error < 1e-2) {  // else the path says nothing
+            if (error < 1e-2) {  // otherwise the path means nothing
                 collocation_.path(r_.data(), path_.data());
                 double end = d;
                 const int first = next_crossing(end, w.size);
@@ -390,7 +392,7 @@ private:
         leaves_ = leaving(d, crossed);
         return d;
     }
-    // When the first of the points that touch lets go, from the end of a step d on, by its
+    // Time at which the first touching point lets go, from the end of a step d on, by its
     // acceleration there.
     double leaving(double d, int but) const noexcept {
         double first = HUGE_VAL;
@@ -412,7 +414,7 @@ private:
         return {touching_[a] ? -1.0 : 1.0,
                 path_.data() + static_cast<long>(a) * window_.stride,
                 terms,
-                collocated_ ? HUGE_VAL  // a collocated path is as fast as the contact
+                collocated_ ? HUGE_VAL  // a collocated path moves at the contact's own speed
                 : touch_    ? touch_->set.growth()
                             : window_.reach,
                 amplitude_.data() + a * pairs,
@@ -427,14 +429,14 @@ private:
         }
         return first;
     }
-    // which points touch, by where they are and where they go
+    // Decides which points touch, by position and velocity
     void settle() noexcept {
         const MacroWindow& w = window_;
         for (int a = 0; a < w.contacts; ++a) {
             const double* r = at(r_, a);
             const double* leading = std::find_if(r, r + 2, [](double c) { return c != 0; });
             double sign = leading == r + 2 ? 0 : *leading;
-            if (sign == 0) {  // it lies on the surface, at rest: what pulls there
+            if (sign == 0) {  // on the surface, at rest: decided by the pull there
                 sign = r[2];
                 for (int b = 0; b < w.contacts; ++b)
                     if (at(r_, b)[0] < 0)
@@ -458,7 +460,7 @@ private:
         const MacroWindow& w = window_;
         const auto combine = w.sweep().combine;
         double e[3 * most_terms], later[3 * most_terms], shifted[most_terms];
-        const bool last = by == left;  // of the window: nobody asks for the free motion beyond it
+        const bool last = by == left;  // last in the window: nobody needs the free motion beyond it
         if (!last) powers(by, w.size, e);
         for (int a = 0; !last && a < w.contacts; ++a) {
             double* r = at(r_, a);
@@ -502,11 +504,11 @@ private:
         const auto force = [&](double at) { return collocation_.force(which, at); };
         extremes_.largest_force = std::max(extremes_.largest_force, most_in(0, end, force));
         double least = -most_in(0, end, [&](double at) { return -force(at); });
-        // where it lets go a polynomial dips by what the step errs
+        // at release a polynomial dips by the error of the step
         if (law_[touched_[which]].clipped) least = std::max(0.0, least);
         extremes_.smallest_force = std::min(extremes_.smallest_force, least);
     }
-    // of the phase in hand
+    // for the current phase
     void tell_impacts(double now, double end) noexcept {
         const double second = window_.seconds();
         const int touched = static_cast<int>(touched_.size());
@@ -521,7 +523,7 @@ private:
                 part.impulse += at(moment_, behind)[0] * second;
                 if (collocated_) part.energy_lost += collocation_.dissipated(behind);
             }
-            if (part.start == 0) part.speed_in = std::nan("");  // it was on
+            if (part.start == 0) part.speed_in = std::nan("");  // the contact was on
             const auto force = [&](double at) {
                 double sum = 0;
                 for (int i = first; i < behind; ++i)
@@ -577,41 +579,41 @@ private:
     CollocatedContact collocation_;
     WindowEnergies spending_;
     std::vector<std::optional<WindowEnergies::Touch>>
-        // by the bits of their points; empty where there are too many contacts or a law is no
+        // indexed by the bits of their points; empty if there are too many contacts or a law is no
         // spring
         sets_;
     Readout readout_;
     std::vector<Pluck> pluck_;  // none or one
     PluckParts parts_;
-    double tap_rate_, tolerance_, interval_;  // of an interval: windows
+    double tap_rate_, tolerance_, interval_;  // interval length in windows
     // y and u at t = 0; m omega0^2, per mode; z at t = 0
     std::vector<double> start_, start_u_, stiffness_, start_z_;
 
     std::vector<double> y_, u_;  // the state
-    std::vector<double> z_;      // and that of what is in series
+    std::vector<double> z_;      // for the series compliance
     std::vector<char> touching_, known_zero_;
     long row_ = 0;
     double bridge_impulse_ = 0, thread_impulse_ = 0;
-    WindowEnergies::Sums energies_;  // of the interval that ends here
+    WindowEnergies::Sums energies_;  // for the interval that ends here
     int idle_ = 0;
     ContactSteps steps_;
-    double rigid_stiffness_ = 0;  // of the stiffest spring that stands for a rigid barrier [N/m]
-    double leaves_ = HUGE_VAL;    // when the first of the points in collocation lets go, perhaps
+    double rigid_stiffness_ = 0;  // stiffest spring that represents a rigid barrier [N/m]
+    double leaves_ = HUGE_VAL;    // estimated time at which the first collocated point lets go
     Extremes extremes_;
-    std::vector<int> barrier_;    // of each contact
-    Impacts* impacts_ = nullptr;  // of the block in hand
+    std::vector<int> barrier_;    // for each contact
+    Impacts* impacts_ = nullptr;  // from the current block
     double clock_ = 0;            // when the window begins [s]
 
-    // one window; rows of window_.stride
+    // one window; rows with window_.stride
     std::vector<double> r_, path_, moments_, moment_;
     std::vector<std::complex<double>> amplitude_;
     std::vector<int> touched_;
-    // of the springs that touch; nullptr: none do, or what does goes by collocation
+    // for the touching springs; nullptr: none touch, or contact is collocated
     WindowEnergies::Touch* touch_ = nullptr;
     bool collocated_ = false, onward_ = false;  // this phase, and the one before
-    // moments of this phase that are not negligible: (reach x step)^i/i!
+    // number of moments in this phase that are not negligible: (reach x step)^i/i!
     int count_ = 0;
-    double counted_until_ = -1;  // by a step of that length
+    double counted_until_ = -1;  // for a step with that length
 };
 
 constexpr Option tolerance_option{"tolerance", "1e-10",
@@ -626,7 +628,8 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
         throw Refusal("option tolerance: expected a number between 0 and 1");
     Settings unsampled = settings;
     unsampled.sample_rate = 0;
-    Settings chosen = settings;  // over a rigid barrier matched by itself, as nothing else will do
+    // over a rigid barrier matched by default, since no other choice works
+    Settings chosen = settings;
     const auto says = [](const auto& o) { return o.first == compliance_option.name; };
     if (needed_by(scene).has(Feature::rigid_barrier) &&
         std::none_of(chosen.options.begin(), chosen.options.end(), says))

@@ -1,6 +1,7 @@
-// Exact flight of a string that touches no barrier, thread and pluck acting, until it reaches one:
-// a macro window without its contacts, and the first crossing of its gaps. Times are in units of
-// 1/rate (oscillators.hpp), and so are the velocities here.
+// Computes the exact flight of a string that touches no barrier, with thread and pluck acting,
+// until it reaches one. The flight uses a macro window without its contacts and finds the first
+// crossing of its gaps. Times are in units of 1/rate (oscillators.hpp), and so are the velocities
+// here.
 #pragma once
 
 #include <algorithm>
@@ -30,16 +31,16 @@ public:
 
     struct Landing {
         double length;  // flown; negative: the state is no number
-        int contact;    // which barrier is reached, -1: none yet
+        int contact;    // barrier reached, -1: none yet
     };
-    struct Sums {                       // of a row's interval
+    struct Sums {                       // sums over a row's interval
         double bridge = 0, thread = 0;  // [N s]
         WindowEnergies::Sums energies = {};
     };
-    std::vector<double> z;  // of what is in series (in_series.hpp), of the present state
+    std::vector<double> z;  // present state of the series compliance (in_series.hpp)
 
-    // One window, no longer than `left`. `leaving`: the barrier whose surface the string has just
-    // left, -1: none. Energies where `probe`.
+    // Flies for one window, at most `left`. `leaving`: the barrier whose surface the string has
+    // just left, -1: none. Energies are computed if `probe`.
     Landing fly(double left, bool plucked, double since_pluck, int leaving, double* y, double* u,
                 Sums& sums, bool probe) noexcept {
         MacroWindow& w = window;
@@ -55,7 +56,7 @@ public:
             std::copy_n(w.free_motion(a), w.size, r);
             if (a == leaving) r[0] = 0;
             const double* leading = std::find_if(r, r + w.size, [](double c) { return c != 0; });
-            if (leading != r + w.size && !(*leading > 0)) {  // it touches already, or is no number
+            if (leading != r + w.size && !(*leading > 0)) {  // the point touches already, or is NaN
                 for (int i = 0; i < w.osc.padded; ++i) u[i] /= w.length;
                 return *leading < 0 ? Landing{0, a} : Landing{-1, -1};
             }
@@ -84,9 +85,10 @@ public:
     }
 
 private:
-    static constexpr double of_window = 1e-15;  // relative: what a window cuts is below rounding
+    // relative: the window's truncation is below rounding
+    static constexpr double of_window = 1e-15;
 
-    double longest_plucked_ = 1, tolerance_ = 0;  // of a window under the pluck [window]
+    double longest_plucked_ = 1, tolerance_ = 0;  // for a window under the pluck [window]
     std::vector<double> r_, none_;
     WindowEnergies energies_;
 };

@@ -1,6 +1,6 @@
-// The body's modes as oscillators, in the form of the scheme that steps the strings: exact
-// frequency and decay by the coefficients of modal_coefficients.hpp, so that a free body sounds as
-// it should at any rate.
+// Steps the body's modes as oscillators, in the form of the scheme that steps the strings. The
+// coefficients of modal_coefficients.hpp give exact frequency and decay, so that a free body sounds
+// right at any rate.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace jvari {
 
-// Throws Refusal: above half the rate it would alias.
+// Throws Refusal: above half the rate the mode would alias.
 void must_be_below_half_the_rate(const BodyMode&, double dt);
 
 template <class Mode>
@@ -24,7 +24,7 @@ public:
 
 protected:
     explicit BodyOf(double dt) : dt_(dt) {}
-    template <class Make>  // of its angular frequency and decay rate
+    template <class Make>  // called with angular frequency and decay rate
     void add(const std::vector<BodyMode>& modes, Make make) {
         for (const BodyMode& m : modes) {
             must_be_below_half_the_rate(m, dt_);
@@ -50,7 +50,7 @@ struct BodyMode2 {       // van Walstijn et al. 2016, eqs 38-43: zeta = dt/2 z'
 class TwoPointBody : public BodyOf<BodyMode2> {
 public:
     static constexpr int levels = 1;  // from the older to the newer
-    template <class Law>              // A, B of a mode: (omega0, sigma, dt)
+    template <class Law>              // A, B for a mode: (omega0, sigma, dt)
     TwoPointBody(const std::vector<BodyMode>& modes, double dt, Law law) : BodyOf(dt) {
         add(modes, [&](const BodyMode& m, double omega0, double sigma) {
             const auto [A, B] = law(omega0, sigma, dt);
@@ -87,21 +87,21 @@ public:
     double displacement(int) const noexcept {
         return sum([](const BodyMode2& m) { return m.z; });
     }
-    double velocity() const noexcept {  // at the instant of the row
+    double velocity() const noexcept {  // at the row's instant
         return 2 / dt_ * sum([](const BodyMode2& m) { return m.zeta; });
     }
-    double velocity_stored() const noexcept { return velocity(); }  // at that of the energy
+    double velocity_stored() const noexcept { return velocity(); }  // at the energy's instant
     double stored() const noexcept {
         return sum([](const BodyMode2& m) { return (m.zeta * m.zeta + m.A * m.z * m.z) / m.xi; });
     }
 };
 
-// Issanchou et al. 2016, eq 14, as displacement and increments
+// Issanchou et al. 2016, eq 14, in displacement and increments
 struct BodyMode3 {
     double mass, loss, kappa;  // [kg]; 1 - C~, 1 + C~ - C
     // z^n, z^{n+1} - z^n, z^n - z^{n-1}
     double z = 0, d = 0, last = 0;
-    double free() const { return (1 - loss) * d - kappa * (z + d); }  // of the increment after d
+    double free() const { return (1 - loss) * d - kappa * (z + d); }  // the increment after d
     void rest() { z = d = last = 0; }
 };
 class ThreePointBody : public BodyOf<BodyMode3> {
@@ -117,7 +117,7 @@ public:
         return sum([this](const BodyMode3& m) { return dt_ * dt_ / m.mass; });
     }
     double kappa() const { return dt_ * dt_; }
-    double least_mass() const {  // that its energy shows against a velocity of w [kg]
+    double least_mass() const {  // mass that its energy shows against a velocity of w [kg]
         return 1 / sum([](const BodyMode3& m) {
                    return 1 / (m.mass * (1 - 0.5 * m.loss - 0.25 * m.kappa));
                });
@@ -128,7 +128,7 @@ public:
             m.last = -m.d;
         }
     }
-    BodyMotion coming() const noexcept {  // of the step centred on the level after z^n
+    BodyMotion coming() const noexcept {  // for the step centred on the level after z^n
         BodyMotion b;
         for (const auto& m : modes_) {
             b.w += m.z;
@@ -152,7 +152,7 @@ public:
         }
         return moved;
     }
-    double displacement(int level) const noexcept {  // 0: of the row; 1: after it
+    double displacement(int level) const noexcept {  // 0: at the row; 1: after it
         return sum([level](const BodyMode3& m) { return m.z + (level == 1 ? m.d : 0); });
     }
     double velocity() const noexcept {

@@ -1,10 +1,10 @@
-// All strings of a scene on a body that moves, as one string for the driver
-// (driver/string_step.hpp): what body_step.hpp derives, stepped.
+// Steps all strings of a scene on a moving body together, in the form of one string for the driver
+// (driver/string_step.hpp). body_step.hpp derives the equations.
 //
-// Beside what a StringStep has, a string has here: inertia(), sum mu_i v_i'' of the motion without
-// forces; pluck() [N]; momentum() = sum mu_i v_i' at the instant of the energy. Of three points it
-// also has share(), the inertia that its coordinates take of the body's: sum mu_i^2/m_i, m_i the
-// least mass that the energy of the scheme shows.
+// Each string here has three functions beside the StringStep ones: inertia(), sum mu_i v_i'' for
+// the motion without forces; pluck() [N]; momentum() = sum mu_i v_i' at the instant of the energy.
+// A string with three points also has share(), the inertia that its coordinates take from the body:
+// sum mu_i^2/m_i, with m_i the least mass that the scheme's energy shows.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace jvari {
 
-// The taps of a scene on one of its strings, and how much of w and w' they hear beside v.
+// Taps on one string, and the weights with which they hear w and w' beside v.
 struct BodyTap : HeardTap {
     double on_w = 0, on_speed = 0;  // per m and m/s
 };
@@ -145,11 +145,11 @@ public:
 private:
     struct Part {
         std::unique_ptr<String> string;
-        std::vector<int> place;   // of its points among all
-        std::vector<double> own;  // workspace: what is of its points alone
-        double finger;            // psi where the pluck acts
+        std::vector<int> place;   // index of each point among all points
+        std::vector<double> own;  // workspace: the part for this string's points alone
+        double finger;            // psi at the pluck's position
     };
-    struct Heard {  // of a tap of the scene, by a string
+    struct Heard {  // a tap in the scene, on one string
         int part, tap;
         BodyTap by;
     };
@@ -189,7 +189,7 @@ private:
         for (std::size_t k = 0; k < p.own.size(); ++k) p.own[k] = all[p.place[k]];
         return p.own.data();
     }
-    // after the free motion of every string
+    // Call this after the free motion of every string.
     void gather(BodyStep& by, const BodyMotion& motion) noexcept {
         double inertia = 0;
         pluck_ = 0;
@@ -212,11 +212,11 @@ private:
     StringPoints points_;
     BodyStep step_, start_;
     std::vector<double> older_, now_, free_;
-    double pluck_ = 0;  // of the step: sum psi(x_e) F_e [N]
+    double pluck_ = 0;  // for the step: sum psi(x_e) F_e [N]
 };
 
-// One scheme of one string for each string of the scene; what it refuses names its string.
-template <class String, class Make>  // make(scene of one string) -> std::unique_ptr<String>
+// Makes a single-string scheme for each string in the scene; a refusal names its string.
+template <class String, class Make>  // make(single-string scene) -> std::unique_ptr<String>
 std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) {
     std::vector<std::unique_ptr<String>> all;
     for (int k = 0; k < static_cast<int>(scene.strings.size()); ++k)
@@ -224,8 +224,8 @@ std::vector<std::unique_ptr<String>> each_string(const Scene& scene, Make make) 
     return all;
 }
 
-// The scheme of one string by a rule, or of all strings on a moving body. make as above, body() ->
-// the body in the form of that scheme.
+// Makes the scheme for one string by a rule, or for all strings on a moving body. `make` is the
+// same function; body() returns the body in the scheme's own form.
 template <class String, class Make, class MakeBody>
 std::unique_ptr<Scheme> on_its_support(const Descriptor& scheme, const Scene& scene,
                                        const Settings& settings, const RuleChoice& rule, Make make,

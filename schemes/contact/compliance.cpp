@@ -1,7 +1,8 @@
 // Static deflection of the stiff string, averaged over footprints. Footprints apart from each other
-// have a closed form: the average of exp(l x) over a cosine of width w about c is exp(l c) pi^2
-// cosh(l w/2)/(pi^2 + l^2 w^2). Overlapping ones are integrated by Gauss's rule on panels that grow
-// geometrically from every place where the integrand has a kink or a boundary layer of width 1/l.
+// have a closed form: averaging exp(l x) over a cosine with width w about c gives exp(l c) pi^2
+// cosh(l w/2)/(pi^2 + l^2 w^2). Overlapping footprints are integrated by Gauss's rule on panels
+// that grow geometrically from every kink of the integrand and every boundary layer, whose width is
+// 1/l.
 #include "schemes/contact/compliance.hpp"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace jvari {
 using std::numbers::pi;
 
 namespace {
-double decay_of(const String& s) {  // l [1/m]; 0 where the string has no bending stiffness
+double decay_of(const String& s) {  // l [1/m]; 0 if the string has no bending stiffness
     return s.bending_stiffness > 0 ? std::sqrt(s.tension / s.bending_stiffness) : 0;
 }
 
@@ -47,8 +48,8 @@ constexpr std::array<double, 8> share = {0.1894506104550685, 0.1826034150449236,
                                          0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
                                          0.0622535239386479, 0.0271524594117541};
 
-// The average of f over a footprint; `breaks` are the places where f is not smooth, `layer` the
-// width of what is steep beside them.
+// Averages f over a footprint; `breaks` are the places at which f is not smooth, `layer` the width
+// of the steep regions beside them.
 template <class F>
 double averaged(const Footprint& p, double layer, std::vector<double> breaks, const F& f) {
     if (p.width == 0) return f(p.position);
@@ -99,7 +100,7 @@ double static_deflection(const String& s, const Footprint& p, const Footprint& q
     if (const auto* table = measured(s))
         return over_modes(s, static_cast<int>(table->frequency_hz.size()), {p}, q);
     const double l = decay_of(s), L = s.length, layer = l > 0 ? 1 / l : 0;
-    // a bar: the sum falls as 1/i^4, and G cancels
+    // a bar: the sum falls like 1/i^4, and G cancels
     if (s.bending_stiffness > 0 && l * L < 1) return over_modes(s, 20000, {p}, q);
     const double apart = std::abs(p.position - q.position) - 0.5 * (p.width + q.width),
                  widest = std::max(p.width, q.width);
@@ -121,43 +122,45 @@ double static_deflection(const String& s, const Footprint& p, const Footprint& q
 double static_nut_force(const String& s, const Footprint& force) {
     if (const auto* table = measured(s))
         return over_modes(s, static_cast<int>(table->frequency_hz.size()), {{}, true}, force);
-    return force.position / s.length;  // the balance of moments about the other end
+    return force.position / s.length;  // balance of moments about the other end
 }
 
 namespace {
-// times as many as are kept: what is beyond adds 1/500 to E, and to C from its closed form
+// multiple of the kept modes; the modes beyond add 1/500 to E, and enter C by its closed form
 constexpr int further_modes = 8;
 
-// What the cut modes answer to a force on a point, or on a pattern of points.
+// Response of the cut modes to a force on a point, or on a pattern of points.
 struct Answer {
     const Modes& modes;
     int kept;
     std::vector<double> g;
-    // under a steady force, with those that are not summed, whose share falls as 1/omega^2 [m/N]
+    // response to a steady force, including the modes that are not summed, whose share falls like
+    // 1/omega^2 [m/N]
     double C;
 
     double square(int i) const { return modes.omega0[i] * modes.omega0[i]; }
     double yield(int i) const { return g[i] * g[i] / (modes.mass * square(i)); }
     double last() const { return modes.omega0[kept - 1]; }
-    // C - H at a real frequency s, of those that are summed; what the others add falls as 1/i^3
+    // C - H at a real frequency s, for the summed modes; the other modes add a part that falls like
+    // 1/i^3
     double slower(double s) const {
         double sum = 0;
         for (int i = modes.count() - 1; i >= kept; --i)
             sum += yield(i) * s * s / (square(i) + s * s);
         return sum;
     }
-    double inertia(double nyquist) const {  // E of those below
+    double inertia(double nyquist) const {  // E for the modes below
         double sum = 0;
         for (int i = modes.count() - 1; i >= kept; --i)
             if (modes.omega0[i] < nyquist) sum += yield(i) / square(i);
         return sum;
     }
 
-    // R of C^-1 D + R (D' - v), E/C^2 v' = R (D' - v), where its admittance is that of the cut
-    // modes at one real frequency: the least over all. There both touch. On an ideal string that is
-    // at infinity, and R the wave resistance. With stiffness and footprints R is larger, and hardly
-    // changes near three times the frequency of the last mode kept. `none`: of a single cut mode,
-    // which has no resistance.
+    // Finds R in C^-1 D + R (D' - v), E/C^2 v' = R (D' - v). Its admittance equals the cut modes'
+    // admittance at one real frequency; the result is the least R over all frequencies. There both
+    // curves touch. On an ideal string that frequency is infinite, and R is the wave resistance.
+    // With stiffness and footprints R is larger, and hardly changes near three times the last kept
+    // mode's frequency. `none`: value for a single cut mode, which has no resistance.
     double touching_resistance(double none) const {
         const double mass = inertia(HUGE_VAL) / (C * C);
         double beyond = C, least = std::numeric_limits<double>::infinity();
@@ -171,9 +174,9 @@ struct Answer {
         return std::isfinite(least) ? least : none;
     }
 
-    // The mass that stands for the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the
-    // frequencies of the kept ones, each of which weighs g^2/omega, by as much as a blow moves it;
-    // and of that the share of the modes below `nyquist`.
+    // Mass that represents the inertia of the cut modes, (1/C - 1/H(i omega))/omega^2 at the kept
+    // modes' frequencies. Each frequency has the weight g^2/omega, in proportion to its motion
+    // after a blow. Only the share from modes below `nyquist` counts.
     double mass(double nyquist) const {
         double sum = 0, weights = 0;
         const int every = 1 + kept / 128;
@@ -222,7 +225,7 @@ CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept,
                     if (modes.omega0[i] < nyquist) below += own, E += own / square;
                 }
             }
-            // Of the modes beyond `all` those above the half rate have C as 1/omega.
+            // Beyond `all`, the modes above half the rate contribute to C in proportion to 1/omega.
             const double part = table ? 1 : std::min(1.0, modes.omega0[all - 1] / nyquist);
             cut.C.push_back(C), cut.E.push_back(E), cut.folded.push_back((C - below) * part);
         }
@@ -276,9 +279,9 @@ void refuse_soft(const std::string& who, double bb, double bc, double cc) {
         refuse_soft(who, "barrier and the thread together", bc * bc / cc - bb);
 }
 
-// The mass of the ladder stands for modes above the last one kept. Where the step takes far more
-// from a point than the cut modes do, mass and spring would swing below it, at a frequency that no
-// part of the string has there.
+// The ladder mass represents modes above the last kept one. If the step takes far more compliance
+// from a point than the cut modes do, mass and spring would swing below that mode. No part of the
+// string has a resonance at such a frequency there.
 void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutModes& cut,
                      int kept) {
     const int n = m.points();
@@ -297,7 +300,7 @@ void refuse_swinging(const std::string& who, const MissingMatrix& m, const CutMo
     }
 }
 
-// of what is more than rounding of a symmetric, positive matrix
+// Power of the part above rounding in a symmetric, positive matrix
 std::vector<double> power_of(const std::vector<double>& m, int n, double power) {
     const SymmetricParts parts = symmetric_parts(m, n);
     std::vector<double> scaled(m.size());  // vectors in columns
@@ -309,10 +312,10 @@ std::vector<double> power_of(const std::vector<double>& m, int n, double power) 
     return product_of(scaled, parts.vector, n);
 }
 
-// The patterns are those in which C and E of the cut modes are both diagonal. Modes above half the
-// sample rate fold down to any frequency: sampled, they are a spring with a damper of dt/2 over
-// their compliance, without inertia. In a step of constant velocity a mass takes up what is exact,
-// 1 - exp(-R dt/M). dt 0: in continuous time.
+// The patterns diagonalise both C and E of the cut modes. Modes above half the sample rate fold
+// down to any frequency: sampled, they are a spring with a damper of dt/2 over their compliance,
+// without inertia. In a step with constant velocity a mass takes up the exact share, 1 - exp(-R
+// dt/M). dt 0: in continuous time.
 Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& cut, int n,
                  int kept, double dt) {
     Ladder l;
@@ -331,7 +334,7 @@ Ladder ladder_of(const String& s, const std::vector<double>& C, const CutModes& 
         symmetric_parts(product_of(product_of(white, cut.E, n), white, n), n);
     const std::vector<double> V = product_of(parts.vector, white, n);
     for (int k = 0; k < n; ++k) {
-        // a point that is alone moves with its mass
+        // a point alone moves with its mass
         const std::span<const double> moves(V.data() + k * n, n);
         const double square = std::inner_product(moves.begin(), moves.end(), moves.begin(), 0.0),
                      length = std::copysign(std::sqrt(square), moves[0]);

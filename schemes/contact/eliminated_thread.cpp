@@ -10,7 +10,8 @@ EliminatedThreads::EliminatedThreads(std::vector<Thread> threads, int contacts,
     const int n = contacts, m = count(), all = n + m;
     if (m == 0) return;
     for (const Thread& t : laws_) phi_.push_back(0.5 * t.stiffness + t.damping / span);
-    // rounded once: an error here is one in the balance of every step, and of one sign
+    // Round only once: a rounding error here would enter the balance in every step with the same
+    // sign.
     const auto pull = [&](int t, int point) {
         return static_cast<long double>(phi_[t]) * theta[(n + t) * all + point];
     };

@@ -1,21 +1,21 @@
-// What an obstacle rule is: how the contacts' forces over one step are found. A new rule derives
-// from this class and is a row of the table (rules.hpp).
+// Interface of an obstacle rule, which finds the contact forces over one step. A new rule derives
+// from this class and is a row in the table (rules.hpp).
 //
 // Over a step the readings of the contacts move by r = -b + Theta F: without forces by -b, and by
 // the compliances Theta between them (van Walstijn et al. 2016, eq 48; Issanchou et al. 2016, eq
-// 16). A rule says what F is, of the penetrations eta = h - y before the step and of r. What
-// surrounds the contacts is not its affair: thread
-// and what stands in series are in Theta and b when it is asked (obstacle.hpp).
+// 16). A rule determines F from the penetrations eta = h - y before the step and from r. The rule
+// does not see the surroundings of the contacts: thread and series compliance are already contained
+// in Theta and b (obstacle.hpp).
 //
-// The invariant: where `conserves`, the work that the contacts do on the string is what their
-// potential loses,
+// The invariant: if `conserves`, the work done on the string by the contacts equals the loss in
+// their potential,
 //
 //     sum_a F_a r_a/levels = P(older) - P(newer),
 //     P = sum_a potential(a, eta_a), levels = 1 in two-point steps, 2 in three-point ones
 //
-// less `lost()` [J] of the step, of a rule that has it or of contacts that do (StepLoss). Of this
-// the energy balance of every scheme is made (van Walstijn et al. 2016, eqs 30, 49; Issanchou et
-// al. 2016, eqs 20-21).
+// minus `lost()` [J] in the step, for a lossy rule or for lossy contacts (StepLoss). The energy
+// balance of every scheme rests on this (van Walstijn et al. 2016, eqs 30, 49; Issanchou et al.
+// 2016, eqs 20-21).
 #pragma once
 
 #include <algorithm>
@@ -30,18 +30,17 @@
 
 namespace jvari {
 
-struct BeforeStep {       // of each contact
-    const double* older;  // eta at the level that the step starts from [m]
-    // at the level that it is centred on. Two-point steps have none there: the older one, or of a
-    // rule that is `centred` the middle of the step as far as it is known without the contacts'
-    // forces, eta + b/2
+struct BeforeStep {       // values for each contact
+    const double* older;  // eta at the level from which the step starts [m]
+    // eta at the central level. Two-point steps have no central level and use the older one. A rule
+    // that is `centred` uses the middle of the step without contact forces, eta + b/2
     const double* now;
     // minus the increment without contact forces, from the older to the newer level [m]
     const double* b;
 };
 
-// Without state, and acting where a contact is closed before the step or would be after it, unless
-// a rule says else.
+// Stateless by default. Acts if a contact is closed before the step or would be closed after it,
+// unless a rule overrides this.
 class ObstacleRule {
 public:
     // theta: row-major between the contacts [m/N]
@@ -49,18 +48,18 @@ public:
         : laws_(laws.begin(), laws.end()), theta_(theta.begin(), theta.end()) {}
     virtual ~ObstacleRule() = default;
 
-    virtual bool iterates() const { return true; }  // whether its iterations are reported
+    virtual bool iterates() const { return true; }  // true if its iterations are reported
     virtual bool centred() const { return false; }  // how two-point steps fill `now`
-    // of one contact without loss the closed form of one_contact.hpp
+    // true if one contact without loss has the closed form in one_contact.hpp
     virtual bool is_discrete_gradient() const { return false; }
-    virtual int dofs() const { return 0; }  // state of its own
-    // other compliances, coupled where the first ones were. Allocates nothing
+    virtual int dofs() const { return 0; }  // number of state variables
+    // Sets other compliances with the same coupling pattern. Allocates nothing.
     virtual void set(std::span<const double> theta) noexcept {
         std::copy(theta.begin(), theta.end(), theta_.begin());
     }
-    // losses from now on, one of each contact, but of start()
+    // Sets the losses from this step on, one for each contact; start() has none.
     virtual void lose(std::span<const StepLoss>) {}
-    // at t = 0: eta of each contact, and how far it would move in dt by its speed [m]
+    // at t = 0: eta for each contact, and the distance that its speed would move it in dt [m]
     virtual void begin(const double*, const double*) {}
     // false: no force, and nothing to be solved
     virtual bool acts(const BeforeStep& at) const {
@@ -75,10 +74,11 @@ public:
     virtual GramSolution start(const BeforeStep& at, double* r, double* force) noexcept {
         return solve(at, r, force);
     }
-    // of a contact at a penetration [J]
+    // energy of a contact at a penetration [J]
     virtual double potential(int a, double eta) const { return laws_[a].potential(eta); }
-    virtual double lost() const { return 0; }               // in the last step [J]
-    virtual std::vector<Fact> facts() const { return {}; }  // beside those of obstacle.hpp
+    virtual double lost() const { return 0; }  // in the last step [J]
+    // in addition to the facts in obstacle.hpp
+    virtual std::vector<Fact> facts() const { return {}; }
 
 protected:
     void move(const double* b, const double* force, double* r) const noexcept {  // r = -b + Theta F
@@ -92,20 +92,21 @@ protected:
     std::vector<double> theta_;
 };
 
-// levels: that a step spans
+// levels: number of levels that a step spans
 using MakeRule = std::function<std::shared_ptr<ObstacleRule>(
     std::span<const ContactLaw>, std::span<const double> theta, int levels)>;
-struct RuleChoice {  // by which the contacts of a string act
+struct RuleChoice {  // the rule for the contacts on a string
     MakeRule make;
-    MakeRule rigid = {};  // where the barriers do not give way
-    // whether an equilibrium on contacts of an exponent other than 1 is one of the steps, and
-    // stable
+    MakeRule rigid = {};  // for barriers that do not give way
+    // true if an equilibrium on contacts with an exponent other than 1 is a fixed point of the
+    // steps, and stable
     bool rests_in_powers = true;
 };
 
-// What a rule's class says beside that: `conserves`; `Rigid`, the rule for barriers that do not
-// give way; `own_only`, where nothing can stand in series with its contacts; `rests_in_powers`, as
-// above; options, which it reads by choose(settings); features that it approximates, or leaves out.
+// Further static members of a rule's class: `conserves`; `Rigid`, the rule for barriers that do not
+// give way; `own_only`, if nothing can stand in series with its contacts; `rests_in_powers`, see
+// above; options, which the rule reads by choose(settings); features that it approximates, or
+// leaves out.
 template <class Rule>
 concept TakesRigid = requires {
     typename Rule::Rigid;

@@ -1,10 +1,11 @@
-// Products of small matrices stored by columns: vectors of rows, where compilers would take scalars
-// for fear that arrays overlap. The order of a row's sum is the same whatever the compiler knows.
+// Products with small matrices stored by columns. They use vectors of rows, because compilers would
+// otherwise use scalars in case the arrays overlap. The summation order in a row is the same
+// whatever the compiler knows.
 #pragma once
 
 namespace jvari {
 
-// `lanes` rows of to = M x, or of to += M x. stride: from one column of M to the next
+// `lanes` rows in to = M x, or in to += M x. stride: from one column of M to the next
 template <int lanes, bool add>
 [[gnu::always_inline]] inline void product_of_lanes(const double* M, int stride, const double* x,
                                                     int columns, double* to) noexcept {

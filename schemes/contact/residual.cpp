@@ -5,8 +5,9 @@
 namespace jvari {
 
 namespace {
-using Real = long double;  // matrices are rounded once: an error is one of every step, of one sign
-}
+// Matrices are rounded once, so that a rounding error would act with one sign in every step.
+using Real = long double;
+}  // namespace
 
 Residual::Residual(const MissingMatrix& m, double span, int levels)
     : points_(m.points()),

@@ -1,10 +1,10 @@
-// What a string lacks at its points stands in series with them: springs, and beside them a ladder
-// (compliance.hpp). One form for any number of points; up to 5 are unrolled. The equations are
-// those of docs/compliance-matching.md, "The step".
+// Puts a string's missing compliance in series with its points: springs, and beside them a ladder
+// (compliance.hpp). One form serves any number of points; up to 5 are unrolled. The equations come
+// from docs/compliance-matching.md, "The step".
 //
 //     symbol        meaning                                              unit        equation
 //     C             compliance of the springs                            m/N         1
-//     R_0           what resists without masses: `damper`                kg/s        1
+//     R_0           resistance without masses: `damper`                  kg/s        1
 //     V, B, a       patterns; `branch` and `share` of the mass of each   1, kg/s, 1  1, 2
 //     W, K          (R C/h + 1/2)^-1 with R = R_0 + V' B V; C W          1, m/N      3
 //     D, P          stretch C P of the springs, their forces             m, N        4, 5
@@ -12,8 +12,8 @@
 //     Q, H          P - V' B v; K Q                                      N, m        4, 6
 //     F, h          mean forces over a step, its span                    N, s        4
 //
-// The ladder stands for the energy that the cut modes carry away. C alone would keep all of a blow,
-// and alternate from step to step for ever.
+// The ladder represents the energy that the cut modes carry away. C alone would keep the whole
+// energy of a blow, and alternate from step to step for ever.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,8 @@
 
 namespace jvari {
 
-// A mass of the ladder over a step: while its pattern moves by `moved` it takes up `share` of what
-// it lags behind.
+// A ladder mass over a step: while its pattern moves by `moved`, the mass takes up `share` of its
+// lag.
 struct MassStep {
     double branch = 0;           // 1/(1/resistance + span/(2 mass)) [kg/s]
     double share = 0, mass = 0;  // [1], [kg]
@@ -46,19 +46,20 @@ struct MassStep {
 
 class Residual {
 public:
-    // levels: how many of them a step spans. Where they are two, every other step is a chain of its
-    // own, with a state of its own.
+    // levels: number of levels that a step spans. With two levels, every other step forms a
+    // separate chain with a separate state.
     Residual(const MissingMatrix&, double span, int levels);
 
     double K(std::size_t i) const { return K_[i]; }  // row-major over the points
-    // Of each point; level 0: that the next step starts from, 1: the one after it.
+    // Values for each point; level 0: the start of the next step, 1: the level after it.
     const double* yields(int level) const { return state_[level].out.data(); }  // D [m]
     const double* force(int level) const { return state_[level].x.data(); }     // P [N]
-    // H of the next step [m]
+    // H for the next step [m]
     const double* pulled() const { return state_[0].out.data() + points_; }
-    int centre() const { return levels_ - 1; }  // the level that it is centred on, or starts from
+    // the level on which it is centred, or from which it starts
+    int centre() const { return levels_ - 1; }
 
-    void rest(const double* force) noexcept {  // under steady forces of the points [N]
+    void rest(const double* force) noexcept {  // under steady point forces [N]
         std::copy_n(force, points_, steady_.begin());
         for (State& s : state_) {
             std::copy_n(force, points_, s.x.begin());
@@ -115,10 +116,10 @@ public:
 
 private:
     struct State {
-        std::vector<double> x;    // P of points, v of patterns
-        std::vector<double> out;  // D, H, Q of points
+        std::vector<double> x;    // P for points, v for patterns
+        std::vector<double> out;  // D, H, Q for points
     };
-    // D, H and Q of what P and v are
+    // Computes D, H and Q from P and v
     template <int few>
     [[gnu::always_inline]] void show(const double* x, State& s) noexcept {
         const int n = few > 0 ? few : points_;
@@ -137,12 +138,12 @@ private:
     double rate_;                     // 1/span [1/s]
     std::vector<double> K_;           // points x points
     std::vector<double> damper_, V_;  // V: patterns x points
-    std::vector<MassStep> masses_;    // of each pattern
-    // A step, by columns: x of F - Q, what of x stays, out of x.
+    std::vector<MassStep> masses_;    // for each pattern
+    // A step, by columns: x from F - Q, the part of x that stays, out from x.
     std::vector<double> by_force_, keeps_, by_state_;
     State state_[2];
-    std::vector<double> steady_;      // of points, at rest [N]
-    std::vector<double> Q_, before_;  // F - Q of the last step, and x before it
+    std::vector<double> steady_;      // for points, at rest [N]
+    std::vector<double> Q_, before_;  // F - Q in the last step, and x before it
 };
 
 }  // namespace jvari

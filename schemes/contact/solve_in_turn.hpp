@@ -1,6 +1,6 @@
-// Several contacts whose forces are found one by one, the others' kept, until no r changes
-// (Gauss-Seidel). It converges where each force falls with its r, since Theta is a Gram matrix and
-// the problem convex. One contact is solved once.
+// Solves several contacts one by one, with the other forces fixed, until no r changes
+// (Gauss-Seidel). The iteration converges if each force falls with its r, because Theta is a Gram
+// matrix and the problem is convex. A single contact is solved once.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace jvari {
 
-// force_of(a, b): F of contact a where r = -b + theta_aa F. theta: row-major between the contacts.
+// force_of(a, b): F of contact a with r = -b + theta_aa F. theta: row-major between the contacts.
 template <class ForceOf>
 GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::size_t n, double* r,
                            double* force, ForceOf force_of) {
@@ -27,7 +27,8 @@ GramSolution solve_in_turn(std::span<const double> theta, const double* b, std::
     s.converged = false;
     std::fill_n(force, n, 0.0);
     for (s.iterations = 1; s.iterations <= most_sweeps && !s.converged; ++s.iterations) {
-        // of r [m]: what forces do that Theta hardly tells apart is left open
+        // change and range in r [m]; force patterns that Theta hardly distinguishes stay
+        // undetermined
         double change = 0, reach = 0;
         for (std::size_t a = 0; a < n; ++a) {
             const double others = by_others(a), F = force_of(a, b[a] - others),

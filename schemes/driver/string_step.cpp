@@ -20,7 +20,7 @@ StringPoints points_of(const Scene& scene, double dt) {
 
 std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals) {
     std::vector<Place> all;
-    int of = -1;  // which barrier
+    int of = -1;  // barrier number
     const auto add = [&](const Place& place, const ContactLaw& law, double height, const auto& b) {
         all.push_back(place);
         p.positions.push_back(place.at.position);

@@ -1,5 +1,5 @@
-// Neighbours of the nodes in a vector, by the vectors of the instruction set that is being
-// compiled: included once for each, after Highway.
+// Neighbours of the nodes in a vector, by vectors in the instruction set being compiled: included
+// once for each, after Highway.
 #if defined(JVARI_GRID_NEIGHBOURS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_GRID_NEIGHBOURS
 #undef JVARI_GRID_NEIGHBOURS
@@ -15,8 +15,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 
-// x[by], x[by + 1], ...; x[0] stands on the boundary of a vector. With AVX-512 put together of two
-// that do so too: nearly every other one would cross a line of the cache, which costs two loads.
+// x[by], x[by + 1], ...; x[0] stands on a vector boundary. With AVX-512 the result is assembled
+// from two aligned vectors: nearly every unaligned one would cross a cache line, which costs two
+// loads.
 template <int by>
 HWY_INLINE hn::Vec<D> neighbour(const double* HWY_RESTRICT x) {
     const D d;

@@ -1,4 +1,4 @@
-// C_true - C_scheme (contact/compliance.hpp) of a scene's one string in its modes.
+// Computes C_true - C_scheme (contact/compliance.hpp) for the only string in a scene, in its modes.
 #pragma once
 
 #include <optional>
@@ -13,18 +13,18 @@ namespace jvari {
 
 inline constexpr Option matched_options[] = {compliance_option, profile_points_option};
 
-// own: what the scheme makes of 1 N of steady modal force on each mode [m/N]; step: as of
+// own: the scheme's displacement under 1 N steady modal force on each mode [m/N]; step: see
 // missing_matrix.
 MissingMatrix modal_missing_matrix(const Descriptor&, const Scene&, const Modes&,
                                    std::optional<double> step, std::span<const double> own);
 
-// How much the string's only contact, which is no profile's, yields under a steady force, relative
-// to the true string of the same modes.
+// Yield of the string's only contact, which must not belong to a profile, under a steady force,
+// relative to the true string with the same modes.
 double relative_compliance(const Modes&, const String&, std::span<const double> own);
 
-// How a scheme's string yields, with what is in series with its points.
+// Yield of a scheme's string, including the compliance in series with its points.
 Yield yield_of(std::span<const double> own, const std::optional<MissingMatrix>& series);
-// Of the points of a string, barriers and thread: their velocities and forces at t = 0.
+// Sets velocities and forces at t = 0 for the string's points, barriers and thread.
 void put_start(StringPoints&, const String&, const Modes&, const ModalStart&);
 
 }  // namespace jvari

@@ -1,22 +1,23 @@
-// A control: the contact force of the instant, F_b^n = V'(eta^n) (contact/explicit_rule.hpp), on
-// the string of three_point_modes.hpp. Only the contact is the control: the string is exact and the
-// thread implicit. No energy balance is promised; stored energy is the true one, so that what the
-// scheme gains or loses is to be seen in the columns.
+// Control: the contact force at the instant, F_b^n = V'(eta^n) (contact/explicit_rule.hpp), on the
+// string in three_point_modes.hpp. Only the contact is the control: the string is exact and the
+// thread implicit. No energy balance is promised. The stored energy is the true one, so that the
+// columns show the scheme's gains and losses.
 //
-// Its limit is the stiffness of one lasting contact of exponent 1 at which the highest root passes
-// z = -1. There y^{n+1} = -y^n. With G = sum g_p e_q/den (three_point_modes.hpp), den = 1 + C + C~,
-// contact b and thread c, which takes the mean of the outer levels, stand where
+// Its limit is the stiffness at which, for one lasting contact with exponent 1, the highest root
+// passes z = -1. There y^{n+1} = -y^n. With G = sum g_p e_q/den (three_point_modes.hpp), den = 1 +
+// C + C~, contact b and thread c, which takes the mean of the outer levels, the scheme is stable if
 //
 //     1/k_b > G_bb - k_c G_bc^2/(1 + k_c G_cc)
 //
-// It is necessary and not sufficient: impacts gain energy below it too (C3 released without losses:
-// still where the limit is 1.4 k, no longer where it is 11 k). Of another exponent the contact is
-// as stiff as V'' where it is deepest. That is nowhere deeper than where V holds all that the
-// string had at its start, so that stiffness bounds the critical step from below (Feng 2026, arXiv
-// 2604.02533, of one mass): in lasting contact the scheme is stable on this side of the line, and
-// may be so beyond it. Of a pluck, whose work is not known before, nothing is said.
+// The condition is necessary and not sufficient: impacts gain energy below the limit too (C3
+// released without losses: still at a limit of 1.4 k, no longer at 11 k). For another exponent the
+// contact's stiffness is V'' at the deepest penetration. The penetration never exceeds the depth at
+// which V holds the string's whole initial energy, so that stiffness bounds the critical step from
+// below (Feng 2026, arXiv 2604.02533, for one mass). In lasting contact the scheme is stable on
+// this side of the line, and may be stable beyond it. There is no statement about a pluck, whose
+// work is not known in advance.
 //
-// Leaves out: a stability limit of several contacts, rigid barriers, compliance=matched,
+// Leaves out: a stability limit for several contacts, rigid barriers, compliance=matched,
 // polarisation, a body that moves.
 #include <cmath>
 
@@ -37,7 +38,7 @@ constexpr Option options[] = {profile_points_option};
 class PenalisedModes : public ThreePointModes {
 public:
     using ThreePointModes::ThreePointModes;
-    // of the contact's yield over the least that is stable, less 1; NaN unless there is one contact
+    // The contact's yield over the least stable yield, minus 1; NaN unless there is one contact
     double margin() const {
         return points().contacts.count() == 1 ? 1 / stiffest() / least_yield() - 1 : nan;
     }
@@ -62,7 +63,7 @@ private:
         const double k = points().threads.front().stiffness, G_bc = G(0, 1);
         return G(0, 0) - k * G_bc * G_bc / (1 + k * G(1, 1));
     }
-    // that the contact can be in this run [N/m]; NaN where that is not known
+    // Greatest stiffness of the contact in this run [N/m]; NaN if unknown
     double stiffest() const {
         const ContactLaw& law = points().contacts.laws[0];
         if (law.alpha == 1) return law.k;

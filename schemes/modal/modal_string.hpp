@@ -1,5 +1,5 @@
-// What the schemes of a string in its modes share. Arrays over the modes are padded with zero modes
-// to whole vectors.
+// Shared code for schemes with a string in its modes. Arrays over the modes are padded with zero
+// modes to whole vectors.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 
 namespace jvari {
 
-// [m] not finite, or so far off that the energy columns no longer are
+// [m] a larger value is not finite, or so large that the energy columns overflow
 constexpr double modal_overflow = 1e140;
-constexpr int modal_padding = 16;  // whole vectors of any machine, in pairs
+constexpr int modal_padding = 16;  // whole vectors on any machine, in pairs
 
-// What a scheme of one string in its modes represents.
+// Features represented by a scheme for one string in its modes.
 constexpr Features modal_features = Feature::bending_stiffness | Feature::damping |
                                     Feature::frequency_dependent_damping | Feature::measured_modes |
                                     Feature::lumped_barrier | Feature::power_law_contact |
@@ -30,21 +30,21 @@ inline constexpr Approximation modal_approximates[] = {
 inline constexpr std::span<const Approximation> modal_approximates_elastic =
     std::span(modal_approximates).first(1);
 
-// The steps of dt that a pluck acts in, and how many of them begin before the scene ends, which are
-// tabulated. Refusal where they cannot be counted.
+// Steps of dt in which a pluck acts, and the number that begin before the scene ends, which are
+// tabulated. Refusal if they cannot be counted.
 struct PluckSteps {
     long first, count, tabulated;
 };
 PluckSteps pluck_steps(const Pluck&, double dt, double duration);
-// Whole rows, of `rows`, in whose steps a pluck does not act; k: the next step, counted from the
-// pluck's first.
+// Number of whole rows, at most `rows`, in whose steps a pluck does not act; k: the next step,
+// counted from the pluck's first.
 inline long rows_without_pluck(long rows, long k, long pluck_steps, long steps_per_row) {
     const bool comes = pluck_steps > 0 && k < pluck_steps;
     return comes ? std::min(rows, std::max(-k, 0L) / steps_per_row) : rows;
 }
 
-// What a tap of displacement, velocity or nut force reads of the modes' displacements or
-// velocities; none of contact forces.
+// Weights with which a displacement, velocity or nut-force tap reads the modes' displacements or
+// velocities; empty for contact forces.
 std::vector<double> tap_weights(const Tap&, const Modes&, const String&);
 
 // Modes above half the sample rate would alias.
@@ -52,7 +52,7 @@ void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 
 // sum w x of padded arrays (kernels/modal_two_point_kernel.cpp)
 double modal_dot(const AlignedVector& w, const AlignedVector& x);
-// of plain ones, in order
+// the same for unpadded arrays, in order
 inline double modal_dot(const std::vector<double>& w, const std::vector<double>& x) {
     return std::inner_product(w.begin(), w.end(), x.begin(), 0.0);
 }

@@ -1,4 +1,4 @@
-// Source: Issanchou et al. 2016, eqs 14, 17-18. The differences that cancel (1 + C~ - C for a low
+// Source: Issanchou et al. 2016, eqs 14, 17-18. Differences with cancellation (1 + C~ - C for a low
 // mode) are written as products.
 #include "schemes/modal/three_point.hpp"
 
@@ -18,8 +18,8 @@ ThreePoint three_point(const Modes& modes, double dt, double exact_below) {
         const double square = omega_squared_damped(omega0, sigma);
         c.Ct.push_back(std::exp(-2 * sigma * dt));  // (14)
         const ModeStep step = exact_step(omega0, sigma, dt);
-        c.loss.push_back(step.loss);  // dt C3 of (17), (18)
-        c.kappa.push_back(step.num);  // 1 + C~ - C, dt^2 C2 of (17), (18)
+        c.loss.push_back(step.loss);  // dt C3 in (17), (18)
+        c.kappa.push_back(step.num);  // 1 + C~ - C, dt^2 C2 in (17), (18)
         double rate;                  // omega/sin(omega dt), its limit or its hyperbolic form
         if (square > 0) {
             const double omega = std::sqrt(square), half = std::sin(0.5 * omega * dt),

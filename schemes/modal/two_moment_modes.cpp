@@ -24,12 +24,12 @@ PluckMoments pluck_moments(const Pluck& e, long n, double dt) {
 }
 }  // namespace
 
-// cos 2z = cos(omega H)/cosh(sigma H), cosh in place of cos where a mode is overdamped; by its half
-// angle, so that low modes keep all digits, and on the branch of omega H.
+// Computes cos 2z = cos(omega H)/cosh(sigma H), with cosh in place of cos for an overdamped mode.
+// The half angle keeps all digits of low modes. The branch is that of omega H.
 ExactMode::ExactMode(double mass, double omega0, double sigma, double H)
     : kappa(std::sqrt(mass) * omega0) {
     const double square = omega_squared_damped(omega0, sigma),
-                 decay = std::min(sigma * H, 300.0),  // a mode that is gone in a step
+                 decay = std::min(sigma * H, 300.0),  // a mode that decays within a step
         turns = std::sqrt(std::abs(square)) * H, half = 0.5 * turns, grows = std::cosh(decay),
                  damped = std::pow(std::sinh(0.5 * decay), 2);
     delta = std::exp(-2 * decay);
@@ -41,7 +41,8 @@ ExactMode::ExactMode(double mass, double omega0, double sigma, double H)
                                       : 0.5 * branch * pi + std::atan2(s, c);
         lead = std::abs(std::atan2(std::cos(turns) * std::tanh(decay), std::sin(turns)) -
                         std::atan2(sigma * std::sin(turns), std::sqrt(square) * std::sin(turns)));
-    } else {  // the difference of two squares, of sinh, as a product
+        // difference between two squares, or between squared sinh values, written as a product
+    } else {
         const double gamma = std::min(turns, decay),
                      slow = std::min(0.5 * std::pow(omega0 * H, 2) / (sigma * H + turns), decay);
         z = std::atan2(std::sqrt(std::sinh(0.5 * (decay + gamma)) * std::sinh(slow) / grows),
@@ -79,7 +80,7 @@ TwoMomentModes::TwoMomentModes(const Descriptor& descriptor, const Scene& scene,
     }
     p_ = points_of(scene, dt_);
     add_lumped(p_, s);
-    const auto measured = modes_measured(s);  // of which none may be cut
+    const auto measured = modes_measured(s);  // none of these may be cut
     if (choice_option(settings, compliance_option) == "matched" &&
         !(measured && *measured <= count))
         p_.series = modal_missing_matrix(descriptor, scene, modes, 0, own);
@@ -148,7 +149,7 @@ void TwoMomentModes::put_points(const Modes& modes, const Scene& scene) {
         put_pluck(modes, *pluck, scene.duration, g);
 }
 
-// Sums rounded once: an error in Theta is one in the balance of every step.
+// Sums are rounded once: an error in Theta would enter the balance in every step.
 MomentMatrix TwoMomentModes::compliance(const std::vector<double>& g,
                                         const std::vector<double>& h) const {
     long double even = 0, odd = 0, turned = 0;
@@ -186,7 +187,7 @@ void TwoMomentModes::put_taps(const Modes& modes, const Scene& scene) {
         TapOfModes t;
         if (const auto w = tap_weights(tap, modes, scene.strings.front()); !w.empty())
             t.on_modes = reading_of(w, tap.quantity == Quantity::velocity);
-        std::vector<double> one(p_.count());  // 1 N of each point
+        std::vector<double> one(p_.count());  // 1 N at each point
         for (int p = 0; t.on_modes.on_a.empty() && p < p_.count(); one[p++] = 0) {
             one[p] = 1;
             t.on_mean.push_back(heard_force(tap.quantity, p_, one.data()));
@@ -257,12 +258,12 @@ void TwoMomentModes::approach(bool) noexcept {
     }
 }
 
-// Of the forces: what the modes take up, and of that what the pluck supplies; of the damping at
-// both ends of the step what they lose.
+// Energies: the forces' work on the modes, the pluck's share in that work, and the modes' loss by
+// the damping at both ends of the step.
 Spent TwoMomentModes::spent(const double* force) const noexcept {
     const int P = m_.points;
     Spent all;
-    double r_0 = 0, r_1 = 0;  // of the pluck's point
+    double r_0 = 0, r_1 = 0;  // at the pluck's point
     for (int p = 0; p < P; ++p) {
         const MomentMatrix& T = pluck_.theta.empty() ? MomentMatrix{} : pluck_.theta[p];
         r_0 += T.m01 * force[P + p];
@@ -307,7 +308,7 @@ void TwoMomentModes::reading(int, double* out) const noexcept {
     for (int p = 0; p < m_.points; ++p) out[p] = dot(readings_[p]);
 }
 
-// In the middle of the damping at the row.
+// Energy at the row, in the middle of the damping.
 double TwoMomentModes::stored() const noexcept {
     double sum = 0;
     for (int i = 0; i < m_.modes; ++i) {

@@ -1,5 +1,5 @@
-// Reads the tables of jvari_scheme.h: no member beyond the size that a structure says it has, and
-// nothing of another version.
+// Reads the tables of jvari_scheme.h. It reads no member beyond the size that a structure declares,
+// and no table from another version.
 #include "schemes/open/open_plugin.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace jvari {
 namespace {
 constexpr std::int64_t most_facts = 256, most_schemes = 1024;
 
-// The structure as this program has it, with 0 for what lies beyond its own size.
+// Copies the structure into the form of this program, with 0 for the members beyond its declared
+// size.
 template <class Struct>
 Struct as_far_as_it_goes(const Struct& theirs) {
     Struct ours{};
@@ -24,7 +25,7 @@ Struct as_far_as_it_goes(const Struct& theirs) {
     return ours;
 }
 
-struct Table : jvari_scheme {  // of one scheme, owned by its guest
+struct Table : jvari_scheme {  // one scheme, owned by its guest
     const jvari_scheme* theirs;
     std::deque<std::string> texts;
     std::vector<Option> option_list;
@@ -62,7 +63,7 @@ public:
                         nullptr,
                         const_cast<Block*>(&out),
                         0};
-        for (int k = 0; out.energy && k < 3; ++k)  // 0 where a scheme leaves them out
+        for (int k = 0; out.energy && k < 3; ++k)  // 0 if a scheme leaves them out
             std::fill_n(out.energy + static_cast<std::ptrdiff_t>(k) * out.stride, out.rows, 0.0);
         if (out.stop)
             rows.stop = [](void* block) {
