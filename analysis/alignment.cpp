@@ -10,13 +10,13 @@ namespace jvari {
 
 namespace {
 using Signal = std::span<const double>;
-constexpr long reach = 16;        // rows on either side of a value between rows
-constexpr long seek_rows = 8192;  // that a whole delay is sought on
+constexpr long reach = 16;        // rows on either side for interpolation between rows
+constexpr long seek_rows = 8192;  // number of rows on which a whole delay is sought
 constexpr std::size_t most_delays = 8;
-constexpr double much_better = 0.25;  // than a smaller delay: of the square that is left
+constexpr double much_better = 0.25;  // ratio to the remaining square at a smaller delay
 constexpr double furthest_stretch = 0.125;
 
-// Weights of rows -15 ... 16 for the value at `part` of a row, 0 <= part < 1.
+// Weights for rows -15 ... 16 that give the value at `part` of a row, 0 <= part < 1.
 std::array<double, 2 * reach> weights_at(double part) {
     std::array<double, 2 * reach> w{};
     if (part == 0) {
@@ -51,7 +51,7 @@ double moved_miss(Signal x, Signal r, double late, long from, long to) {
     return sum;
 }
 
-// The least of a function about `x` by a parabola through x - h, x and x + h.
+// Minimum of a function about `x` by a parabola through x - h, x and x + h.
 template <class Of>
 double vertex(double x, double h, Of of) {
     const double a = of(x - h), b = of(x), c = of(x + h), curve = a - 2 * b + c;
@@ -108,8 +108,8 @@ double decay_at(Signal x, Signal r, Judged rows, double stretch, double decay) {
 }  // namespace
 
 namespace {
-// Whole delays about which a signal fits better than about their neighbours and than where it
-// stands: the smallest ones, and the best.
+// Whole delays with a better fit than their neighbours and than no delay: the smallest ones, and
+// the best.
 std::vector<long> fitting_delays(Signal run, Signal reference, long far, long from, long to) {
     std::vector<double> miss;
     for (long k = -far; k <= far; ++k) {

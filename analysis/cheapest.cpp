@@ -6,7 +6,7 @@
 namespace jvari {
 
 namespace {
-// of the least cost: what is dearer is no tie, however the clock scatters
+// ratio to the least cost: dearer runs never tie, however much the times scatter
 constexpr double a_tie = 1.2;
 
 std::optional<std::size_t> least(std::span<const Offer> offers, const auto& which,

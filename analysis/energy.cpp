@@ -1,5 +1,5 @@
-// Source: energy.hpp. Sums are carried in long double: a second of rows must not add 1e-12 of
-// rounding to a ledger that closes to 1e-11.
+// Source: energy.hpp. Sums are carried in long double: a second of rows must not add a rounding of
+// 1e-12 to a ledger that closes to 1e-11.
 #include "analysis/energy.hpp"
 
 #include <algorithm>

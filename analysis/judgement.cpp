@@ -54,7 +54,7 @@ Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& r
 
 double pull_of(double least, double largest) {
     if (least >= -pull_floor) return 0;
-    // 0 if the force is unknown and the other is NaN
+    // fmax returns the other operand if `largest` is NaN
     return -least / std::fmax(largest, std::numeric_limits<double>::min());
 }
 

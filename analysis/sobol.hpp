@@ -1,5 +1,5 @@
-// Points of Sobol's sequence, each coordinate moved by an amount that a seed chooses, modulo 1
-// (Cranley & Patterson 1976). The points stay as even as Sobol's, and another seed gives others.
+// Sobol points, each coordinate shifted by a seeded amount, modulo 1 (Cranley & Patterson 1976).
+// The points stay equally even, and another seed gives others.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace jvari {
 
-constexpr int most_dimensions = 40;  // of GSL's generator
+constexpr int most_dimensions = 40;  // GSL's limit
 
-// `number` points of [0, 1)^dimensions. The same arguments give the same bits on every machine.
+// `number` points in [0, 1)^dimensions. The same arguments give the same bits on every machine.
 std::vector<std::vector<double>> sobol_points(int dimensions, int number, std::uint64_t seed);
 
 }  // namespace jvari

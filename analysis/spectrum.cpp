@@ -13,7 +13,7 @@
 namespace jvari {
 
 namespace {
-// |X|^2 of real frames of n rows, scaled to one-sided mean squares.
+// |X|^2 for real frames with n rows, scaled to one-sided mean squares.
 class Transform {
 public:
     Transform(int n, Taper taper) : n_(n), window_(n, 1.0), transform_(n) {
@@ -44,11 +44,12 @@ private:
 
 double decibel(double power) { return 10 * std::log10(power); }
 
-// 0: compare; else the answer that the signals themselves give (see the top of spectrum.hpp).
+// 0: compare; otherwise the result that the signals themselves determine (see the top of
+// spectrum.hpp).
 double verdict(std::span<const double>& candidate, std::span<const double> reference) {
     const auto finite = [](double v) { return std::isfinite(v); };
     if (!std::all_of(reference.begin(), reference.end(), finite)) return nan;
-    // and where empty
+    // also for an empty reference
     if (std::all_of(reference.begin(), reference.end(), [](double v) { return v == 0; }))
         return nan;
     if (candidate.size() < reference.size()) return inf;
@@ -132,7 +133,7 @@ double third_octave_difference(std::span<const double> candidate, std::span<cons
         squares += d * d;
         ++bands;
     }
-    // none: all of the reference's energy is outside the bands
+    // none: the whole reference energy is outside the bands
     return bands > 0 ? std::sqrt(squares / bands) : nan;
 }
 
@@ -143,7 +144,7 @@ StftDifference stft_difference(std::span<const double> candidate, std::span<cons
     const Spectrogram c = spectrogram(candidate, rate, window, hop),
                       r = spectrogram(reference, rate, window, hop);
     const double strongest = *std::max_element(r.power.begin(), r.power.end());
-    if (!(strongest > 0)) return {nan, nan};  // rows only under the ends of the window
+    if (!(strongest > 0)) return {nan, nan};  // only rows under the ends of the window
     const double floor = strongest * std::pow(10.0, -0.1 * range);
     double level = 0, gap = 0, norm = 0;
     long cells = 0;

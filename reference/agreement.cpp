@@ -10,7 +10,7 @@
 namespace jvari {
 
 namespace {
-// ratio of a doubling to the one before: order 1/2
+// ratio between successive doublings: order 1/2
 constexpr double slowest = 0.70710678118654752;
 }  // namespace
 

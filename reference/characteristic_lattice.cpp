@@ -1,13 +1,14 @@
-// An ideal string above a rigid profile on the lattice of its characteristics, dx = c dt: Schatzman
-// & Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math.
-// Comp. 53 (1989), on the lattice of sitar_fdm.cpp. All of the string's modes are in it; its error
-// falls as one over the cells, for each bounce comes two steps late. On a flat wall it tends to the
-// closed form of Bamberger and Schatzman, u = w + 2 sup (profile - w)^+ over the backward cone, w
-// the free motion, which holds until a contact's reflection by an end or by an edge of the wall
-// arrives; from there on the lattice goes on and no closed form is known.
+// Ideal string above a rigid profile on its lattice of characteristics, dx = c dt: Schatzman &
+// Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math. Comp.
+// 53 (1989), on the lattice of sitar_fdm.cpp. The lattice contains all modes of the string; its
+// error falls in inverse proportion to the number of cells, because each bounce comes two steps
+// late. On a flat wall the motion tends to the closed form of Bamberger and Schatzman, u = w + 2
+// sup (profile - w)^+ over the backward cone, w the free motion. That form holds until a contact's
+// reflection by an end or by an edge of the wall arrives. After that the lattice goes on, and no
+// closed form is known.
 //
-// Rows fall on steps: of the multiples of the tap rate that give about as many cells as asked for,
-// it takes the one most in tune.
+// Rows fall on steps. Among the multiples of the tap rate that give about the requested number of
+// cells, the scheme takes the most accurately tuned one.
 #include <algorithm>
 #include <cmath>
 

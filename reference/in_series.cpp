@@ -14,11 +14,11 @@ namespace jvari {
 namespace {
 constexpr int most_contacts = 8;  // lumped contacts and a thread
 
-// M = C^-1 E C^-1 is what the cut modes' admittance C - s^2 E + ... asks for. The damper R is the
-// wave resistance where the string is ideal and far from its ends. At a contact it is eight times
-// as large, which hardly matters for the motion: the larger it is, the faster is what a closed
-// contact leaves of it, R (M^-1 + G) with G = sum of g^2/m over the modes kept, and
-// touching_set.hpp splits that off. sqrt(M/C) at least keeps spring and mass from creeping.
+// M = C^-1 E C^-1 follows from the cut modes' admittance C - s^2 E + ... The damper R is the wave
+// resistance if the string is ideal and the point far from its ends. At a contact R is eight times
+// larger, which hardly matters for the motion. The larger R is, the faster is the motion that a
+// closed contact leaves, R (M^-1 + G) with G = sum of g^2/m over the kept modes, and
+// touching_set.hpp splits that motion off. At least sqrt(M/C) keeps spring and mass from creeping.
 void put_ladder(InSeries& series, const std::vector<double>& E, std::span<const Footprint> points,
                 const Modes& kept) {
     constexpr double wave = 8 / std::numbers::pi, apart = 8 * wave;  // x omega_M
@@ -87,7 +87,7 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
 
 double series_rate(const InSeries& s) {
     if (s.states == 0) return 0;
-    std::vector<long double> A;  // by columns; rates of the transposed matrix round otherwise
+    std::vector<long double> A;  // by columns; rates from the transposed matrix round differently
     for (int column = 0; column < s.states; ++column)
         for (int row = 0; row < s.states; ++row) A.push_back(s.A[row * s.states + column]);
     long double fastest = 0;

@@ -1,12 +1,12 @@
-// The motion of all strings of a scene on a body that moves, as first-order equations for an
-// integrator: those of string_equations.hpp for every string, and the body's, coupled by the
-// inertia that schemes/body/body_step.hpp derives. Per mode, of strings and of the body,
+// First-order equations for all strings of a scene on a moving body, for an integrator. They
+// combine string_equations.hpp for every string with the body's equations, coupled by the inertia
+// that schemes/body/body_step.hpp derives. Per mode, on strings and body,
 //
 //     p_i' = omega_i v_i,   m_i v_i' = -m_i (omega_i p_i + 2 sigma_i v_i) + G_i - mu_i a,
 //     sum over strings of (mu L/3 a + sum mu_i v_i') in G
 //
-// with a = w''. The mass matrix is diagonal but for the body's rank: with A_i the accelerations
-// where the body is held and A_k those of the body where the strings are, b = sum 1/M_k and S = sum
+// with a = w''. The mass matrix is diagonal except for the body's rank. With A_i the accelerations
+// for a fixed body and A_k the body's accelerations for fixed strings, b = sum 1/M_k and S = sum
 // mu_i^2/m_i,
 //
 //     f = g - sum mu_i A_i - (sum mu L/3 - S) a,   a = sum A_k + b f,
@@ -28,7 +28,7 @@
 namespace jvari {
 
 struct InstrumentEquations final : Equations {
-    // Strings without profiles, and the modes of each.
+    // Takes strings without profiles, and the modes of each.
     InstrumentEquations(const std::vector<String>& all, const std::vector<Modes>& modes,
                         const std::vector<BodyMode>& body_modes) {
         std::vector<Point> threads;
@@ -95,13 +95,13 @@ struct InstrumentEquations final : Equations {
 
     struct OfString {
         int first = 0, count = 0;  // its modes
-        double mass = 0;           // of a mode [kg]
+        double mass = 0;           // modal mass [kg]
         std::vector<double> mu;    // [kg]
         std::optional<Pluck> pluck = {};
         std::vector<double> g_e = {};
-        double finger = 0;  // psi where it is plucked
+        double finger = 0;  // psi at the pluck
         bool plucked = false;
-        int bridge = 0, thread = 0;  // of its impulses, among the sums
+        int bridge = 0, thread = 0;  // indices of its impulses, among the sums
     };
     struct Point {
         int string;
@@ -112,10 +112,10 @@ struct InstrumentEquations final : Equations {
         bool clipped = false;
     };
     std::vector<OfString> strings;
-    std::vector<Point> points;  // the contacts of all strings in turn, then the threads
-    int body = 0;               // the first of its modes
+    std::vector<Point> points;  // the contacts on all strings in turn, then the threads
+    int body = 0;               // first body mode
     int sums = 0;               // 2 per string [N s], then supplied and dissipated [J]
-    double time = 0;            // at t = 0 of the integrator [s]
+    double time = 0;            // at t = 0 in the integrator's time [s]
 
     int size() const override { return 2 * padded + sums; }
     void slope(double t, const double* z, double* dz) const noexcept override {
@@ -179,7 +179,7 @@ struct InstrumentEquations final : Equations {
         return std::max(
             {sum, 2 * pressed / strings.front().mass, 2 * padded * least_scale_ * least_scale_});
     }
-    // of the modes without their coupling
+    // solves for the modes without their coupling
     void solve(double, double gamma, const double*, const double* b, double* x) noexcept override {
         std::copy_n(b, size(), x);
         for (int i = 0; i < padded; ++i) {  // the blocks [1, -gamma w; gamma w, 1 + 2 gamma sigma]
@@ -190,9 +190,9 @@ struct InstrumentEquations final : Equations {
         }
     }
 
-    // Of the fastest motion [1/s]. As in string_equations.cpp: an impact at speed v goes as deep as
-    // m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/compliance. Contacts of one string push the same
-    // modes, those of two the body: their stiffnesses add up.
+    // Rate of the fastest motion [1/s]. The bound follows string_equations.cpp: an impact at speed
+    // v reaches the depth m v^2/2 = k eta^(alpha+1)/(alpha+1), m = 1/compliance. Contacts on one
+    // string push the same modes, those on two strings push the body: their stiffnesses add up.
     double pace(const double* z) const noexcept {
         double fastest = 0, springs = 0, dampers = 0;
         for (const double omega : omega_) fastest = std::max(fastest, omega);
@@ -268,10 +268,11 @@ private:
     }
     bool acts(int point) const noexcept { return point >= contacts || touched[point]; }
 
-    std::vector<double> omega_, damping_, mass_;              // omega0, 2 sigma, m of each mode
-    double tension_ = 0, inertia_ = 0, rest_ = 0, give_ = 0;  // sum T/L, sum mu L/3, that less S, b
-    double least_scale_ = 0;                                  // [m/s], of what the plucks make
-    std::vector<double> compliance_;                          // of each point, sum g^2/m [1/kg]
+    std::vector<double> omega_, damping_, mass_;  // omega0, 2 sigma, m for each mode
+    // sum T/L, sum mu L/3, the latter minus S, b
+    double tension_ = 0, inertia_ = 0, rest_ = 0, give_ = 0;
+    double least_scale_ = 0;          // [m/s], from the plucks
+    std::vector<double> compliance_;  // for each point, sum g^2/m [1/kg]
 };
 
 }  // namespace jvari

@@ -24,7 +24,7 @@ void add_taps(const Block& out, int row, const std::vector<BodyTap>& taps, const
     }
 }
 
-struct Heard {  // of one string
+struct Heard {  // on one string
     Readout readout;
     std::vector<BodyTap> taps;
 };
@@ -100,7 +100,7 @@ private:
         const double from = row_ / tap_rate_, to = (row_ + 1) / tap_rate_;
         int idle = 0;
         for (double at = from; at < to;) {
-            double edge = HUGE_VAL;  // where a pluck begins, ends or turns
+            double edge = HUGE_VAL;  // time at which a pluck begins, ends or has a knot
             for (const auto& s : equations_.strings)
                 if (s.pluck) edge = std::min(edge, next_knot(*s.pluck, at));
             const double until = std::min(edge, to);
@@ -155,10 +155,10 @@ private:
     Integrator integrator_;
     std::vector<Heard> heard_;
     std::vector<double> start_, tap_, y_;
-    // of the integrator's sums: taken already; since the last row
+    // the integrator's sums: already taken; since the last row
     std::vector<double> seen_, sums_;
     double tap_rate_;
-    double begun_ = 0;  // t = 0 of the integrator [s]
+    double begun_ = 0;  // t = 0 in the integrator's time [s]
     long row_ = 0;
     double events_ = 0;
 };

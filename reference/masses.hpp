@@ -1,7 +1,7 @@
-// Free masses of a string in the form of its references. Each mass is one more mode with frequency
-// 0, behind the modes of the string. All modes there share one modal mass m. A displacement q of
-// the mode moves a mass M by share q, with share = sqrt(m/M). The contact of the mass reads the
-// string's footprint minus that displacement.
+// Free masses in the form that the references use. Each mass is one more mode with frequency 0,
+// behind the string's modes. All modes there share one modal mass m. A displacement q of the mode
+// moves a mass M by share q, with share = sqrt(m/M). The mass's contact reads the string's
+// footprint minus that displacement.
 #pragma once
 
 #include <vector>

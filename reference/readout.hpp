@@ -1,4 +1,4 @@
-// What the taps of a one-string scene read from a modal state and from the impulses of the last
+// Reads the taps of a one-string scene from a modal state and from the impulses over the last
 // interval.
 #pragma once
 
@@ -19,22 +19,22 @@ struct Readout {
     int masses() const { return static_cast<int>(mass_.size()); }
 
     // Writes row `row` of the block; y [m] and u [m] are modal displacements and velocities/rate;
-    // forces are means over the interval [N].
-    // bridge: with masses, whose own share is their change of momentum
+    // forces are means over the interval [N]. bridge: including masses, whose own share is their
+    // change in momentum
     void write(const Block& out, int row, const double* y, const double* u, double rate,
                double bridge, double thread) const;
 
 private:
     std::vector<Quantity> quantity_;
-    std::vector<int> of_mass_;                      // -1: of the string
+    std::vector<int> of_mass_;                      // -1: a tap on the string
     std::vector<double> mass_, share_;              // [kg]; masses.hpp
-    mutable std::vector<double> momentum_, force_;  // at the last row [kg m/s]; mean to it [N]
+    mutable std::vector<double> momentum_, force_;  // at the last row [kg m/s]; mean up to it [N]
     double tap_rate_ = 0;
-    std::vector<double> weights_;  // [tap][mode], unused where the tap is a contact force
+    std::vector<double> weights_;  // [tap][mode], unused for a contact force
     int modes_;
 };
 
-// Of the first modes of padded arrays, whose velocities are `scale` u.
+// State from the first modes in padded arrays, whose velocities are `scale` u.
 inline ModalState state_of(const std::vector<double>& y, const std::vector<double>& u, int count,
                            double scale) {
     ModalState s{{y.begin(), y.begin() + count}, {u.begin(), u.begin() + count}};

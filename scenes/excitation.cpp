@@ -45,10 +45,10 @@ double on_line(const Pluck& e, std::size_t k, double t) {
                                            (e.time[k + 1] - e.time[k]));
 }
 
-// The integrals of F and of F (2s - 1) over s = 0 .. 1 of the step
+// Integrals over F and F (2s - 1) for s = 0 .. 1 in the step
 struct Moments {
     double mean = 0, first = 0;
-    // a piece of the step about `middle` where F is a line: its mean and its rise
+    // a piece of the step about `middle` in which F is a line: its mean and its rise
     void add_line(double middle, double width, double force, double rise) {
         mean += width * force;
         first += width * (force * (2 * middle - 1) + rise * width / 6);
@@ -67,8 +67,8 @@ Moments of_lines(const Pluck& e, double t, double dt) {
     return sum;
 }
 
-// Five-point Gauss on panels, from the end backwards: as narrow as the skewed end asks for where
-// exp(s(x-1)) counts.
+// Five-point Gauss on panels, from the end backwards: narrow enough for the skewed end, in the
+// range in which exp(s(x-1)) counts.
 Moments of_analytic(const Pluck& e, double t, double dt) {
     constexpr double widest = 0.1;
     constexpr std::pair<double, double> rule[] = {{-0.9061798459386640, 0.1184634425280945},
@@ -133,7 +133,7 @@ double hann_smoothing(double beta, double s) {
 }
 
 double coefficient(const TriangleShape& t, double length, int mode) {
-    // its square passes what an int holds
+    // its square would overflow an int
     const double beta = mode * pi / length, x0 = t.position, number = mode;
     return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) *
            std::sin(beta * x0) * hann_smoothing(beta, t.smoothing);

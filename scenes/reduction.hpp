@@ -17,10 +17,10 @@ namespace jvari {
 
 enum class Part {
     contact_stiffness,  // becomes a tenth or a hundredth
-    exponent,           // the exponent of a contact becomes 1
+    exponent,           // sets a contact's exponent to 1
     contact_loss,
-    footprint,     // the footprint of a barrier or a thread becomes a point
-    damping_term,  // one of several terms of a law
+    footprint,     // shrinks a footprint under a barrier or a thread to a point
+    damping_term,  // one among several terms in a law
     damping,
     bending_stiffness,
     thread,
@@ -44,10 +44,10 @@ struct Reduction {
 };
 
 // Returns all reductions that apply to this scene. A contact whose exponent becomes 1 keeps its
-// force at a penetration of `penetration` [m].
+// force at the penetration `penetration` [m].
 std::vector<Reduction> reductions_of(const Scene&, double penetration = 1);
 
-// Removes the force taps of contacts that no longer exist, except the tap `kept`.
+// Removes force taps for contacts that no longer exist, except the tap `kept`.
 void remove_idle_taps(Scene&, const std::string& kept = "");
 
 }  // namespace jvari

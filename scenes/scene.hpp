@@ -13,8 +13,7 @@
 
 namespace jvari {
 
-// ---- Losses of the free string: sigma(beta) or sigma(mode) [1/s]; the laws themselves are in
-// damping.hpp.
+// ---- Losses of the free string: sigma(beta) or sigma(mode) [1/s]; damping.hpp contains the laws.
 
 struct NoDamping {
     bool operator==(const NoDamping&) const = default;
@@ -35,14 +34,15 @@ struct QualityFactorDamping {       // Issanchou et al. 2016, eq 12 and below
     bool operator==(const QualityFactorDamping&) const = default;
 };
 struct TableDamping {                  // measured modes: replaces both frequency and decay
-    std::string file;                  // as written in the scene
+    std::string file;                  // path written in the scene
     std::vector<double> frequency_hz;  // one per mode, ascending
     std::vector<double> decay_rate;    // sigma [1/s]
-    // numbers of modes that the file lacks; theirs lie between those of their neighbours
+    // numbers of the modes missing from the file; their values are interpolated between their
+    // neighbours
     std::vector<int> filled = {};
     bool operator==(const TableDamping&) const = default;
 };
-// amplitude factor per period of the first mode, the same decay rate for every mode (Deshmukh)
+// amplitude factor per first-mode period, the same decay rate for every mode (Deshmukh)
 struct PerPeriodDamping {
     double factor = 1;
     bool operator==(const PerPeriodDamping&) const = default;
@@ -53,7 +53,7 @@ using Damping = std::variant<NoDamping, PolynomialDamping, QualityFactorDamping,
 // ---- The obstacle. V(eta) = k [eta]^(exponent+1)/(exponent+1), eta = h - y the penetration, F =
 // V'(eta) >= 0 on the string.
 
-// as a stiffness: the barrier does not give way at all
+// a stiffness value: the barrier does not give way at all
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 struct LumpedStiffness {
     double k = 0;  // [N/m^exponent], or rigid
@@ -63,8 +63,8 @@ struct StiffnessDensity {
     double K = 0;  // [N/m^(exponent+1)], or rigid
     bool operator==(const StiffnessDensity&) const = default;
 };
-// What a contact loss makes of the force F_s of the spring while the string leaves at the speed v:
-// F_s (1 - beta v), which pulls where v > 1/beta, or 0 in place of that.
+// Effect of a contact loss on the spring's force F_s while the string leaves at the speed v: F_s (1
+// - beta v), which pulls if v > 1/beta, or with `clipped` 0 in place of a pull.
 enum class LossLaw { hunt_crossley, clipped };
 // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
 struct LumpedBarrier {
@@ -117,14 +117,14 @@ struct Thread {            // spring and damper, never detaches (van Walstijn et
     bool operator==(const Thread&) const = default;
 };
 
-// A barrier that moves: a free mass on the barriers' side of the string, which it meets at its top.
-// Its contact pushes the string by k [eta]^exponent, and the mass by as much the other way. Gravity
-// is not modelled.
+// Moving barrier: a free mass on the barriers' side of the string, which meets the string at its
+// top. Its contact pushes the string by k [eta]^exponent, and the mass by the opposite force.
+// Gravity is not modelled.
 struct Mass {
     double mass = 0;      // [kg]
     double position = 0;  // [m]
-    double width = 0;     // of the footprint [m]
-    double velocity = 0;  // at t = 0, positive as y is: upwards, towards the string [m/s]
+    double width = 0;     // footprint [m]
+    double velocity = 0;  // at t = 0, positive upwards like y, towards the string [m/s]
     double gap = 0;       // at t = 0, from its top up to y = 0, the line of the straight string [m]
     double stiffness = 0;  // [N/m^exponent]
     double exponent = 1;
@@ -133,7 +133,7 @@ struct Mass {
     bool operator==(const Mass&) const = default;
 };
 
-// ---- What sets it in motion.
+// ---- Excitation.
 
 struct ModeShape {
     int number = 1;
@@ -146,35 +146,36 @@ struct TriangleShape {
     double smoothing = 0;  // full width of a Hann smoothing [m]
     bool operator==(const TriangleShape&) const = default;
 };
-using Shape = std::variant<ModeShape, TriangleShape>;  // amplitude [m], of a velocity [m/s]
+using Shape = std::variant<ModeShape, TriangleShape>;  // amplitude [m]; for a velocity [m/s]
 // rows along the string, with straight lines between them and to its ends, or rows of modes
 struct TableStart {
-    std::string file;                  // as written in the scene
-    std::string state_of = {};         // the scene whose state it is; "": it does not say
-    bool of_modes = false;             // what `at` is
-    std::vector<double> at;            // x [m] or the number of a mode, ascending
+    std::string file;                  // path written in the scene
+    std::string state_of = {};         // the scene to which the state belongs; "": unknown
+    bool of_modes = false;             // true if `at` contains mode numbers
+    std::vector<double> at;            // x [m] or mode number, ascending
     std::vector<double> displacement;  // [m]
     std::vector<double> velocity;      // [m/s]
     bool operator==(const TableStart&) const = default;
 };
-// the static equilibrium under barriers, thread and the pluck's force of t = 0
+// the static equilibrium under barriers, thread and the pluck's force at t = 0
 struct RestStart {
     bool operator==(const RestStart&) const = default;
 };
 using Start = std::variant<ModeShape, TriangleShape, TableStart, RestStart>;
 
-// Force: of a file, straight lines between its rows; else van Walstijn et al. 2016, eqs 14-15.
+// Force: from a file, with straight lines between its rows, or by van Walstijn et al. 2016, eqs
+// 14-15.
 struct Pluck {
-    double amplitude = 0;   // a_e, of a file the largest force [N]
+    double amplitude = 0;   // a_e; for a file the largest force [N]
     double duration = 0;    // tau_e [s]
     double skew = 0;        // beta_e
     double start = 0;       // t_e [s]
     double position = 0;    // [m]
     double width = 0;       // [m]
-    std::string file = {};  // as written in the scene; "": none
-    // of the file: instants [s], ascending, and the force over the largest of them
+    std::string file = {};  // path written in the scene; "": none
+    // from the file: instants [s], ascending, and the force relative to the largest one
     std::vector<double> time = {}, share = {};
-    double peak = 0;  // the largest force that the file has [N]
+    double peak = 0;  // the largest force in the file [N]
     bool operator==(const Pluck&) const = default;
 };
 struct Polarisation {
@@ -188,21 +189,22 @@ struct String {
     double linear_density = 0;     // mu [kg/m]
     double tension = 0;            // T [N]
     double bending_stiffness = 0;  // EI [N m^2]
-    // EA [N]: the tension grows as the string stretches (Kirchhoff, Carrier); 0: it stays as it is
+    // EA [N]: the tension grows when the string stretches (Kirchhoff, Carrier); 0: the tension is
+    // constant
     double axial_stiffness = 0;
     Damping damping;
     std::vector<Barrier> barriers;
     std::optional<Thread> thread;
     std::vector<Mass> masses;
     std::optional<Start> start;     // displacement at t = 0
-    std::optional<Shape> velocity;  // at t = 0, beside that of a table
+    std::optional<Shape> velocity;  // at t = 0, in addition to a table's velocity
     std::optional<Pluck> pluck;
     std::optional<Polarisation> polarisation;
     bool has_contacts() const { return !barriers.empty() || !masses.empty(); }
     bool operator==(const String&) const = default;
 };
 
-// ---- What is listened to.
+// ---- Taps.
 
 enum class Quantity {
     displacement,
@@ -220,19 +222,20 @@ struct Tap {
     Quantity quantity = Quantity::displacement;
     std::optional<int> string;  // absent: the sum over strings (forces only)
     double position = 0;        // [m], displacement and velocity only
-    // of the string, whose displacement, velocity or force on the string (bridge_force) is meant
+    // Selects a mass on the string: the tap hears its displacement, its velocity or its force on
+    // the string (bridge_force)
     std::optional<int> mass = {};
     bool operator==(const Tap&) const = default;
 };
-// an oscillator that the bridge moves; what all strings pull at is the sum of their displacements
+// an oscillator driven by the bridge; all strings pull at the sum of the displacements
 struct BodyMode {
-    double mass = 0;       // [kg], as felt at the bridge
+    double mass = 0;       // [kg], at the bridge
     double stiffness = 0;  // [N/m]
     double damping = 0;    // [kg/s]
     bool operator==(const BodyMode&) const = default;
 };
 struct Body {
-    // filters of what is heard of driving_force and nut_force: files of impulse responses; "": none
+    // filters for the driving_force and nut_force taps: files with impulse responses; "": none
     std::string bridge, nut;
     std::vector<BodyMode> modes;  // none: the bridge does not move
     bool operator==(const Body&) const = default;
@@ -247,21 +250,22 @@ struct Scene {
     bool operator==(const Scene&) const = default;
 };
 
-// What the tap is taken from, where the string has none ("a barrier"); nullptr where it has.
+// Name of the part that the tap needs and the string lacks ("a barrier"); nullptr if the string has
+// it.
 const char* lacks(const String&, Quantity, std::optional<int> mass = {});
 
-// The scene of one of its strings: that string, and the taps that hear it, in their order.
+// Scene with one of the strings: that string, and the taps that hear it, in their order.
 Scene alone(const Scene&, int string);
 bool hears(const Tap&, const Scene&, int string);
 
-Scene unfiltered(Scene);  // without the body's filters; what moves stays
+Scene unfiltered(Scene);  // removes the body's filters; moving parts stay
 
-// ---- What a scene asks of a scheme: that there are several strings asks nothing, and a body that
-// only filters asks nothing.
+// ---- Features that a scene needs from a scheme. Neither several strings nor a body that only
+// filters counts.
 
 enum class Feature : unsigned {
     bending_stiffness = 1u << 0,
-    damping = 1u << 1,                      // any loss of the free string
+    damping = 1u << 1,                      // any loss on the free string
     frequency_dependent_damping = 1u << 2,  // a loss that differs from mode to mode
     measured_modes = 1u << 3,               // a table in place of the string's own frequencies
     lumped_barrier = 1u << 4,
@@ -273,14 +277,14 @@ enum class Feature : unsigned {
     initial_shape = 1u << 10,
     pluck = 1u << 11,
     polarisation = 1u << 12,
-    moving_body = 1u << 13,  // the strings' end at x = 0 moves with it
+    moving_body = 1u << 13,  // the strings' end at x = 0 moves with the body
     rigid_barrier = 1u << 14,
     rigid_profile = 1u << 15,  // in place of profile_barrier
     tension_modulation = 1u << 16,
     initial_velocity = 1u << 17,
-    equilibrium = 1u << 18,   // a start at rest under what presses
+    equilibrium = 1u << 18,   // a start at rest under pressing barriers
     clipped_loss = 1u << 19,  // a contact loss that does not pull
-    free_mass = 1u << 20,     // that meets the string
+    free_mass = 1u << 20,     // a mass that meets the string
 };
 constexpr int feature_count = 21;
 const char* name_of(Feature);
@@ -307,7 +311,7 @@ constexpr Features any_rigid = Feature::rigid_barrier | Feature::rigid_profile,
 
 Features needed_by(const Scene&);
 
-// A value that cannot be: `key` is its path in a scene file ("string.0.barrier.1.width").
+// Reports an impossible value: `key` is its path in a scene file ("string.0.barrier.1.width").
 struct BadScene : std::runtime_error {
     BadScene(std::string key, std::string found, std::string expected);
     std::string key, found, expected;

@@ -37,12 +37,13 @@ void emplace(std::variant<T...>& v, std::size_t index) {
 
 constexpr const char* tension_keys[] = {"tension", "frequency", "note"};
 
-// ---- Keys that this table may have. If the key that chooses an alternative is missing or wrong,
-// the keys of every alternative are allowed.
+// ---- Keys allowed in this table. If the key that chooses an alternative is missing or wrong,
+// every alternative's keys are allowed.
 struct Names : Pass<Names> {
     const Value& table;
     std::vector<std::string> names{};
-    std::vector<std::string> idle{};  // keys of alternatives that an override has abandoned
+    // keys belonging to alternatives that an override has abandoned
+    std::vector<std::string> idle{};
 
     explicit Names(const Value& of) : table(of) {}
     void seen(const char* key) {
@@ -114,8 +115,8 @@ public:
         if (d && *d == rigid)
             fail(*v, at(key), v->found(), std::string(positive_or_rigid.says) + " [" + unit + "]");
     }
-    // Reads a wire of a material, or its two numbers. If an override brings one of the two forms,
-    // the other form in the file stays unread.
+    // Reads a wire by its material, or by its two numbers. If an override brings one form, the
+    // other form in the file stays unread.
     void material() {
         const Value *name = table_.find("material"), *width = table_.find("diameter");
         if (!name && !width) return;
@@ -135,7 +136,8 @@ public:
             if (!beside || overridden) wire_[key] = value;
         }
     }
-    // Reads one of three keys. If an override brings one, the others in the file stay unread.
+    // Reads exactly one among three keys. If an override brings one, the others in the file stay
+    // unread.
     void tension(String& s) {
         const char* chosen = nullptr;
         for (const char* key : tension_keys) {

@@ -1,12 +1,12 @@
-// Schema of a scene file: the keys of every part in the order in which they are written, each with
-// its unit, its range and its default. Four passes use the schema: naming the keys, reading,
-// writing, and checking ranges. validate.cpp checks rules that involve several values, such as a
-// bridge beyond the end of the string.
+// Schema for scene files: every part's keys in writing order, each with its unit, its range and its
+// default. Four passes use the schema: naming the keys, reading, writing, and checking ranges.
+// validate.cpp checks rules that involve several values, such as a bridge beyond the end of the
+// string.
 //
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
 // scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), modes
-// (columns whose rows have numbers), one_of (a variant and the key that chooses it), material (with
-// a diameter, in place of two numbers), tension (or a pitch), start ("rest" or a CSV file, in place
+// (columns with numbered rows), one_of (a variant and the key that chooses it), material (with a
+// diameter, in place of two numbers), tension (or a pitch), start ("rest" or a CSV file, in place
 // of a table), start_table (its columns), force (a file), part (a table) and parts (an array of
 // tables).
 #pragma once

@@ -14,8 +14,8 @@ namespace jvari {
 using std::numbers::pi;
 
 namespace {
-// A point at z: e(z) + C F(z) = height. Where z > 0 it presses, and z is its penetration, of a
-// rigid one C F(z).
+// A point at z: e(z) + C F(z) = height. If z > 0 the point presses, and z is its penetration; for a
+// rigid point z is C F(z).
 struct AtRest {
     double e, e_slope, F, F_slope;
 };
@@ -41,7 +41,7 @@ void solve(std::vector<double> A, std::vector<double>& b) {
         for (std::size_t j = r + 1; j < n; ++j) b[r] -= A[r * n + j] * b[j];
 }
 
-struct Lines {  // with both ends of the string
+struct Lines {  // including both ends of the string
     std::vector<double> x, y;
     Lines(const TableStart& t, const std::vector<double>& column, double length) : x{0}, y{0} {
         x.insert(x.end(), t.at.begin(), t.at.end());
@@ -73,7 +73,7 @@ struct SeriesOf {
         for (std::size_t k = 0; t.of_modes && k < t.at.size(); ++k)
             if (t.at[k] <= modes.count()) q[static_cast<std::size_t>(t.at[k]) - 1] = y[k];
         if (t.of_modes) return q;
-        // each corner, where the slope changes by -d, adds 2 d sin(beta x)/(L beta^2)
+        // each corner, with a slope change of -d, adds 2 d sin(beta x)/(L beta^2)
         const Lines lines(t, y, s.length);
         for (std::size_t k = 1; k + 1 < lines.x.size(); ++k)
             for (std::size_t i = 0; i < q.size(); ++i)
@@ -130,7 +130,7 @@ void rest(const Modes& modes, const String& s, const Yield& yield, ModalStart& s
 }
 }  // namespace
 
-// Newton's steps, shortened until the residual falls, as far as rounding lets it.
+// Newton's steps, shortened until the residual falls, down to rounding.
 std::vector<double> resting_forces(std::span<const RestingPoint> points,
                                    std::span<const double> C) {
     constexpr int most_steps = 200;
@@ -140,7 +140,7 @@ std::vector<double> resting_forces(std::span<const RestingPoint> points,
     const auto at = [&](std::size_t p, const std::vector<double>& x) {
         return at_rest(points[p], C[p * n + p], x[p]);
     };
-    const auto residual = [&](const std::vector<double>& x) {  // the largest of G(x)
+    const auto residual = [&](const std::vector<double>& x) {  // the largest G(x)
         double most = 0;
         for (std::size_t p = 0; p < n; ++p) F[p] = at(p, x).F;
         for (std::size_t p = 0; p < n; ++p) {

@@ -1,5 +1,5 @@
-// Products and decompositions of small dense matrices, n x n. Eigen's are compiled once, in
-// decompositions.cpp: where each place had its own they took two minutes.
+// Products and decompositions for small dense matrices, n x n. Eigen's templates are compiled once,
+// in decompositions.cpp: separate copies at each use took two minutes.
 #pragma once
 
 #include <complex>
@@ -10,19 +10,19 @@ namespace jvari {
 
 struct SymmetricParts {
     std::vector<double> value;   // n, rising
-    std::vector<double> vector;  // n numbers of each value, one after another; orthonormal
+    std::vector<double> vector;  // n numbers for each value, one after another; orthonormal
 };
 SymmetricParts symmetric_parts(std::span<const double>, int n);
 
 struct Eigenpairs {
     std::vector<std::complex<long double>> value;   // n
-    std::vector<std::complex<long double>> vector;  // n numbers of each value, one after another
+    std::vector<std::complex<long double>> vector;  // n numbers for each value, one after another
 };
 Eigenpairs eigenpairs_of(std::span<const long double>, int n);  // stored by columns
 
 std::vector<double> product_of(std::span<const double>, std::span<const double>, int n);  // by rows
 
-// stored by rows or by columns, as the matrix is
+// stored by rows or by columns, like the matrix
 std::vector<double> inverse_of(std::span<const double>, int n);
 std::vector<long double> inverse_of(std::span<const long double>, int n);
 

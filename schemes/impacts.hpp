@@ -11,14 +11,14 @@ namespace jvari {
 
 struct BarrierOf {  // names a barrier by its string in the scheme
     int string = 0, barrier = 0;
-    // number of barriers on that string; a scheme may have one for each point of a profile
+    // number of barriers on that string; a scheme may have one for each profile point
     int barriers = 1;
 };
 
 struct Impact {
     int barrier = 0;            // barrier on the string, or the mass, numbered behind the barriers
     double start = 0, end = 0;  // [s]
-    double largest_force = 0;   // sum over all points of the barrier [N]
+    double largest_force = 0;   // sum over all points on the barrier [N]
     double impulse = 0;         // [N s]
     // Speeds towards the barrier before the contact, and away from it after [m/s]. NaN if not seen:
     // the contact is on at t = 0 or at the end, or the string moves the other way in the adjacent
@@ -31,7 +31,7 @@ class Impacts {
 public:
     explicit Impacts(const String&);  // a string of the scene
 
-    // Adds a part of a contact in which the barrier touched all the time.
+    // Adds a part of a contact during which the barrier touched all the time.
     void add(const Impact& part);
 
     struct Step {  // one step of a scheme, on one contact

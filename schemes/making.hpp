@@ -1,5 +1,4 @@
-// Checks and values for a scheme's `make`, and errors for a scheme that breaks the contract of
-// scheme.hpp.
+// Checks and values for `make`, and errors for a scheme that breaks the contract in scheme.hpp.
 #pragma once
 
 #include <string>
@@ -19,14 +18,14 @@ int modes_for(const Scene&, const Settings&);
 // Modes for one string; Refusal if there are none, or more than most_modes
 Modes modes_of(const String&, const Settings&);
 
-// Queries of a descriptor. margin_of returns the least margin that the scheme's limit leaves on any
-// string of the scene, or NaN if the limit does not apply.
+// Queries to a descriptor. margin_of returns the least margin that the scheme's limit leaves on any
+// string, or NaN if the limit does not apply.
 bool represents(const Descriptor&, const Scene&);
 bool declares(const Descriptor&, const std::string& option_name);
 Features approximated(const Descriptor&);
 double margin_of(const Descriptor&, const Scene&, const Settings&);
 
-// Value of a declared option, or its fallback. A choice is one of its words:
+// Value for a declared option, or its fallback. A choice is one of its words:
 // choice_option(settings, levels) == "3".
 std::string option(const Settings&, const Option&);
 std::string choice_option(const Settings&, const Option&);

@@ -1,12 +1,11 @@
-// Exports a table of Descriptor from a shared object. The schemes are written like those of the
-// tree and linked with jvari's libraries. The source ends with
+// Exports a table of Descriptor from a shared object. The schemes are written like the tree's
+// schemes and linked with jvari's libraries. The source ends with
 //
 //     JVARI_PLUGIN(table)    // an array of Descriptor
 //
-// Only C crosses the boundary (open/jvari_scheme.h). The scene is read again from its text, so that
-// its tables of obstacles must be found from the working directory of the program.
-// open/jvari_scheme.hpp is for schemes that need the arrays of the problem and no library. Leaves
-// out: limits.
+// Only C crosses the boundary (open/jvari_scheme.h). The scene is read again from its text, so its
+// obstacle tables must be found from the program's working directory. open/jvari_scheme.hpp is for
+// schemes that need the problem's arrays and no library. Leaves out: limits.
 #pragma once
 
 #include <deque>
@@ -103,7 +102,7 @@ inline std::int64_t facts(void* self, jvari_fact* to, std::int64_t room) {
     return -1;
 }
 
-class Tables {  // tables for the schemes of one plugin, made on first use
+class Tables {  // tables for the schemes in one plugin, made on first use
 public:
     explicit Tables(std::span<const Descriptor> all, const char* flags, bool optimised) {
         for (const Descriptor& d : all) add(d);

@@ -41,7 +41,7 @@ bool is_control(const Descriptor& d) {
 
 namespace {
 std::vector<const Guest*>& all_guests() {
-    // never destroyed: the guests live as long as the process
+    // never destroyed: the guests live until the process ends
     static auto& all = *new std::vector<const Guest*>;
     return all;
 }
@@ -56,7 +56,7 @@ const Guest* find_guest(const std::string& path) {
 }
 
 namespace {
-// A scheme's name stands in tables, in commands and in the names of files.
+// A scheme's name appears in tables, commands and file names.
 void check_name(const std::string& path, std::string_view name) {
     std::string wrong = unfit_as_file(name);
     if (name == "reference") wrong = "is what results call the reference";
@@ -72,7 +72,7 @@ void check_name(const std::string& path, std::string_view name) {
 
 const Guest& add_guest(Guest guest) {
     for (const Descriptor& d : guest.schemes) check_name(guest.path, d.name);
-    // for the life of the process
+    // kept until the process ends
     const auto* added = new Guest(std::move(guest));
     const auto same = std::find_if(all_guests().begin(), all_guests().end(),
                                    [added](const Guest* g) { return g->path == added->path; });

@@ -1,5 +1,5 @@
-// Runs several strings as one scheme. Strings act on each other only through a body. Without a body
-// each string is a scheme by itself, and a tap that hears several strings hears the sum.
+// Runs several strings in one scheme. Strings act on each other only through a body. Without a body
+// each string is a separate scheme, and a tap that hears several strings hears the sum.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace jvari {
 
-// Makes one scheme per string of the scene and advances them one after the other. A tap on a string
-// comes from that string alone; forces on all strings and the energy columns are sums in string
-// order. The outcome is the one from the string that fails first, and a failure names its string.
+// Makes one scheme per string and advances them one after the other. A tap on a string comes from
+// that string alone; forces on all strings and the energy columns are sums in string order. The
+// outcome comes from the string that fails first, and a failure names its string.
 std::unique_ptr<Scheme> several_strings(const Descriptor&, const Scene&, const Settings&);
 
-// ---- One string of several, for any scheme that steps them together.
+// ---- One string among several, for any scheme that steps them together.
 
 struct HeardTap {  // a tap of the scene, on one string
     int column;
@@ -25,7 +25,7 @@ std::vector<HeardTap> heard_taps(const Scene&, int string, std::vector<bool>& he
 
 std::vector<Fact> facts_of_string(int, std::vector<Fact>);  // names each fact after the string
 std::string named_after_string(int, const char* refusal);
-// The error gets the key from the scene of this string alone.
+// The error gets the key from this string's own scene.
 BadScene named_after_string(int, const BadScene&);
 
 // Calls make(scene of that string alone); a refusal names the string if there are several.

@@ -1,6 +1,5 @@
-// Trace: what a run produced. Column-major; row n is at t = n/tap_rate, row 0 the initial state.
-// And how far two columns are apart: the two sums that references are certified by and errors are
-// measured with.
+// Trace: the output of a run. Column-major; row n is at t = n/tap_rate, row 0 the initial state.
+// This file also compares two columns: its two sums certify references and measure errors.
 #pragma once
 
 #include <limits>
@@ -10,12 +9,12 @@
 
 namespace jvari {
 
-inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();  // what is not known
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();  // unknown value
 inline constexpr double inf = std::numeric_limits<double>::infinity();
 
 struct Trace {
     double tap_rate = 0;             // [Hz]
-    long rows = 0;                   // rows that are valid
+    long rows = 0;                   // valid rows
     long stride = 0;                 // rows allocated per column
     std::vector<std::string> names;  // one per tap
     std::vector<double> tap;         // stride x taps
@@ -30,17 +29,17 @@ struct Trace {
     }
 };
 
-// First row with t >= seconds. An instant within 1e-6 of a row is that row: 0.05 s x 44100 Hz is
-// row 2205 whatever it rounds to.
+// First row with t >= seconds. An instant within 1e-6 rows of a row is that row: 0.05 s x 44100 Hz
+// is row 2205 whatever its rounding.
 long row_at(double seconds, double rate);
 
-// ||a - b||/||b|| over the rows that both have; 0 where both are zero, +inf where b alone is. Sums
-// are taken relative to the largest value of b, so that nothing under- or overflows.
+// ||a - b||/||b|| over the common rows; 0 if both are zero, +inf if b alone is. Sums are taken
+// relative to the largest value of b, so that nothing under- or overflows.
 double relative_difference(std::span<const double> a, std::span<const double> b);
 
-// The first instant t [s] at which ||a - b||_[0,t] passes level x max(||b||_[0,t], max |b|), [0,t]
-// with its last row; the last row of b where it never does. An a that stops early or is not finite
-// agrees until its last sound row.
+// First instant t [s] at which ||a - b||_[0,t] exceeds level x max(||b||_[0,t], max |b|), [0,t]
+// with its last row; the last row of b if that never happens. An a that stops early or is not
+// finite agrees until its last sound row.
 double agree_until(std::span<const double> a, std::span<const double> b, double rate, double level);
 
 }  // namespace jvari

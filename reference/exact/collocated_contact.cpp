@@ -11,7 +11,7 @@
 namespace jvari {
 
 namespace {
-// of a sum of a few terms, relative to the largest
+// for a sum with a few terms, relative to the largest
 constexpr double last_bits = 4 * std::numeric_limits<double>::epsilon();
 }  // namespace
 
@@ -30,7 +30,7 @@ CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const Barri
     // int_0^c (c - x)^l/l! x^n dx = n! c^(n+l+1)/(n+l+1)!
     std::array<Real, orders + nodes + 1> factorial{1};
     for (std::size_t n = 1; n < factorial.size(); ++n) factorial[n] = factorial[n - 1] * n;
-    // of each node, and of 1
+    // for each node, and for 1
     std::array<std::array<Real, orders + nodes + 1>, nodes + 1> powers_of;
     for (int i = 0; i <= nodes; ++i) {
         powers_of[i][0] = 1;
@@ -71,8 +71,8 @@ CollocatedContact::CollocatedContact(const MacroWindow& w, std::span<const Barri
     for (auto* v : {&couple_, &couple_speed_, &matrix_}) v->resize(most * most + 1);
 }
 
-// Into guess_: the last step's forces, where the same point touched, as polynomials beyond or
-// inside it.
+// Sets guess_ to the last step's forces, by polynomials beyond or inside it, if the same point
+// touched.
 void CollocatedContact::guess(std::span<const int> touching, double d, From from) noexcept {
     for (std::size_t a = 0; a < touching.size(); ++a) {
         const auto before = std::find(touching_.begin(), touching_.begin() + count_, touching[a]);
@@ -98,7 +98,7 @@ void CollocatedContact::guess(std::span<const int> touching, double d, From from
     }
 }
 
-// What unit node forces do to positions and speeds at the nodes, [node of force][node].
+// Response to unit node forces: positions and speeds at the nodes, [node of force][node].
 void CollocatedContact::couple(double d) noexcept {
     const MacroWindow& w = *window_;
     const int size = count_ * nodes;
@@ -121,7 +121,7 @@ void CollocatedContact::couple(double d) noexcept {
             };
             w.sweep().combined(columns, nodes * nodes, f, last, within_.data(), nodes * nodes);
             write(couple_);
-            if (!lossy_) continue;  // which has nothing in series: h^(0) = 0
+            if (!lossy_) continue;  // no series compliance: h^(0) = 0
             w.sweep().combined(columns, nodes * nodes, f + 1, last - 1, within_.data(),
                                nodes * nodes);
             for (double& x : columns) x /= d;
@@ -153,7 +153,7 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
     bool factored = false;
     double before = HUGE_VAL;  // the residual
     for (int iteration = 0;; ++iteration) {
-        // [N]; rounding: what the last bits of place and speed are worth
+        // [N]; rounding: force equivalent of the last bits in place and speed
         double residual = 0, scale = 0, stiffest = 0, rounding = 0;
         std::copy_n(base_.begin(), size, position_.begin());
         std::copy_n(base_speed_.begin(), size, speed_.begin());
@@ -184,7 +184,7 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
             d_ = 0;
             return HUGE_VAL;
         }
-        // as far as rounding lets it
+        // down to rounding
         if (residual > 0.1 * before && residual <= 1e-12 * scale) break;
         if (!factored || residual > 0.1 * before) {
             // The matrix is near the identity for a step that resolves the contact: no pivots.
@@ -219,8 +219,8 @@ double CollocatedContact::step(const double* r, std::span<const int> touching, d
     return error;
 }
 
-// Of a clipped loss, by the speeds at the nodes and at both ends: no polynomial is such a force,
-// and only a step that is short enough may have that in it.
+// Tests a clipped loss by the speeds at the nodes and at both ends: such a force is no polynomial,
+// and only a sufficiently short step may contain the release.
 double CollocatedContact::lets_go_within(int which) const noexcept {
     const BarrierLaw& law = law_[touching_[which]];
     double at_start = 0, at_end = 0, most = 0;

@@ -1,13 +1,14 @@
-// How long a step of a collocated contact may be. A force like eta^alpha is no polynomial where it
-// sets in and where it ends, unless alpha is 1. There the error of a step does not fall like that
-// of a smooth one:
-//   - over a step that begins or ends there the force keeps its shape whatever the length d, and
-//   the error is its push, d^(1 + alpha);
-//   - over a step at a distance D it was found to be d^(1 + alpha) (d/D)^4, so that lengths grow
-//   away from there.
-// What is allowed is learnt from the errors and kept from one contact to the next: it hardly
-// depends on the speed. Leaves out: what a point's onset does to the forces of others, of order
-// alpha + 2, which the errors alone see.
+// Chooses the step length for a collocated contact. A force like eta^alpha is no polynomial at its
+// start and end, unless alpha is 1. The error of a step there does not fall like the error of a
+// smooth step:
+// - over a step that begins or ends there the force keeps its shape whatever the length d, and the
+// error is its push, d^(1 + alpha);
+// - over a step at a distance D the measured error is d^(1 + alpha) (d/D)^4, so lengths grow away
+// from there.
+//
+// The allowed length is learnt from the errors and kept from one contact to the next: it hardly
+// depends on the speed. Leaves out: the effect of a point's onset on other points' forces, of order
+// alpha + 2, which only the errors show.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +51,7 @@ public:
         return d;
     }
     bool fits(double error) const noexcept { return error <= allowed_; }
-    // the step that was asked for, and where it saw a force end
+    // the requested step, and the place in it at which a force ends
     void rejected(double error, double leaves) noexcept {
         const double over = allowed_ / error;
         const bool ends = leaves <= last_;
@@ -61,7 +62,8 @@ public:
         if (singular_ && ends) return;
         const double distance = std::min(since_, leaves - last_);
         if (singular_ && last_ > near * distance) {
-            const double learnt = last_ / (scale_ * std::pow(distance, by_distance_));  // of grade_
+            // from grade_
+            const double learnt = last_ / (scale_ * std::pow(distance, by_distance_));
             return learn(edge_,
                          grade_ * std::min(1.0, learnt) *
                              std::clamp(0.9 * std::pow(over, 1 / (push_ + near_order)), 0.3, 0.9),
@@ -70,7 +72,7 @@ public:
         // a smooth force errs by d^12
         learn(edge_, grade_, last_ * std::clamp(0.8 * std::pow(over, 0.1), 0.1, 0.7));
     }
-    // that step, or a shorter one to a crossing
+    // the requested step, or a shorter one up to a crossing
     void accepted(double error, double d) noexcept {
         const double over = allowed_ / std::max(error, 1e-30);
         again_ = false;
@@ -92,7 +94,7 @@ public:
     }
 
 private:
-    // a step no longer than near D does not feel what is D away
+    // a step no longer than near D does not feel a singularity at distance D
     static constexpr double near_order = 4, near = 0.5;
     enum class Limit { other, edge, grade, smooth };
     // the longest step, at a distance from an onset
@@ -119,11 +121,11 @@ private:
 
     double allowed_, push_, by_edge_, by_distance_;  // push_: 1 + alpha
     bool singular_;
-    // longest steps: at an onset, of the law beside it, of a smooth force
+    // longest steps: at an onset, by the law beside the onset, for a smooth force
     double edge_ = 1, grade_ = 4, smooth_ = 1;
-    // what follows: of that law, and the distance from which it allows smooth_
+    // derived: the law's scale, and the distance at which it allows smooth_
     double scale_ = 4, far_ = 0;
-    // from the last onset on; the last length, and from its end to a force's
+    // distance from the last onset; the last length, and the distance from its end to a force's end
     double since_ = HUGE_VAL, last_ = 1, ended_ = HUGE_VAL;
     bool again_ = false;
     Limit limit_ = Limit::smooth;

@@ -60,12 +60,12 @@ double Gap::one_turn(double u, double least) const noexcept {
         if (std::abs(b[k]) * std::exp(lambda[k].real() * u) > least)
             rate = std::max(rate, std::abs(lambda[k]));
     return std::max(
-        {1.5 / rate, std::min(0.05 * u, 1e-4), 1e-12});  // of too many, some are skipped
+        {1.5 / rate, std::min(0.05 * u, 1e-4), 1e-12});  // some are skipped if there are too many
 }
 
 double Gap::greatest(double end, double known) const noexcept {
     const double least = 1e-9 * known;
-    // the slope of a smaller pair is rounding error
+    // a smaller pair's slope is rounding error
     std::complex<double> amplitudes[most_pairs], rates[most_pairs];
     Gap g = *this;
     g.b = amplitudes, g.lambda = rates, g.pairs = 0;
@@ -95,8 +95,8 @@ double Gap::greatest(double end, double known) const noexcept {
 }
 
 namespace {
-// For sizes of 16, 24 and 32: C(i, n)/(C(size - 1, n) n!) [n][i], what derivatives are in
-// Bernstein's polynomials of degree size - 1.
+// Bernstein form for sizes 16, 24 and 32: C(i, n)/(C(size - 1, n) n!) [n][i] turns derivatives into
+// coefficients in Bernstein's polynomials of degree size - 1.
 const std::vector<std::vector<double>> to_bernstein = [] {
     std::vector<std::vector<double>> tables;
     for (int size = 16; size <= 32; size += 8) {
@@ -112,8 +112,8 @@ const std::vector<std::vector<double>> to_bernstein = [] {
     }
     return tables;
 }();
-// That a gap without pairs is nowhere negative in [0, end], by a bound that is as good as its
-// polynomial is nearly linear.
+// Proves that a gap without pairs is nowhere negative in [0, end], by a bound that is sharper the
+// more nearly linear its polynomial is.
 bool stays_open(const Gap& gap, double end) noexcept {
     const double z = gap.growth * end;  // a short search is cheaper than this
     if (!(z > 2.5 && z < 100) || gap.pairs > 0 || gap.size < 16 || gap.size > 32 ||
@@ -124,7 +124,7 @@ bool stays_open(const Gap& gap, double end) noexcept {
     return (gap.sign > 0 ? range[0] : -range[1]) >= 0;
 }
 
-// The largest d up to `cap` for which g + slope d + curvature d^2/2 - third d^3/6 >= 0 is certain.
+// Largest d up to `cap` for which g + slope d + curvature d^2/2 - third d^3/6 >= 0 is certain.
 double safe_step(double g, double slope, double curvature, double third, double cap) {
     const auto by = [&](double q) {  // g + slope d - q d^2/2 = 0
         const double root = std::sqrt(slope * slope + 2 * q * g);
@@ -140,23 +140,24 @@ double safe_step(double g, double slope, double curvature, double third, double 
     return std::max(first, std::min(reach, by(bend + third * reach / 3)));
 }
 
-// That g + slope t + curvature t^2/2 - third t^3/6 >= 0 is certain for all t up to d: it stays
-// above a concave parabola.
+// Proves g + slope t + curvature t^2/2 - third t^3/6 >= 0 for all t up to d: the gap stays above a
+// concave parabola.
 bool safe_over(double g, double slope, double curvature, double third, double d) {
     return g >= 0 && g + d * (slope - 0.5 * d * (std::max(0.0, -curvature) + third * d / 3)) >= 0;
 }
-// That g falls all the way to d, and is negative there: its slope stays below a convex parabola.
+// Proves that g falls all the way to d, and is negative there: its slope stays below a convex
+// parabola.
 bool falls_through(const Gap::Values& v, double third, double d) {
     return v.slope + d * (v.curvature + 0.5 * third * d) < 0 &&
            v.g + d * (v.slope + d * (0.5 * v.curvature + third * d / 6)) < 0;
 }
-// of order 3, of order 4 where the slow part has no third derivative
+// order 3, or order 4 if the slow part has no third derivative
 double householder_step(const Gap::Values& v) {
     const double newton = v.g / v.slope, bend = 0.5 * newton * v.curvature / v.slope;
     return newton * (1 - bend) / (1 - 2 * bend + newton * newton * v.third / (6 * v.slope));
 }
 
-struct PairBounds {  // of derivatives, from an instant on: the pairs decay
+struct PairBounds {  // bounds on derivatives, from an instant on: the pairs decay
     double second = 0, third = 0;
     PairBounds(const Gap& gap, double from) {
         for (int k = 0; k < gap.pairs; ++k) {
@@ -168,7 +169,7 @@ struct PairBounds {  // of derivatives, from an instant on: the pairs decay
         }
     }
 };
-struct Bounds {  // of derivatives from the start to `until`
+struct Bounds {  // bounds on derivatives from the start to `until`
     double until;
     int terms;
     double second, third, slow_third;
@@ -181,8 +182,8 @@ Bounds bounds_between(const Gap& gap, double from, double until) noexcept {
     return {until, terms, slow[0] + pairs.second, slow[1] + pairs.third, slow[1]};
 }
 
-// g(low) >= 0 > g(high), and at x, one of them or between, g is `at`: Householder's iteration kept
-// inside.
+// Finds the crossing if g(low) >= 0 > g(high), and `at` is the gap at x, one of them or between:
+// Householder's iteration kept inside.
 double crossing_between(const Gap& gap, double low, double high, double x, Gap::Values at,
                         const Bounds& b, double bound) noexcept {
     for (int i = 0; i < 100; ++i) {
@@ -206,12 +207,12 @@ double crossing_between(const Gap& gap, double low, double high, double x, Gap::
     return x;
 }
 
-// first_crossing from `from` on, where the gap is `v`; where there is none, v becomes the gap at
-// the end of the bounds.
+// first_crossing from `from` on, with the gap `v` there; if there is none, v becomes the gap at the
+// end of the bounds.
 double crossing_within(const Gap& gap, double from, const Bounds& b, double bound,
                        Gap::Values& v) noexcept {
     const double end = b.until, third = b.third;
-    // over it no dip is deeper than bound/8
+    // over this distance no dip is deeper than bound/8
     const double least = std::max(1e-16 * end, b.second > 0 ? std::sqrt(bound / b.second) : end);
     double u = from, before = from;
     for (;;) {
@@ -222,7 +223,7 @@ double crossing_within(const Gap& gap, double from, const Bounds& b, double boun
             const double span = std::min(-1.5 * householder_step(v), left);
             if (span > 0 && falls_through(v, third, span))
                 return crossing_between(gap, u, u + span, u, v, b, bound);
-            // it falls, perhaps not through
+            // the gap falls, perhaps not through
             if (v.slope + left * (v.curvature + 0.5 * third * left) < 0) {
                 const auto last = gap.at(end, b.terms);
                 if (last.g < 0) return crossing_between(gap, u, end, u, v, b, bound);
@@ -247,13 +248,13 @@ double first_crossing(const Gap& gap, double end, double bound) noexcept {
         fastest = std::max({fastest, gap.lambda[k].imag(), -gap.lambda[k].real()});
     Gap::Values v = gap.at_start();
     const Bounds whole = bounds_between(gap, 0, end);
-    // beyond all numbers: so is the motion, which ends the run
+    // the bound overflows, and so does the motion, which ends the run
     if (!std::isfinite(whole.third)) return 2;
     if (safe_over(v.slow - v.amplitude, v.slow_slope, v.slow_curvature, whole.slow_third, end))
         return 2;
     if (stays_open(gap, end)) return 2;
     double from = 0;
-    // a stage has its own terms and bounds: early ones are cheap
+    // each stage has separate terms and bounds: early ones are cheap
     for (double to = fastest > 0 ? 8 / fastest : 0.25 * end;; to *= 4) {
         if (to > 0.5 * end) to = end;
         const double crossing = crossing_within(

@@ -414,7 +414,7 @@ private:
         return {touching_[a] ? -1.0 : 1.0,
                 path_.data() + static_cast<long>(a) * window_.stride,
                 terms,
-                collocated_ ? HUGE_VAL  // a collocated path moves at the contact's own speed
+                collocated_ ? HUGE_VAL  // no bound: a collocated path is as fast as the contact
                 : touch_    ? touch_->set.growth()
                             : window_.reach,
                 amplitude_.data() + a * pairs,

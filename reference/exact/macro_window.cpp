@@ -17,7 +17,7 @@ const std::vector<double> inverse_factorial = [] {
 }();
 
 namespace {
-constexpr double unit_rounding = 16 * 2.3e-16;  // of a gap, relative to sum |g_i| (|y_i| + |u_i|)
+constexpr double unit_rounding = 16 * 2.3e-16;  // for a gap, relative to sum |g_i| (|y_i| + |u_i|)
 
 double tail(double z, int terms) {  // sum_{n >= terms} z^n/n!
     double term = 1;
@@ -61,7 +61,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     const auto choice = choose_window(tolerance, growth * osc.rate * interval, split);
     per_row = windows > 0 ? windows : choice.per_row;
     terms = kept > 0 ? kept : choice.terms;
-    // 16: a collocated path is of degree 9
+    // 16: a collocated path has degree 9
     size = std::max(16, (terms + lanes - 1) / lanes * lanes);
     stride = 2 * size + lanes;
     known_ = std::min(terms, size - 1);
@@ -88,7 +88,7 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     for (auto* v : {&p_, &free_}) v->assign(points * stride, 0.0);
     for (auto* v : {&force_, &moments_}) v->assign(forces * stride, 0.0);
     reach_.assign(points, 0.0);
-    acting_.resize(forces + 2);  // and the state at the window's start, as impulses
+    acting_.resize(forces + 2);  // plus the state at the window's start, in the form of impulses
     acting_moments_.resize(forces + 2);
     scratch_.resize((points * (stride + 1) + 4 * size) * lanes);
     zeros_.assign(4 * osc.padded, 0.0);
@@ -129,11 +129,11 @@ void MacroWindow::make_base(const Modes& modes) {
         gains_[i] *= length * length * over_base_[i % M];
 }
 
-// The thread's force answers what its point does without it: F_c = k (h - y_c) - r y_c', y_c = p_c
-// + h_cc * F_c, so
+// The thread's force follows from its point's motion without the force: F_c = k (h - y_c) - r y_c',
+// y_c = p_c + h_cc * F_c, so
 //     F_c (1 + (r s + k) h_cc) = -(k + r d/dt)(p_c - h)
-// in Laplace transforms. The reciprocal series of the bracket, sign turned. (With something in
-// series h_cc(0) is not zero.)
+// in Laplace transforms. Returns the reciprocal series of the bracket, with its sign turned. (With
+// series compliance h_cc(0) is not zero.)
 std::vector<double> MacroWindow::reply_series(double window, int count) const {
     const double k = springs.k[contacts], r = springs.r[contacts] / window;
     std::vector<double> h(count), bracket(count, 0.0), g(count);
@@ -150,7 +150,7 @@ std::vector<double> MacroWindow::reply_series(double window, int count) const {
     return g;
 }
 
-// F_c of a motion of the thread's point.
+// F_c for a motion of the thread's point.
 void MacroWindow::answer(const double* reply, const double* motion, double window, int count,
                          double* F) const {
     const double k = springs.k[contacts], r = springs.r[contacts] / window;
@@ -162,8 +162,8 @@ void MacroWindow::answer(const double* reply, const double* motion, double windo
     }
 }
 
-// What a unit impulse of a point's force makes of every point and of F_c, y[point][count] and
-// F[count], per derivative.
+// Response of every point and of F_c to a unit impulse at a point, y[point][count] and F[count],
+// per derivative.
 void MacroWindow::impulse_response(int force, double window, int count, const double* reply,
                                    double* y, double* F) const {
     double power = window;
@@ -181,8 +181,8 @@ void MacroWindow::impulse_response(int force, double window, int count, const do
         }
 }
 
-// Of the string with its thread and what is in series [rate]: what the derivatives of impulse
-// responses grow by in the end.
+// Largest eigenvalue for the string with its thread and series compliance [rate]: the final growth
+// ratio between derivatives of impulse responses.
 double MacroWindow::largest_eigenvalue() const {
     double largest = 1;
     if (!threaded() && !series_) return largest;
@@ -206,12 +206,12 @@ double MacroWindow::largest_eigenvalue() const {
                                                           1.0 / (late - early)));
         }
     }
-    // it is moved by its forces, as the modes are
+    // forces drive the series state, like the modes
     const double alone = series_ ? series_rate(*series_) / osc.rate : 0;
     return std::max(alone, std::min(largest, majorant));
 }
 
-// What a unit impulse at b does: to the points through the modes and the thread, and to the
+// Response to a unit impulse at b: of the points, through the modes and the thread, and of the
 // thread's force.
 void MacroWindow::make_kernel() {
     kernel_.assign(static_cast<std::size_t>(contacts) * contacts * (stride + size) + size, 0.0);
@@ -309,12 +309,12 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
         most = std::max(most, reach_[b] + std::abs(s.height[b]) + s.pluck_reach);
     }
     truncation_ = largest * tail_ + modal_tail_ * most;
-    // the thread passes on what is read at its point
+    // the thread passes on the rounding at its point
     rounding_ = unit_rounding * (most + (threaded() ? reach_[contacts] : 0));
 }
 
-// The forces that act on the modes until `at`, e its powers: how many, and what they do to the
-// thread.
+// Collects the forces acting on the modes until `at`, with powers e; returns their number, and
+// computes their effect on the thread.
 int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     const Springs& s = springs;
     int acting = 0;
@@ -339,7 +339,7 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
                 sweep_->combine(m, size, answer_.data() + b * stride, known_, M + b * stride + 1,
                                 1);
         thread_impulse_ = m[0] * seconds();
-        if (series_) {  // nobody else asks
+        if (series_) {  // no other code needs this
             double now[3];
             sweep_->evaluate(force_.data() + contacts * stride, size, at, now);
             thread_force_ = now[0];

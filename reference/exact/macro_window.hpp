@@ -1,17 +1,17 @@
 // One window of a string under point forces: the modes are read once at its start and given the
 // forces' moments once at its end.
 //
-// In between, the contact points' free motion is a short vector of derivatives and what a force
-// does to it is a kernel of derivatives:
+// In between, the contact points' free motion is a short vector of derivatives, and a force acts on
+// it through a kernel of derivatives:
 //
 //     y_a(t) = s_a(t) + sum_b int_0^t h_ab(t - w) F_b(w) dw,
 //     M_i(t) = int_0^t (t - w)^i/i! F(w) dw
 //
 // with t = 1 the full length of a window. Thread and pluck act inside s, h and the moments handed
-// to the modes (van Walstijn et al. 2016, eqs 5-22): the thread answers its own point's free motion
-// by a convolution, and so a force at b by kappa_b * F. Derivatives are cut after `terms`; how far
-// a point can be from its series is bounded. Velocities u are displacements per window [m]. Leaves
-// out: contact, which its users decide.
+// to the modes (van Walstijn et al. 2016, eqs 5-22). The thread answers its own point's free motion
+// by a convolution, and likewise a force at b by kappa_b * F. Derivatives are cut after `terms`;
+// the distance between a point and its series is bounded. Velocities u are displacements per window
+// [m]. Leaves out: contact, which its users decide.
 #pragma once
 
 #include <vector>
@@ -28,9 +28,9 @@ struct WindowChoice {
     long per_row = 1;  // windows between two rows
     int terms = 2;     // derivatives kept
 };
-// For a relative `tolerance` and a string whose fastest motion grows by e^reach between two rows.
-// Where stiff contact is split (touching_set.hpp) no window spans more than longest_reach: beyond
-// it more terms make that worse, not better. Where there is no contact a window may span
+// Chooses the window for a relative `tolerance` and a string whose fastest motion grows by e^reach
+// between two rows. If stiff contact is split (touching_set.hpp), no window spans more than
+// longest_reach: beyond it more terms increase the error. Without contact a window may span
 // longest_unsplit, if most_terms are enough for it.
 constexpr double longest_reach = 2.5, longest_unsplit = 5;
 constexpr int most_split_terms = 24, most_terms = 32;
@@ -47,54 +47,55 @@ public:
     int contacts, terms;
     long per_row;
     int size;  // terms in whole vectors
-    // of rows of derivatives and moments: they are zero from `size` on, so that sums may run over
+    // stride for rows of derivatives and moments; they are zero from `size` on, so that sums may
+    // run over
     int stride;
-    double length;  // of a full window [1/rate]
-    // its growth: every derivative is at most so much larger than the one before, in the long run
+    double length;  // full window [1/rate]
+    // growth: the final limit on the ratio between each derivative and the one before
     double reach;
 
     double seconds() const { return length / osc.rate; }  // an impulse is M_0 times this
-    // zeros before it, too
+    // has zeros before it too
     const double* kernel(int a, int b) const {
         return &kernel_[(static_cast<long>(a) * contacts + b) * (stride + size) + size];
     }
-    // of the window that is open
+    // for the open window
     const double* free_motion(int a) const { return &free_[static_cast<long>(a) * stride]; }
-    // how far it may be from the truth [m]
+    // bound on the distance from the true motion [m]
     double truncation() const { return truncation_; }
-    // of a gap [m]
+    // for a gap [m]
     double rounding() const { return rounding_; }
-    // of a displacement, by an impulse M_0 of 1 [m]
+    // for a displacement, by an impulse M_0 of 1 [m]
     double kernel_truncation() const { return kernel_truncation_; }
     const SweepFunctions& sweep() const { return *sweep_; }
 
-    // z: the state of what is in series (in_series.hpp), where there is any
+    // z: the series state (in_series.hpp), if there is any
     void open(const double* y, const double* u, bool plucked, double since_pluck,
               const double* z = nullptr) noexcept;
 
-    // The modes at `at`, under contact forces of moments M[contact][stride]. The output may be the
-    // input of open().
+    // Modal state at `at`, under contact forces with moments M[contact][stride]. The output may be
+    // the input of open().
     void state_at(double at, const double* M, const double* y, const double* u, double* y_out,
                   double* u_out) noexcept;
     // The same within a window, cheaper and good for integrals: (y, u) acts as the impulses (u + a
     // y) delta + y delta'.
     void state_near(double at, const double* M, const double* y, const double* u, double* y_out,
                     double* u_out) noexcept;
-    // until the instant of the last state_at [N s]
+    // until the instant in the last state_at [N s]
     double thread_impulse() const { return thread_impulse_; }
     const double* series_state() const { return z_now_.data(); }  // z at that instant
     const std::optional<InSeries>& series() const { return series_; }
     double thread_force() const { return thread_force_; }  // at that instant [N]
-    // z' there [per window], under the forces of contacts and thread
+    // z' there [per window], under the contact and thread forces
     void series_speed(const double* F, double* out) const noexcept {
         in_window_.front().speed(z_now_.data(), F, out);
     }
 
     struct Push {
-        double force = 0, change = 0;  // of the pluck [N], and its derivative [N/window]
+        double force = 0, change = 0;  // pluck force [N], and its derivative [N/window]
     };
     Push push_at(double at) const noexcept;
-    // of the open window: its derivatives grow by so much each
+    // growth ratio of derivatives in the open window
     double push_growth() const { return plucked_ ? push_growth_ : 0; }
     bool threaded() const { return springs.points > contacts; }
 
@@ -113,27 +114,27 @@ private:
               double* u_out) noexcept;
 
     const SweepFunctions* sweep_;
-    // derivatives of the thread's force: its damper needs one more of its point's motion
+    // derivatives known for the thread's force: its damper needs one more for its point's motion
     int known_;
     std::optional<InSeries> series_;
     std::vector<SeriesWindow> in_window_;  // none or one
-    // of what is in series, at the window's start and at the instant of the last state_at
+    // series state at the window's start and at the instant in the last state_at
     std::vector<double> z_, z_now_;
     std::vector<const double*> moments_of_;
     std::vector<Pluck> pluck_;  // none or one
     std::vector<char> none_;
     std::vector<int> sweep_terms_;
-    std::vector<double> a_, b_;  // in units of the window
-    // base_: scale of each mode, the weight of the last point (a tiny value at its nodes, 0 where
-    // there is no mode). Other weights and the gains of forces are stored relative to it, in the
-    // window's units; base_gain_: the gain of the last point's own force.
+    std::vector<double> a_, b_;  // in window units
+    // base_: each mode's scale, the weight at the last point (a tiny value at its nodes, 0 if there
+    // is no mode). Other weights and the force gains are stored relative to it, in window units;
+    // base_gain_: the gain for the last point's own force.
     std::vector<double> base_, over_base_, weights_, gains_, base_moments_;
     double base_gain_ = 0;
     std::vector<double> slower_;  // reach^-n
     double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0,
                                thread_impulse_ = 0, thread_force_ = 0, push_growth_ = 0;
     bool plucked_ = false;
-    // h_ab; kappa_b; F_c of p_c; h_ac; free motion's matrix
+    // h_ab; kappa_b; F_c from p_c; h_ac; free motion's matrix
     std::vector<double> kernel_, answer_, reply_, by_thread_, flow_, flow_at_;
     std::vector<double> p_, free_, force_, moments_, reach_, scratch_, impulse_, offset_, zeros_,
         ones_;

@@ -1,4 +1,4 @@
-// What a touching set is made of, in long double.
+// Builds a touching set, in long double.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,14 @@ LongMatrix inverse(const LongMatrix& m) {
                            m.cols());
 }
 
-// what a contact alone has in radians per window, and the slowest of what is split off
+// radians per window of a contact alone, and the slowest motion that is split off
 constexpr LongReal stiff = 12, least = 10;
-constexpr LongReal most_spans = 100;  // of a window
-// of a soft set's growth: e^9 last bits are as much as the tolerances here bear
+constexpr LongReal most_spans = 100;  // in windows
+// growth of a soft set: e^9 last bits reach the tolerances here
 constexpr LongReal longest_span = 9;
 constexpr int resolvent_terms = 72;  // 9^72/72! is nothing
 
-// x^n, n < `powers`, on [0, 1] as polynomials of degree N - 1 by their Chebyshev series:
+// x^n, n < `powers`, on [0, 1] as polynomials with degree N - 1 by their Chebyshev series:
 // coefficients of x^i [i][n]. x^n = 2^(1 - 2n) (C(2n, n)/2 + sum_k C(2n, n - k) T_k(2x - 1)). Up to
 // n = N - 1 nothing changes.
 LongMatrix economised(int N, int powers) {
@@ -65,7 +65,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
 
     // The fast invariant subspace: (p, p')' = L (p, p')' with I^i p = [1 0] L^-i (p, p')'.
     LongMatrix symmetric(P, P);
-    // of radians; a decay is to be as fast
+    // squared radians; a decay must be equally fast
     const LongMatrix squares = A[0].isZero(0) ? A[1] : LongMatrix(A[0] * stiff);
     for (int a = 0; a < P; ++a)
         for (int b = 0; b < P; ++b)
@@ -122,7 +122,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
         }
     const LongComplexMatrix Q = G.lazyProduct(q);
 
-    LongMatrix start(2 * P, 2 * P);  // Re beta, and -Im beta of pairs that oscillate -> p(0), p'(0)
+    LongMatrix start(2 * P, 2 * P);  // Re beta, and -Im beta for oscillating pairs -> p(0), p'(0)
     int column = 0;
     for (int k = 0; k < E; ++k, ++column) {
         const bool oscillates = rates[k].imag() != 0;
@@ -169,8 +169,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
                 for (int n = 0; n < N; ++n) add(n, Q(n * P + at, k));
                 continue;
             }
-            // -sum_b k_b v_b sum_j h_j lambda^(-j-1) of e^(lambda u), and what I^(j+1) leaves of it
-            // as powers
+            // -sum_b k_b v_b sum_j h_j lambda^(-j-1) for e^(lambda u), and the powers that I^(j+1)
+            // leaves
             LongComplex sum = 0;
             for (int b = 0; b < P; ++b)
                 for (int j = 0; j < N; ++j) {
@@ -184,10 +184,10 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
         }
 }
 
-// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j), and below it what points that do
-// not touch follow. p_n = sum R_(n-m) r_m goes on where r ends. Cut there it would reach as far as
-// its growth allows;
-// the best polynomial of as many terms reaches four times so far.
+// The resolvent's series R, R_0 = I, R_n = -sum_j H_j K R_(n-1-j), followed by the response of
+// points that do not touch. p_n = sum R_(n-m) r_m goes on beyond the end of r. A series cut there
+// would reach to the limit of its growth; the best polynomial with equally many terms reaches four
+// times farther.
 void TouchingSet::soften() noexcept {
     const MacroWindow& w = *window_;
     const int P = static_cast<int>(points_.size()), N = w.terms;
@@ -207,7 +207,7 @@ void TouchingSet::soften() noexcept {
         std::min<LongReal>(1, std::min<LongReal>(3 * w.reach, longest_span) / growth);
     span_ = static_cast<double>(span);
     if (growth > most_spans * w.reach) return;
-    LongMatrix shorter = economised(N, resolvent_terms);  // of derivatives over the span
+    LongMatrix shorter = economised(N, resolvent_terms);  // derivatives over the span
     for (int n = N; n < resolvent_terms; ++n)
         for (int i = 0; i < N; ++i)
             shorter(i, n) *= std::exp(std::lgamma(i + LongReal(1)) - std::lgamma(n + LongReal(1))) *

@@ -4,11 +4,11 @@
 //     dissipated = int sum_i 2 m sigma_i v_i^2 + r_c v_c^2 + z' Q z' dt,
 //     supplied = int F_e v_e - F_e' sum_a C_ae F_a dt
 //
-// with v the velocities of modes, thread and pluck, z and C_ae of what is in series
-// (in_series.hpp). Where stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S as
-// slow as the string, and one fast pair per contact (touching_set.hpp); a slow one stays in S. Slow
-// products are integrated by Gauss-Legendre, S against a pair as a Legendre series against its
-// exponential, two pairs in closed form: so the nodes follow the string, not the contact.
+// with v the velocities of modes, thread and pluck, and z and C_ae for the series compliance
+// (in_series.hpp). If stiff contacts touch, v = S + Re sum_k beta_k W_k e^(lambda_k t): S varies at
+// the string's rate, with one fast pair per contact (touching_set.hpp); a slow pair stays in S.
+// Slow products are integrated by Gauss-Legendre, S against a pair by a Legendre series against its
+// exponential, two pairs in closed form. So the nodes follow the string, not the contact.
 #pragma once
 
 #include <complex>
@@ -21,38 +21,39 @@ namespace jvari {
 
 class WindowEnergies {
 public:
-    WindowEnergies(MacroWindow&, const Modes&, double tolerance);  // the window outlives it
+    // the window outlives this object
+    WindowEnergies(MacroWindow&, const Modes&, double tolerance);
 
     struct Sums {
         double supplied = 0, dissipated = 0;  // [J]
     };
 
-    // What the pairs of one touching set do to all that loses or gains, per unit of beta; of a soft
-    // set: none.
+    // Contribution of one touching set's pairs to all losses and gains, per unit of beta; empty for
+    // a soft set.
     struct Pairs {
         std::vector<std::complex<double>> rates;  // [1/window]
         // [2 pair][contact x stride]: real and imaginary part
         std::vector<double> moments;
         std::vector<double> velocity;  // W [2 pair][mode]
-        // where the thread is [pair], of z [pair][state]
+        // at the thread [pair], for z [pair][state]
         std::vector<std::complex<double>> thread, series;
-        // of contacts and thread [pair][point]
+        // for contacts and thread [pair][point]
         std::vector<std::complex<double>> force;
         // W' L W and W' L conj(W) [pair][pair], L the losses
         std::vector<std::complex<double>> product, product_of_conjugate;
-        // W_k where the pluck acts
+        // W_k at the pluck
         std::vector<std::complex<double>> pluck;
         // row' W_k
         std::complex<double> against(const std::vector<double>& row, int pair,
                                      const Oscillators&) const;
     };
-    Pairs pairs_of(const TouchingSet&);  // spoils the window that is open
+    Pairs pairs_of(const TouchingSet&);  // overwrites the open window
     struct Touch {
         TouchingSet set;
         Pairs pairs;
     };
 
-    // Between two instants of the window that is open on (y, u).
+    // Interval between two instants in the window opened on (y, u).
     struct Stretch {
         double from, to;
         const double *y, *u;
@@ -77,27 +78,27 @@ private:
     static constexpr int most_nodes = 12;
     struct Rule {  // Gauss-Legendre on 0 ... 1
         int nodes;
-        double growth;  // of what it integrates well over a piece, in powers of e
+        double growth;  // growth that the rule integrates well over a piece, in powers of e
         double node[most_nodes], weight[most_nodes];
     };
-    int plan(const Stretch&) noexcept;  // how many pieces; sets what is below
+    int plan(const Stretch&) noexcept;  // returns the number of pieces; sets the members below
     void add_node(const Stretch&, int q, double at, Sums&) noexcept;
     void add_pairs(const Stretch&, double start, Sums&) noexcept;
 
     MacroWindow* window_;
     std::vector<Rule> rules_;          // the coarsest first
     std::vector<double> loss_;         // [mode]: J per squared displacement in a window
-    double thread_loss_ = 0;           // and of the thread's point
-    std::vector<double> series_loss_;  // and of z [state][state]
-    // per mode's displacement in a window, those of thread and pluck, this one per window
+    double thread_loss_ = 0;           // and at the thread's point
+    std::vector<double> series_loss_;  // and for z [state][state]
+    // per mode's displacement in a window: thread and pluck, the latter per window
     std::vector<double> thread_, pluck_;
     std::vector<double> legendre_;  // [degree][node]: values to a Legendre series
-    std::vector<double> moments_, y_, u_, lost_, force_, speed_;  // of a node
+    std::vector<double> moments_, y_, u_, lost_, force_, speed_;  // at a node
     // [pair][node]: S against W_k, and F_e
     std::vector<std::complex<double>> lost_to_, gained_by_;
     const Rule* rule_ = nullptr;
-    double length_ = 0;       // of a piece [window]
-    std::vector<int> split_;  // the pairs that are fast
+    double length_ = 0;       // length of a piece [window]
+    std::vector<int> split_;  // the fast pairs
 };
 
 }  // namespace jvari

@@ -1,10 +1,10 @@
-// A penalty whose force over a step is a mean of those at its two ends, as time integrators of
-// finite-element programs take it:
+// Penalty rule whose force over a step is a mean between its two ends, common in time integrators
+// of finite-element programs:
 //
 //     F_a = (1 - share) V_a'(eta_a - r_a) + share V_a'(eta_a),   r = -b + Theta F
 //
-// share = 1/2 is the trapezoidal mean. No energy is balanced: where a contact opens or closes
-// within a step, F r is not what V changes by. Leaves out: three-point steps.
+// share = 1/2 is the trapezoidal mean. No energy is balanced: if a contact opens or closes within a
+// step, F r differs from the change in V. Leaves out: three-point steps.
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"

@@ -86,8 +86,8 @@ void Obstacle::follow(const Obstacle& first) {
     if (series_) series_->follow(*first.series_);
 }
 
-// Penetration eta of a contact at the level on which its rule centres the step (obstacle_rule.hpp).
-// thread: force of the first thread.
+// Penetration eta on the level on which the rule centres the step (obstacle_rule.hpp). thread:
+// force in the first thread.
 double Obstacle::centre(int a, const ReadingsBeforeStep& at, double b, double thread) const {
     const double now = contacts_.heights[a] - at.now[a];
     if (!centred_) return now;
@@ -129,8 +129,7 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     return converged;
 }
 
-// The touching points are at the level to which the spring in series has yielded, and (6) is the
-// same equation.
+// Points touch at the level to which the series spring has yielded; (6) is the same equation.
 bool Obstacle::solve_in_series(const ReadingsBeforeStep& at, double* force, bool in_full) noexcept {
     const int n = points();
     for (int p = 0; p < n; ++p) {

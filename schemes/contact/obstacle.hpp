@@ -1,6 +1,6 @@
-// One step of a string's contacts and threads, given what every string has at hand: the reading of
-// each point at the older level, the force-free increment of each reading over the step, and the
-// compliances between the points.
+// Solves one step of a string's contacts and threads from quantities that every string has: each
+// point's reading at the older level, the force-free increment of each reading over the step, and
+// the compliances between the points.
 //
 //     r = free + Theta F;   contacts: by an obstacle rule, of eta = h - reading (obstacle_rule.hpp)
 //                           threads:  F = k (h - reading - r/2) - (damping) r/span
@@ -12,7 +12,7 @@
 //     F       of the threads, which are eliminated (eliminated_thread.hpp)   N     [000] 45-47
 //     kappa_a beta_a/span of a contact that loses energy: its rule's force   1/m
 //             times 1 - kappa_a r_a (StepLoss, contact.hpp)
-//     D, P    stretch and force of what stands in series with the points     m, N  (4), (5) of
+//     D, P    stretch and force of the springs in series with the points     m, N  (4), (5) of
 //             (residual.hpp): they touch at reading + D, and r = free - H +        compliance-
 //     H, K    (Theta + K) F, the same equation                               m, m/N matching.md
 #pragma once
@@ -30,25 +30,25 @@
 
 namespace jvari {
 
-struct ReadingsBeforeStep {  // of each point [m]
+struct ReadingsBeforeStep {  // for each point [m]
     const double* older;
-    // of the level that the step is centred on: two-point steps have the older one here
+    // readings on the level at the step's centre: two-point steps have the older level here
     const double* now;
     const double* free;  // increment from the older to the newer level without the points' forces
 };
 
-// How a three-point scheme starts its thread from rest: by its own equation, in which the outer
-// levels are one, or by that of a two-point step from level 0 to level 1.
+// Way in which a three-point scheme starts its thread from rest: by its own equation, in which the
+// outer levels coincide, or by the equation of a two-point step from level 0 to level 1.
 enum class ThreadStart { taut, plain };
 
 class Obstacle {
 public:
-    // theta [m/N]: row-major over the points, the contacts first and then the threads. levels: that
-    // a step spans. series: what stands in series with the points, or nullptr.
+    // theta [m/N]: row-major over the points, the contacts first and then the threads. levels:
+    // number of levels that a step spans. series: compliance in series with the points, or nullptr.
     Obstacle(const Contacts&, std::vector<Thread>, std::span<const double> theta, double span,
              int levels, const MakeRule&, const MissingMatrix* series = nullptr);
-    // The first half step of a three-point scheme, from rest: its own compliances, half the span,
-    // no contact loss. Both have one rule, whose state goes on.
+    // Copy for the first half step of a three-point scheme, from rest: separate compliances, half
+    // the span, no contact loss. Both share one rule, whose state continues.
     Obstacle halved(ThreadStart how, std::span<const double> theta,
                     const MissingMatrix* series) const;
 
@@ -57,13 +57,13 @@ public:
     int dofs() const { return rule_->dofs(); }
 
     void clear() { one_.tally = {}; }
-    // at t = 0: reading, how far each point would move in dt by its speed [m], and its force on a
-    // string in equilibrium [N]
+    // at t = 0: reading, distance that each point's speed would move it in dt [m], and each force
+    // on a string in equilibrium [N]
     void begin(const double* reading, const double* moving, const double* force);
-    // of a step; without thread, contact loss and series
+    // Sets the step's theta; requires no thread, contact loss or series compliance.
     void set(std::span<const double> theta) noexcept;
     void follow(const Obstacle& first);  // after `first` made the first half step
-    // with what is in series as it stands there; the points are as many
+    // true if both have equally many points; the present state of the series compliance is copied
     bool is_like(const Obstacle& other) const {
         return contacts() == other.contacts() && points() == other.points() &&
                series_.has_value() == other.series_.has_value();
@@ -72,24 +72,24 @@ public:
         if (series_) series_->start_from(*before.series_);
     }
 
-    // Forces on the string [N] out, one per point. False where the contacts did not converge.
-    // Allocates nothing. in_full: moved() and lost_by() are asked for.
+    // Computes the forces on the string [N], one per point. False if the contacts did not converge.
+    // Allocates nothing. in_full: moved() and lost_by() will be called.
     bool solve(const ReadingsBeforeStep& at, double* force, bool in_full = false) noexcept {
         if (series_) return solve_in_series(at, force, in_full);
         return fused_ && !in_full ? solve_one(at, force) : solve_points(at, force, false, in_full);
     }
-    // Of each contact in the last step, solved for in full: its way with what is in series [m], and
-    // what it lost while it pushed by a force [J]
+    // For each contact in the last step, solved in full: its way including the series compliance
+    // [m], and its loss while it pushed by a force [J]
     const double* moved() const { return r_.data(); }
     double lost_by(int a, double force) const { return -force * r_[a] / levels_ - gained_[a]; }
     bool start(const ReadingsBeforeStep& at, double* force) noexcept {
         return series_ ? solve(at, force) : solve_points(at, force, true, false);
     }
 
-    // At the readings of one level [J]; level: 0 the one that the next step starts from, 1 the one
-    // after it (with something in series).
+    // Energy at the readings of one level [J]; level: 0 for the start of the next step, 1 for the
+    // level after it (with series compliance).
     double potential(const double* reading, int level = 0) const;
-    // of the last step [W]: of threads, of lossy contacts, of what is in series, of the rule
+    // Loss in the last step [W]: by threads, lossy contacts, the series compliance and the rule
     double loss() const;
     const double* forces(int level) const { return series_->force(level); }  // in series [N]
     std::vector<Fact> facts() const;
@@ -97,8 +97,8 @@ public:
     // Whether solve_few() has these contacts: linear ones by the discrete gradient without losses,
     // up to FewContacts::most, or any one without losses; and a thread at most.
     bool few() const { return fused_ || few_.has_value(); }
-    // Solves a step at the readings y, which what is in series has yielded to, of points that move
-    // by u without forces; for string kernels that make whole steps.
+    // Solves a step at the readings y, which include the yield of the series compliance, for points
+    // that move by u without forces; for string kernels that make whole steps.
     template <int contacts, bool thread>
     [[gnu::always_inline]] bool solve_few(const double* y, const double* u, double* force) noexcept;
     Residual* series() { return series_ ? &*series_ : nullptr; }
@@ -128,7 +128,7 @@ private:
     }
     bool solve_points(const ReadingsBeforeStep&, double* force, bool at_start,
                       bool in_full) noexcept;
-    // of a rule with a state that of its instant, whatever eta
+    // energy of the rule; a rule with a state returns its energy at the instant, whatever eta
     double held_by(int a, double eta) const {
         return rule_->potential(a, eta) / (rule_->dofs() > 0 ? 1 : levels_);
     }
@@ -137,17 +137,17 @@ private:
     Contacts contacts_;
     EliminatedThreads threads_;
     std::shared_ptr<ObstacleRule> rule_;
-    std::vector<double> theta_;       // of all points [m/N]
+    std::vector<double> theta_;       // between all points [m/N]
     std::vector<double> between_;     // the contacts, the threads yielding (48)
     double span_, lost_by_rule_ = 0;  // in the last step [J]
     int levels_;
     bool centred_ = false, fused_ = false;
-    ContactAndThread one_;  // its tally is that of all contacts
+    ContactAndThread one_;  // its tally covers all contacts
     std::optional<FewContacts> few_;
     std::optional<Residual> series_;
     std::vector<double> eta_, now_, b_, r_, gained_;
-    std::vector<double> older_points_, now_points_, free_points_;  // with what is in series [m]
-    // of each thread in the last step: its force [N], the reading it started from [m]
+    std::vector<double> older_points_, now_points_, free_points_;  // with the series compliance [m]
+    // for each thread in the last step: its force [N], the reading at its start [m]
     std::vector<double> pull_, from_;
 };
 

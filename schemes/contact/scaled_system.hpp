@@ -1,8 +1,8 @@
-// I + S Theta S over some of the contacts, S a scale for each: symmetric and positive definite
-// whatever the rank of Theta, which is a Gram matrix. Contact losses, quadratised contacts and
-// Newton's steps on several contacts all come to it. Factored as L L' column by column, which
-// compilers vectorise: as fast as Eigen's LLT, and at any size without the workspace that Eigen
-// allocates from some hundreds on.
+// Factors I + S Theta S over some contacts, with a scale S for each: symmetric and positive
+// definite whatever the rank of Theta, which is a Gram matrix. Contact losses, quadratised contacts
+// and Newton's steps on several contacts all need this matrix. The factorisation L L' runs column
+// by column, which compilers vectorise. It has the speed of Eigen's LLT at any size, without the
+// workspace that Eigen allocates from some hundreds on.
 #pragma once
 
 #include <cmath>
@@ -15,8 +15,8 @@ class ScaledSystem {
 public:
     explicit ScaledSystem(std::size_t most = 0) : factor_(most * most) {}  // contacts
 
-    // theta: of all contacts, row-major, `stride` of them; set: the n that are meant; scale: of
-    // all. False where a pivot is not finite.
+    // theta: between all contacts, row-major, `stride` per row; set: the n selected contacts;
+    // scale: for all contacts. False if a pivot is not finite.
     bool factor(const double* theta, int stride, const int* set, int n,
                 const double* scale) noexcept {
         size_ = n;

@@ -1,11 +1,12 @@
-// Masses that meet a string from below: each is one more mode, of frequency 0 and of weight -1 at
-// its contact, which reads y - z and pushes the mass back by as much as the string.
+// Masses that meet a string from below: each is one more mode, with frequency 0 and weight -1 at
+// its contact, which reads y - z and pushes string and mass with opposite equal forces.
 //
 //     d = the way of a mass in a step, d <- d - dt^2/m F,   z <- z + d
 //
-// In two-point steps z^{n+1} = z^n + d - dt^2/2m F, with v = d/dt at n; in three-point ones d = z^n
-// - z^{n-1}, and z is one ahead as the string is. Both keep m d^2/(2 dt^2) + the contact's energy:
-// the invariant of string_step.hpp. Under forces that are lines in the step the motion is exact:
+// In two-point steps z^{n+1} = z^n + d - dt^2/2m F, with v = d/dt at n. In three-point ones d = z^n
+// - z^{n-1}, and z is one step ahead, like the string. Both keep m d^2/(2 dt^2) + the contact's
+// energy: the invariant in string_step.hpp. Under forces that are lines in the step the motion is
+// exact:
 //
 //     z <- z + d - dt^2/m (phi_0/2 - phi_1/6),   d <- d - dt^2/m phi_0
 #pragma once
@@ -38,7 +39,7 @@ public:
         for (std::size_t k = 0; k < masses_.size(); ++k)
             z_[k] = -masses_[k].gap, d_[k] = dt_ * masses_[k].velocity;
     }
-    // of a step that spans so many dt, row-major over the points [m/N]
+    // Theta for a step that spans this many dt, row-major over the points [m/N]
     std::vector<double> yielding(std::vector<double> theta, int span) const {
         const std::size_t P = heard_.size(), all = moments * P;
         for (std::size_t k = 0; k < masses_.size(); ++k) {
@@ -51,8 +52,8 @@ public:
         }
         return theta;
     }
-    // From the string's to those of the contacts: `steps` from the instant of z on. And of the way
-    // in `steps`.
+    // Turns the string's readings into the contacts': `steps` is counted from the instant of z. The
+    // second function does the same for the way in `steps`.
     void subtract(double* reading, double steps) const noexcept {
         for (std::size_t k = 0; k < masses_.size(); ++k)
             reading[first_ + k] -= z_[k] + steps * d_[k];
@@ -70,7 +71,7 @@ public:
             d_[k] -= 2 * yields(k) * force[first_ + k];
         }
     }
-    // the first half step of three points
+    // the first half step of a three-point scheme
     void start(const double* force) noexcept {
         for (std::size_t k = 0; k < z_.size(); ++k) d_[k] -= yields(k) * force[first_ + k];
     }
@@ -81,7 +82,8 @@ public:
         return sum;
     }
 
-    // What the taps hear: `mean` of all points without the masses', whose own taps write over it.
+    // Forces that the taps hear: `mean` for all points without the masses; the masses' own taps
+    // overwrite the result.
     const double* unheard(const double* mean) noexcept {
         std::copy_n(mean, heard_.size(), heard_.begin());
         std::fill_n(heard_.begin() + first_, masses_.size(), 0.0);
@@ -91,7 +93,7 @@ public:
         for (std::size_t t = 0; t < taps_.size(); ++t) {
             const auto [quantity, k] = taps_[t];
             if (k < 0) continue;
-            // of three points d is that of the half step after the row
+            // in three-point schemes d belongs to the half step after the row
             const double back = levels == 2 ? yields(k) * force[first_ + k] : 0;
             out.tap[t * out.stride + row] = quantity == Quantity::displacement ? z_[k]
                                             : quantity == Quantity::velocity ? (d_[k] + back) / dt_
@@ -108,7 +110,7 @@ private:
 
     std::vector<Mass> masses_;
     std::vector<Heard> taps_;
-    int first_;  // of their contacts
+    int first_;  // index of their first contact
     double dt_ = 0;
     std::vector<double> z_, d_, heard_;  // [m], [m], [N]
 };

@@ -1,20 +1,22 @@
 // Two-step midpoint finite differences: Chatziioannou & van Walstijn 2015, "Energy conserving
-// schemes for the simulation of musical instrument contact dynamics", the model whose cost van
-// Walstijn et al. 2016 compare with (section 5).
+// schemes for the simulation of musical instrument contact dynamics", the model with which van
+// Walstijn et al. 2016 compare cost (section 5).
 //
 //     (I + A + B) s = 2(q - A y) + xi sum g F,   y <- y + s, q <- s - q;
 //     A = dt^2 K/4, B = dt R/2, xi = dt^2/(2 mu dx), q = v dt/2
 //
 // with K = -c^2 D2 + kappa^2 D4 and R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4: five diagonals
-// (grid_solve.hpp). The responses (I + A + B)^-1 g of contacts and thread are solved at the start
-// and with them the compliance Theta; the contact equation is eq 48 of van Walstijn et al. over the
-// span dt. The coefficients of A y are rounded so that they add up to 0 exactly: what is left of
-// them else is a spring to the ground, eps/(omega dt)^2 of a mode's own stiffness, 5e-8 of mode 1
-// of C3 at 11 MHz, which no energy knows of. Unconditionally stable; frequencies warp as (2/dt)
-// atan(omega dt/2). The grid is by default that of the explicit scheme without loss: its spatial
-// error (beta dx)^2/24 is then at least half the warp's (c beta dt)^2/12. Option `grid` takes any
-// number of intervals. Energy is that of the instant of the row: mass/2 (|v|^2 + <y, K y>) + P(y).
-// The pluck acts with its force at the middle of the step.
+// (grid_solve.hpp). The responses (I + A + B)^-1 g for contacts and thread are solved at the start,
+// and give the compliance Theta; the contact equation is van Walstijn et al.'s eq 48 over the span
+// dt.
+//
+// The coefficients in A y are rounded so that they add up to 0 exactly. Any remainder would be a
+// spring to the ground that no energy includes: eps/(omega dt)^2 relative to a mode's own
+// stiffness, 5e-8 for mode 1 of C3 at 11 MHz. Unconditionally stable; frequencies warp like (2/dt)
+// atan(omega dt/2). The default grid is that of the explicit scheme without loss: its spatial error
+// (beta dx)^2/24 is then at least half the warp's (c beta dt)^2/12. Option `grid` takes any number
+// of intervals. Energy belongs to the row's instant: mass/2 (|v|^2 + <y, K y>) + P(y). The pluck
+// acts with its force at the middle of the step.
 #include "schemes/driver/pairings.hpp"
 #include "schemes/grid/midpoint_string.hpp"
 #include "schemes/making.hpp"
@@ -24,9 +26,9 @@ namespace jvari {
 namespace {
 constexpr Option options[] = {compliance_option, profile_points_option, grid_option};
 
-// All of the midpoint rule is taken at the middle of the step, gamma of a quadratised contact too:
-// at the older level, its lag adds to the warp of the string, and a soft profile errs by 2.4 % at
-// 176.4 kHz in place of 0.9 %.
+// Midpoint rule throughout: gamma of a quadratised contact is taken at the middle of the step too.
+// At the older level its lag would add to the string's warp, and a soft profile would err by 2.4 %
+// at 176.4 kHz in place of 0.9 %.
 template <class Rule>
 struct AtTheMiddle {
     using type = Rule;

@@ -1,7 +1,7 @@
-// The string of three_point_modes.hpp by the discrete gradient: the recursion of
-// modal_spatial_newton (Issanchou et al. 2016, eqs 14-16), whose contacts act by the weights of
-// their footprints instead of at the nodes of a grid. Leaves out: contact loss with
-// compliance=matched; polarisation; a body that moves.
+// Steps the string in three_point_modes.hpp by the discrete gradient: the recursion of
+// modal_spatial_newton (Issanchou et al. 2016, eqs 14-16). The contacts act by their footprints'
+// weights instead of at grid nodes. Leaves out: contact loss with compliance=matched; polarisation;
+// a body that moves.
 #include "schemes/driver/driver.hpp"
 #include "schemes/driver/pairings.hpp"
 #include "schemes/making.hpp"

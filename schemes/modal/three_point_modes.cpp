@@ -53,7 +53,7 @@ void complete(ThreePointProblem& p, const Descriptor& descriptor, const Settings
     p.points.start_force = p.start.force;
     for (int j = 0; j < p.modes.count(); ++j) {
         const double y = p.start.displacement[j], v = p.start.velocity[j];
-        // in equilibrium the recursion itself, whose levels 0 and -1 are one
+        // in equilibrium the recursion itself, with equal levels 0 and -1
         p.first.push_back(
             (p.start.force.empty() ? p.three_point.start[j] * y : -0.5 * u.kappa[j] * y) +
             p.three_point.drift[j] * v);

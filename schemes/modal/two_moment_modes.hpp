@@ -1,8 +1,8 @@
-// A string in its modes, exact in a step under forces that are lines in it: F = phi_0 + phi_1
+// String in its modes, exact in a step under forces that are lines in the step: F = phi_0 + phi_1
 // P_1(s) (docs/two-moments.md, sections 2 and 3). Between the ends of a step a mode moves without
 // losses, at the frequency w; at its ends the velocity is damped by delta = exp(-2 sigma H), half
 // before and half after the row. With z = w H/2, kappa = sqrt(m) omega_0 and the state (a, b) at
-// the centre of the step, of the motion without the step's forces, y = (a cos w tau + b sin w
+// the step's centre, for the motion without the step's forces, y = (a cos w tau + b sin w
 // tau)/kappa:
 //
 //     S_0 = 2 sin z,  S_1 = 2 (sin z/z - cos z),  p_0 = g S_0/kappa,  p_1 = -g S_1/kappa
@@ -12,7 +12,7 @@
 //     Theta_00 = sum of p_0 q_0/2,  Theta_11 = sum of p_1 q_1/2,
 //     Theta_01 = -Theta_10 = -sum of cos z S_1 g_p g_q/kappa^2
 //
-// Frequency and decay of free motion are exact; without losses so is its phase.
+// Frequency and decay of free motion are exact; without losses the phase is exact too.
 #pragma once
 
 #include "schemes/driver/driver.hpp"
@@ -24,16 +24,17 @@ namespace jvari {
 // One mode over a step H.
 struct ExactMode {
     ExactMode(double mass, double omega0, double sigma, double H);
-    double sine, cosine, z;  // of z = w H/2
+    double sine, cosine, z;  // for z = w H/2
     double kappa;            // [sqrt(kg)/s]
     double delta;            // exp(-2 sigma H)
-    double by_v;             // the velocity after the damping at a row, over w, of v [s]
-    double lead = 0;         // phase by which a release at rest leads the true one [rad]
-    double p_0() const { return 2 * sine / kappa; }  // of g = 1
+    // coefficient of v in the velocity after the damping at a row, over w [s]
+    double by_v;
+    double lead = 0;  // phase by which a release at rest leads the true one [rad]
+    double p_0() const { return 2 * sine / kappa; }  // for g = 1
     double p_1() const;
 };
 
-struct PluckMoments {  // of its force in a step [N]
+struct PluckMoments {  // pluck force in a step [N]
     double mean = 0, first = 0;
 };
 
@@ -48,7 +49,7 @@ public:
     void reset() noexcept;
     bool start_from(const TwoMomentModes& before) noexcept;
     void approach(bool) noexcept;
-    // free: means of all points, then first moments
+    // free: means for all points, then first moments
     ReadingsBeforeStep readings() const { return {nullptr, nullptr, free_.data()}; }
     Spent pass(const double* force, double, bool probed) noexcept;
     void reading(int, double* out) const noexcept;
@@ -64,17 +65,17 @@ public:
     FusedRows fused_rows(const Block&, int row, double* sum) noexcept;
 
 private:
-    struct Reading {  // weights of a displacement or a velocity at a row
+    struct Reading {  // weights for a displacement or a velocity at a row
         AlignedVector on_a, on_b;
     };
     struct TapOfModes {
         Reading on_modes;
-        std::vector<double> on_mean;  // of each point's force; of contact forces only
+        std::vector<double> on_mean;  // for each point's force; only for contact forces
     };
     struct PluckForce {
         Pluck of;
         std::vector<PluckMoments> moments;  // in the step first_step + n
-        std::vector<MomentMatrix> theta;    // of each point [m/N]
+        std::vector<MomentMatrix> theta;    // for each point [m/N]
         std::vector<double> p_0, p_1;
         long first_step = 0, steps = 0;
     };
@@ -103,9 +104,9 @@ private:
     StringPoints p_;
     TwoMomentStream m_;
     AlignedVector stream_, a0_, b0_;
-    AlignedVector free_sums_;  // of the kernel: moments of the points without forces
+    AlignedVector free_sums_;  // for the kernel: moments at the points without forces
     std::vector<ExactMode> modes_;
-    std::vector<Reading> readings_;  // of each point
+    std::vector<Reading> readings_;  // for each point
     PluckForce pluck_;
     double F_0_ = 0, F_1_ = 0;  // the pluck's moments in the step [N]
     const TwoMomentSum sum_of_ = two_moment_sum();
@@ -113,8 +114,8 @@ private:
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;
     std::vector<double> free_;  // these with the pluck
-    double sum_ = 0;            // of the means [m]
-    double offset_ = 0;         // of the phase of a start from rest [rad]
+    double sum_ = 0;            // sum over the means [m]
+    double offset_ = 0;         // phase error of a start from rest [rad]
     long step_ = 0;
     // whole rows
     TwoMomentRowsKernel rows_ = nullptr;

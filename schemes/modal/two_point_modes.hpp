@@ -1,4 +1,4 @@
-// A string in its modes by two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 38-43, and 49,
+// String in its modes by two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 38-43, and 49,
 // 51, 52 for its energy. In modes scaled by sqrt(J/xi)
 //
 //     s = u + sum_p g_p F_p,   y <- y + s,   u <- s + sum_p g_p F_p - loss s - c y;
@@ -6,9 +6,9 @@
 //
 // which is one fused pass over the modes for one contact and a thread
 // (kernels/modal_two_point_kernel.hpp). Here J = 1 + A + B, c = 4 A/J, loss = 2 B/J, xi = dt^2/2m,
-// and A, B of eq 33 (exact) or 32. With compliance=matched m is the mass by which the mode has its
-// true impedance (docs/compliance-matching.md). The momentum is q = J u/2 + A y = J (u/2 + c y/4).
-// On a body that moves (schemes/body) its acceleration is one more force.
+// and A, B come from eq 33 (exact) or 32. With compliance=matched m is the mass that gives the mode
+// its true impedance (docs/compliance-matching.md). The momentum is q = J u/2 + A y = J (u/2 + c
+// y/4). On a body that moves (schemes/body) its acceleration is one more force.
 #pragma once
 
 #include "schemes/driver/driver.hpp"
@@ -17,7 +17,7 @@
 
 namespace jvari {
 
-struct TwoPointCoefficients {  // of one mode (van Walstijn et al. 2016, eqs 32-33)
+struct TwoPointCoefficients {  // for one mode (van Walstijn et al. 2016, eqs 32-33)
     double A, B;
 };
 using TwoPointLaw = TwoPointCoefficients (*)(double omega0, double sigma, double dt);
@@ -26,7 +26,7 @@ TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt);  /
 class TwoPointModes {
 public:
     static constexpr int levels = 1;
-    // a step of many coupled points takes tens of microseconds
+    // a step with many coupled points takes tens of microseconds
     static constexpr long steps_between_looks = 64;
 
     TwoPointModes(const Descriptor&, const Scene&, const Settings&, TwoPointLaw);
@@ -63,17 +63,17 @@ public:
 private:
     struct TapOfModes {
         AlignedVector on_y, on_u;     // on_u: velocity only
-        std::vector<double> on_mean;  // of each point's force; of contact forces only
+        std::vector<double> on_mean;  // for each point's force; only for contact forces
     };
     struct PluckForce {
         Pluck of;
-        std::vector<double> mean;   // in the step first + n, as far as the scene lasts [N]
-        std::vector<double> theta;  // of each point [m/N], and of a moving body [s^2]
+        std::vector<double> mean;   // in the step first + n, until the scene ends [N]
+        std::vector<double> theta;  // for each point [m/N], and for a moving body [s^2]
         long first = 0, steps = 0;
     };
-    // what a body that moves reads of the string, and pushes: empty without one
+    // readings that a moving body takes from the string, and its pushes: empty without a body
     struct AtBody {
-        // scaled; weights of sum mu_i (s_i - 2 q_i) without forces, in y and u
+        // scaled; weights for sum mu_i (s_i - 2 q_i) without forces, in y and u
         AlignedVector mu, on_y, on_u;
     };
     void put(TwoPointColumn, const AlignedVector&, int point = 0);
@@ -110,11 +110,12 @@ private:
     long steps_per_row_ = 1;
     std::vector<TapOfModes> taps_;
     std::vector<FreeMode> free_modes_;
-    std::vector<double> y_, u_, free_, force_;  // of the points; free_: u_ with the pluck
-    // of one contact under a steady force, relative to the true one of the same modes; else 0
+    std::vector<double> y_, u_, free_, force_;  // at the points; free_: u_ with the pluck
+    // yield of the only contact under a steady force, relative to the true one with the same modes;
+    // otherwise 0
     double compliance_ = 0;
-    double offset_ = 0;  // of the phase of a start from rest [rad]
-    // of the step: the pluck's force [N]; the points' readings added up [m]
+    double offset_ = 0;  // phase error of a start from rest [rad]
+    // in the step: the pluck's force [N]; the points' readings added up [m]
     double F_e_ = 0, sum_ = 0;
 };
 

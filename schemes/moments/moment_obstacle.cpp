@@ -14,8 +14,8 @@ namespace {
 constexpr int most_blocks = 60, most_sweeps = 200;
 constexpr std::size_t kept_sets = 16;
 
-// Gauss's elimination with pivots, in place: rows of `columns` numbers, the first n of which are
-// the matrix and the others right sides, which become solutions. False where a pivot is nothing.
+// Gauss's elimination with pivots, in place: rows with `columns` numbers, the first n for the
+// matrix and the others for right sides, which become solutions. False if a pivot is zero.
 bool eliminate(double* rows, int n, int columns) noexcept {
     for (int k = 0; k < n; ++k) {
         int pivot = k;
@@ -236,8 +236,8 @@ bool MomentObstacle::alone(const double* b, double* force) noexcept {
     return true;
 }
 
-// Of the linear contacts in full contact: c (phi_0 + phi_1) + (T phi)_0 = E_1 and c (phi_0 - phi_1)
-// - (T phi)_1 = E_0.
+// Inverse for the linear contacts in full contact: c (phi_0 + phi_1) + (T phi)_0 = E_1 and c (phi_0
+// - phi_1) - (T phi)_1 = E_0.
 void MomentObstacle::keep(std::uint64_t set, Kept& s) noexcept {
     s.set = set;
     std::fill(s.inverse.begin(), s.inverse.end(), 0.0);
@@ -279,21 +279,21 @@ void MomentObstacle::moved_by_others(int a, const double* b, const double* force
     }
 }
 
-// A step in which contacts change.
+// Solves a step in which contacts change.
 bool MomentObstacle::with_change(std::uint64_t misfits, const double* b, const double* ends,
                                  const double* phi, double* force) noexcept {
     if (std::has_single_bit(misfits) &&
         with_one(set_ & ~misfits, std::countr_zero(misfits), b, ends, force))
         return true;
-    for (int a = 0; a < n_; ++a) {  // a first guess: of full contact what pushes
+    for (int a = 0; a < n_; ++a) {  // a first guess: the pushing forces of full contact
         force[a] = std::max(phi[a], 0.0);
         force[points_ + a] = std::clamp(phi[n_ + a], -force[a], force[a]);
     }
     return by_newton(b, force);
 }
 
-// Contact a by its own equation, those of `others` in full contact and eliminated, the rest out.
-// False where these do not agree.
+// Solves contact a by its own equation, those in `others` in full contact and eliminated, the rest
+// out. False if these do not agree.
 bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b, const double* ends,
                               double* force) noexcept {
     const int n = n_, D = 2 * n;
@@ -305,7 +305,7 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b, cons
     if (others) {
         const double* M = kept(others).inverse.data();
         product_of_pairs<0>(M, ends, phi);
-        double* change = r;  // of the ends, by phi_a
+        double* change = r;  // change of the ends, by phi_a
         for (int j = 0; j < 2; ++j) {
             for (int c = 0; c < n; ++c) change[c] = -T(0, c, j, a), change[n + c] = T(1, c, j, a);
             product_of_pairs<0>(M, change, by + j * D);
@@ -334,8 +334,8 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b, cons
     return true;
 }
 
-// Solves each contact for itself under the others' forces, into found_. Returns what is left of
-// phi = S(phi): the sum of squares, and the largest against the largest force.
+// Solves each contact for itself under the others' forces, into found_. Returns the residual of phi
+// = S(phi): the sum of squares, and the largest against the largest force.
 MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) noexcept {
     Rest rest;
     double largest = 0;
@@ -352,7 +352,7 @@ MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) 
     return rest;
 }
 
-// Newton's step of phi = S(phi), S' = answer() T, into step_. False where its matrix is singular.
+// Newton's step for phi = S(phi), S' = answer() T, into step_. False if its matrix is singular.
 bool MomentObstacle::newton_step(const double* force) noexcept {
     const int P = points_;
     int active = 0;

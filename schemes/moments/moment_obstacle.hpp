@@ -1,21 +1,20 @@
-// A step's contacts and thread where their forces are lines in it (moment_contact.hpp), with the
-// ladder in series: what obstacle.hpp is to steps of one moment. Arrays over the points have the
-// means first, then the first moments.
+// Solves a step's contacts and thread whose forces are lines in the step (moment_contact.hpp), with
+// the ladder in series: the counterpart of obstacle.hpp for two moments. Arrays over the points
+// have the means first, then the first moments.
 //
 //     r = free + Theta phi,   phi_c = -k_c (Y_c, 0) - K_c r_c of the thread, eliminated         (5)
 //     K_c = [[k_c/2 + r_c/H, -k_c/2], [k_c/2, 3 r_c/H]]
 //
-// All but the contacts is linear. With x the ladder's state and the stretch Y_c of the thread, one
-// matrix makes b of each contact and the pull of the thread alone of x and free, others make phi_c
-// and the next x.
+// Everything except the contacts is linear. With x the ladder's state and the stretch Y_c of the
+// thread, one matrix makes b for each contact and the thread's pull from x and free alone. Other
+// matrices make phi_c and the next x.
 //
-// Several contacts (docs/two-moments.md, section 7):
-//   1. the contacts that touched after the last step are in full contact, the others out: one
+// Several contacts (docs/two-moments.md, section 7): 1. the contacts that touched after the last
+// step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
-//   2. where one contact does not agree, its own equation with the others eliminated;
-//   3. else Newton's steps on all of them, each contact solved for itself.
-// Where a solution is not found, one contact alone included, forces are constant in the step
-// (contact_gram.hpp).
+// 2. if one contact contradicts this, its own equation with the others eliminated; 3. otherwise
+// Newton's steps on all contacts, each contact solved for itself. If no solution is found, even for
+// one contact alone, forces are constant in the step (contact_gram.hpp).
 #pragma once
 
 #include <algorithm>
@@ -43,7 +42,7 @@ public:
 
     int contacts() const { return contacts_.count(); }
     int points() const { return points_; }
-    int dofs() const { return 0; }  // beyond what follows from the string's state
+    int dofs() const { return 0; }  // beyond the string's own state
     void clear() { tally_ = {}, constant_ = 0; }
     void begin(const double* reading, const double* moving, const double* force);
     bool is_like(const MomentObstacle& other) const {
@@ -52,11 +51,11 @@ public:
     }
     void start_from(const MomentObstacle& before) noexcept;
 
-    // As Obstacle's, of readings whose `free` has two moments a point. Allocates nothing.
+    // Solves like Obstacle, for readings whose `free` has two moments per point. Allocates nothing.
     bool solve(const ReadingsBeforeStep& at, double* force, bool = false) noexcept {
         return step<0, false, false>(at.free, force);
     }
-    // few: points, where known to the compiler, and then whether there are a thread and a ladder
+    // few: number of points, if known at compile time, followed by flags for a thread and a ladder
     template <int few, bool thread, bool series>
     [[gnu::always_inline]] bool step(const double* free, double* force) noexcept;
     const double* moved() const { return moved_.data(); }
@@ -67,7 +66,7 @@ public:
 
     double potential(const double*, int = 0) const;  // [J]
     double loss() const;                             // in the last step [W]
-    const double* forces(int) noexcept {             // of the springs in series [N]
+    const double* forces(int) noexcept {             // in the series springs [N]
         if (ladder_) ladder_->forces(x_.data(), spring_.data());
         return spring_.data();
     }
@@ -83,14 +82,14 @@ private:
     struct Point {              // a contact
         double eta = 0;         // penetration [m]
         double eta_before = 0;  // at the beginning of the last step
-        double from = 0;        // e_0 of the last step,
-        bool closed = true;     // where that had a closed form; else
+        double from = 0;        // e_0 in the last step,
+        bool closed = true;     // if that had a closed form; otherwise
         double lost = 0;        // [J]
     };
     struct Kept {  // a set of linear contacts in full contact
         std::uint64_t set = 0;
-        // phi_0 of all contacts, then phi_1, by E_1 of all, then E_0: 2n x 2n, by columns; zeros
-        // in rows and columns of the others
+        // phi_0 for all contacts, then phi_1, from E_1 for all, then E_0: 2n x 2n, by columns;
+        // zeros in rows and columns of the others
         std::vector<double> inverse;
     };
     double T(int i, int a, int j, int b) const {  // between contacts, the thread eliminated
@@ -110,7 +109,7 @@ private:
         return s;
     }
     void keep(std::uint64_t set, Kept&) noexcept;
-    // to = M x, of two numbers for each contact
+    // to = M x, with two numbers for each contact
     template <int few>
     [[gnu::always_inline]] void product_of_pairs(const double* M, const double* x,
                                                  double* to) const noexcept {
@@ -164,20 +163,20 @@ private:
     std::vector<Point> at_;
     std::optional<Thread> thread_;
     std::optional<ExactLadder> ladder_;
-    // d and v of the ladder, then the thread's stretch Y_c - h_c; at the beginning of the last step
+    // d and v in the ladder, then the thread's stretch Y_c - h_c; at the beginning of the last step
     std::vector<double> x_, x_before_;
-    // By columns: b of the contacts and the pull of the thread, of x, then of free; the next x, of
-    // x, then of phi.
+    // By columns: b for the contacts and the thread's pull, from x, then from free; the next x,
+    // from x, then from phi.
     std::vector<double> points_by_, state_by_;
-    std::vector<double> pull_by_;  // phi_c of the contacts' phi, 2 x 2n
-    std::vector<double> last_;     // phi of the last step
-    double inverse_[4] = {};       // Kept's of one linear contact
+    std::vector<double> pull_by_;  // phi_c from the contacts' phi, 2 x 2n
+    std::vector<double> last_;     // phi in the last step
+    double inverse_[4] = {};       // Kept's inverse for one linear contact
     ContactTally tally_;
     std::vector<double> b_, next_, moved_, spring_;  // workspaces; r_0; C^-1 D
     std::vector<double> pairs_, ends_, trial_, step_, matrix_;
     std::vector<MomentContact> found_;
     ContactGram gram_;
-    long constant_ = 0;  // steps by it
+    long constant_ = 0;  // steps with constant forces
     std::vector<int> active_;
     std::uint64_t set_ = 0, linear_ = 0;  // touching linear contacts; all linear contacts
     std::vector<Kept> sets_;

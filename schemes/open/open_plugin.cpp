@@ -1,4 +1,4 @@
-// Reads the tables of jvari_scheme.h. It reads no member beyond the size that a structure declares,
+// Reads the tables in jvari_scheme.h. It reads no member beyond the size that a structure declares,
 // and no table from another version.
 #include "schemes/open/open_plugin.hpp"
 
@@ -16,8 +16,7 @@ namespace jvari {
 namespace {
 constexpr std::int64_t most_facts = 256, most_schemes = 1024;
 
-// Copies the structure into the form of this program, with 0 for the members beyond its declared
-// size.
+// Copies the structure into this program's form, with 0 for members beyond its declared size.
 template <class Struct>
 Struct as_far_as_it_goes(const Struct& theirs) {
     Struct ours{};

@@ -1,4 +1,4 @@
-// Source: van Walstijn et al. 2016, eqs 5-8 and 14-22; the compliances are those of
+// Source: van Walstijn et al. 2016, eqs 5-8 and 14-22; the compliances come from
 // contact/compliance.hpp.
 #include "schemes/open/problem.hpp"
 

@@ -1,7 +1,7 @@
-// One string of a scene as plain arrays (jvari_scheme.h): what schemes from outside are given, as C
-// structures, NumPy arrays or JSON.
+// One string in plain arrays (jvari_scheme.h): the form in which schemes from outside receive a
+// scene, by C structures, NumPy arrays or JSON.
 //
-// A profile stands as contacts in the middles of equal parts, 16 where no option `points` says
+// A profile becomes contacts in the middles of equal parts, 16 unless an option `points` says
 // otherwise. Leaves out: polarisation, a moving body and all strings but the first; they are in the
 // scene's text alone.
 #pragma once
@@ -31,7 +31,8 @@ private:
     std::deque<std::vector<const char*>> lists_;
 };
 
-// For who sees the arrays alone: Refusal where the scene has what they do not hold.
+// Refusal if the scene has features that the arrays do not hold; for schemes that see the arrays
+// alone.
 void refuse_beyond_arrays(const Scene&);
 
 // Calls to(name, value) for each member that a reader of arrays needs: double, std::int64_t, const

@@ -1,7 +1,7 @@
-// The waveguide's peg where a period is no whole number of samples, or the string is stiff:
+// Models the waveguide's peg if a period is no whole number of samples, or if the string is stiff:
 // allpasses between the two rails.
 //
-// Sources: fractional length, an allpass of first order with the exact delay at the first partial
+// Sources: fractional length, a first-order allpass with the exact delay at the first partial
 // (Smith, "Physical audio signal processing"); dispersion, a cascade of equal allpasses (Van Duyne
 // & Smith 1994). Lumped at the peg: the partials are right, the shapes near the peg are not.
 #pragma once
@@ -10,23 +10,23 @@
 
 namespace jvari {
 
-// Loop delay at the first partial, in samples, and how it is split between rails and filter.
+// Loop delay at the first partial, in samples, and its division between rails and filter.
 struct PegTuning {
-    int cells = 0;          // of a rail
-    std::vector<double> a;  // of the allpasses; none: a plain inversion
-    int half = 0;           // allpasses before the middle of the filter, which is where the peg is
-    double delay = 0;       // of the filter at the first partial
+    int cells = 0;          // cells in a rail
+    std::vector<double> a;  // allpass coefficients; none: a plain inversion
+    int half = 0;           // allpasses before the middle of the filter, the position of the peg
+    double delay = 0;       // filter delay at the first partial
 };
 
 // w: first partial [rad/sample]
 PegTuning tune(double loop, double w, std::vector<double> sections);
 PegTuning tune_stiff(double loop, const std::vector<double>& omega, double dt);
 
-// The deviation of largest size of a partial from omega [rad/s], in cents.
+// Deviation of the worst partial from omega [rad/s], in cents.
 double worst_cents(const PegTuning&, const std::vector<double>& omega, double dt);
 
-// A sample and its two predecessors, for the energy: a wave's power is that of its difference over
-// two steps (sitar.hpp).
+// A sample and its two predecessors, for the energy: a wave's power follows from its difference
+// over two steps (sitar.hpp).
 struct History {
     double now = 0, before = 0, earlier = 0;
 
@@ -39,8 +39,8 @@ struct History {
     double slope(double loss) const { return now - loss * loss * earlier; }
 };
 
-// First-order allpass (a + 1/z)/(1 + a/z); a = 0 is a delay of one sample. Its state s holds the
-// energy s^2/(1 - a^2) of what passes.
+// First-order allpass (a + 1/z)/(1 + a/z); a = 0 is a delay by one sample. Its state s holds the
+// energy s^2/(1 - a^2) of the passing wave.
 struct Allpass {
     double a = 0;
     History s;
@@ -53,13 +53,13 @@ struct Allpass {
     double slopes(double loss) const { return s.slope(loss) * s.slope(loss) / (1 - a * a); }
 };
 
-// What stands at the peg between the two rails of one plane, where the length is not a whole number
-// of samples.
+// Filter at the peg between the two rails in one plane, for a length that is not a whole number of
+// samples.
 struct PegFilter {
     std::vector<Allpass> sections;
     int half;
     double gain;  // loss over the filter's delay
-    // right-going wave as it comes in, at the peg, and as it leaves, before the gain
+    // right-going wave: arriving, at the peg, and leaving, before the gain
     History in, peg, out;
 
     PegFilter(const PegTuning& tuning, double loss_on_the_way)

@@ -1,20 +1,20 @@
 // Source: Deshmukh & Rayavarapu, "2-D digital waveguide and finite difference modeling of a sitar":
-// two rails of fs/(2 f0) samples (eqs 3-5), inverting ends, a bridge that sets the returning wave
+// two rails with fs/(2 f0) samples (eqs 3-5), inverting ends, a bridge that sets the returning wave
 // (eqs 10-12), two planes of vibration coupled at the bridge by a rotation (eq 14). Added to the
 // paper: a fractional length and a dispersion by allpass at the peg (Van Duyne & Smith 1994),
 // energy columns, losses along the way.
 //
-// Where y_r + y_l would pass the profile, y_r := profile - y_l. The rule has no potential: it gives
-// and takes energy, and the ledger says how much. To eq 9 a correction d of y_r at node m is an
-// impulse Z d now and -Z d on node m - 1 one step later: no momentum in the end, and a bridge force
-// that may pull.
+// If y_r + y_l would pass the profile, y_r := profile - y_l. The rule has no potential: it gives
+// and takes energy, and the ledger records the amount. By eq 9 a correction d of y_r at node m is
+// an impulse Z d in this step and -Z d on node m - 1 one step later: no momentum in the end, and a
+// bridge force that may pull.
 //
-// Long, because a class template over the number of planes keeps its step, bridge, taps and ledger
-// in one file. Where nothing stands on the rails' way they move in runs (coast), and the time is
+// The file is long, because a class template over the number of planes keeps its step, bridge, taps
+// and ledger together. Without obstacles on the way the rails move in runs (coast), and the time is
 // theirs alone: half for one plane.
 //
-// Left out: any stiffness of the contact, losses that differ from partial to partial, where along
-// the string the stiffness acts.
+// Left out: any stiffness of the contact, losses that differ from partial to partial, the
+// distribution of stiffness along the string.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,8 +33,8 @@ using std::numbers::pi;
 struct Waves {
     SitarString string;
     PegTuning peg;                // no sections: an inversion
-    double cosine = 1, sine = 0;  // of the rotation per reflection  (14)
-    double share[2] = {1, 0};     // of the initial shape in either plane
+    double cosine = 1, sine = 0;  // rotation per reflection  (14)
+    double share[2] = {1, 0};     // share of the initial shape in either plane
     int tap_plane = 0;
 };
 
@@ -67,7 +67,7 @@ public:
                 right(p)[m] = gain_[m] * half;
                 left(p)[M - m] = gain_[M - m] * half;
             }
-        // the filters hold what has passed before t = 0
+        // the filters hold the waves from before t = 0
         for (int p = 0; p < static_cast<int>(peg_.size()); ++p) {
             peg_[p].clear();
             for (int k = 8 * M; k >= 0; --k) {
@@ -116,7 +116,7 @@ public:
     }
 
 private:
-    // Circular rails: the wave at `distance` cells from the end it left lies that many places
+    // Circular rails: the wave at `distance` cells from the end that it left lies that many places
     // behind the head, before the loss on the way.
     double* right(int p) { return rail_.data() + 2 * p * size_; }
     double* left(int p) { return right(p) + size_; }
@@ -136,8 +136,8 @@ private:
         // y_t = c (y_l' - y_r')
         return 0.5 / s_.dt * ((l[1] - l[0]) - (r[1] - r[0])) - s_.sigma * displacement(p, m);
     }
-    // The waves one cell beyond the bridge end: the right-going one about to be reflected, the
-    // left-going one that has been.
+    // Waves one cell beyond the bridge end: the right-going one before its reflection, the
+    // left-going one after it.
     double before_bridge_end(int p = 0) {
         if constexpr (planes == 1) return -y_left(0, 1);
         else return -(w_.cosine * y_left(p, 1) + (p == 0 ? -w_.sine : w_.sine) * y_left(1 - p, 1));
@@ -184,8 +184,8 @@ private:
         for (const PegFilter& peg : peg_) sum += peg.slopes(s_.step_loss);
         return sum;
     }
-    // Both ends, for steps that end at place `to` of the rails, the last step there, and take what
-    // came from the other end at `from` and the places after it.
+    // Reflects at both ends, for steps that end at place `to` on the rails, the last step there,
+    // and take the waves from the other end at `from` and the places after it.
     [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept {
         const double way = loss_[s_.cells], c = w_.cosine, s = w_.sine;
         double* __restrict R = right(0), * __restrict L = left(0);
@@ -207,7 +207,7 @@ private:
             }
         }
     }
-    // Steps of rails that meet nothing on their way: none depends on another within the length of a
+    // Moves the rails by steps without obstacles: no step depends on another within the length of a
     // rail.
     void coast(int steps, const Block& out) noexcept {
         while (steps > 0) {
@@ -235,14 +235,14 @@ private:
             slopes_ += peg.gain * peg.gain * out * out - in * in;
         }
     }
-    void settle() noexcept {  // the loss of the steps since the last time
+    void settle() noexcept {  // the loss in the steps since the last time
         const double loss2 = loss_[coasted_] * loss_[coasted_];
         slopes_dissipated_ += (1 - loss2) * slopes_;
         slopes_ *= loss2;
         coasted_ = 0;
     }
-    // The rule at nodes 1, 2, ... of the vertical plane; what it does to the energy is in the
-    // differences beside the nodes it moves.
+    // Applies the rule at nodes 1, 2, ... in the vertical plane; its energy is in the differences
+    // beside the moved nodes.
     void meet_bridge() noexcept {
         const int nodes = static_cast<int>(s_.profile.size());
         double* const R = right(0);
@@ -287,23 +287,22 @@ private:
 
     Waves w_;
     const SitarString& s_;
-    int size_;  // samples of a rail
+    int size_;  // samples in a rail
     int head_ = 0;
     std::vector<double> rail_;         // per plane: right-going, left-going [m]
     std::vector<double> loss_, gain_;  // over m cells, and its inverse
     std::vector<PegFilter> peg_;       // one per plane, none for an integer length
-    // part of the rule's impulse that falls due at the next step, over Z [m]; one where there is a
+    // part of the rule's impulse that falls due at the next step, over Z [m]; one if there is a
     // bridge
     std::vector<double> pending_;
     int coasted_ = 0;               // steps since settle()
-    double slopes_ = 0;             // rail_slopes() as it should be
+    double slopes_ = 0;             // expected value of rail_slopes()
     double slopes_dissipated_ = 0;  // since the last row [m^2]
     long steps_ = 0;
     BridgeLedger ledger_;
 };
 
-// A length of fs/f0 samples per period, the part that is no whole number of cells in a filter at
-// the peg.
+// Sets a length of fs/f0 samples per period; the fractional part is a filter at the peg.
 void set_filtered_length(Waves& w, const String& string, bool stiff) {
     SitarString& s = w.string;
     const double loop = 1 / (s.f0 * s.dt);

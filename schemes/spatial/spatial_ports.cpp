@@ -12,9 +12,9 @@
 namespace jvari {
 
 namespace {
-constexpr double most_weights = 1 << 27;  // of nodes on modes: a gigabyte
+constexpr double most_weights = 1 << 27;  // nodes x modes: a gigabyte
 
-// sin(pi numerator/intervals), its argument reduced in integers
+// sin(pi numerator/intervals), with the argument reduced in integers
 double sine(long numerator, long intervals) {
     long turn = numerator % (2 * intervals);
     const double sign = turn >= intervals ? -1 : 1;
@@ -32,7 +32,7 @@ int node_at(double position, double length, int intervals) {  // 0: between node
 
 }  // namespace
 
-// Row of the matrix S of (13), less its factor sqrt(2/L).
+// Row in the matrix S of (13), without its factor sqrt(2/L).
 std::vector<double> node_weights(int intervals, int node) {
     std::vector<double> w;
     for (int j = 1; j < intervals; ++j) w.push_back(sine(long(j) * node, intervals));
@@ -40,7 +40,7 @@ std::vector<double> node_weights(int intervals, int node) {
 }
 
 int intervals_for(const String& s, const Settings& settings) {
-    // modes_of refuses the one too many
+    // modes_of refuses the surplus mode
     if (settings.modes > 0) return std::min(settings.modes, most_modes + 1) + 1;
     const int least = modes_of(s, settings).count() + 1;
     int intervals = least;

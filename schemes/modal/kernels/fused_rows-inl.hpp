@@ -1,4 +1,4 @@
-// The loop over rows and steps of a kernel. Compiled once per instruction set by Highway.
+// Loop over a kernel's rows and steps. Highway compiles it once per instruction set.
 #if defined(JVARI_MODAL_FUSED_ROWS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_FUSED_ROWS
 #undef JVARI_MODAL_FUSED_ROWS
@@ -15,9 +15,9 @@ HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
 
-// read(k): what tap k hears of the modes; springs(): forces of the springs in series; solve(force):
-// the forces of a step, false where they were not found; pass(force): the step of the modes. False:
-// the caller wants no more.
+// read(k): tap k's value from the modes; springs(): forces in the series springs; solve(force): the
+// forces in a step, false if they were not found; pass(force): the modes' step. Returns false if
+// the caller has abandoned the run.
 template <class Read, class Springs, class Solve, class Pass>
 HWY_INLINE bool make_rows(int points, double* force, const Block& out, RowsInHand& r,
                           const Read& read, const Springs& springs, const Solve& solve,

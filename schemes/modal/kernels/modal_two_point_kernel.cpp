@@ -1,6 +1,6 @@
-// The pass of the modal two-point string, and its fused rows (van Walstijn et al. 2016, eqs 41-48),
-// compiled once per instruction set by Highway. The numbers of contacts and threads up to five, and
-// what stands in series with them, are template arguments: what a scene lacks costs nothing.
+// Pass of the modal two-point string, and its fused rows (van Walstijn et al. 2016, eqs 41-48);
+// Highway compiles both once per instruction set. The numbers of contacts and threads up to five,
+// and the series compliance, are template arguments, so that absent parts cost nothing.
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,7 +16,7 @@ namespace jvari {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The pass of a step, which sums g_z.y now and then only.
+// Pass for a step, which sums g_z.y only now and then.
 template <int points>
 HWY_INLINE void end_step(TwoPointStream& m, long summed_again, const double* force) {
     if (m.step++ % summed_again == 0) {
@@ -38,7 +38,7 @@ void pass_of(TwoPointStream& m, const double* force) {
     end_step<points>(m, m.summed_again, force);
 }
 
-// The forces of a step, of few contacts and a thread. False: it did not converge.
+// Forces in a step with few contacts and a thread. False: no convergence.
 template <int contacts, bool thread, bool in_series>
 HWY_INLINE bool solve_few(const TwoPointStream& m, Obstacle& obstacle, double* force) {
     constexpr int points = contacts + thread;

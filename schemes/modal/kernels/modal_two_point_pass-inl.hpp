@@ -1,5 +1,5 @@
-// The pass over the modes of modal_two_point_kernel.hpp, and the sums over lanes that end it.
-// Compiled once per instruction set by Highway.
+// Pass over the modes for modal_two_point_kernel.hpp, with the sums over lanes that end it. Highway
+// compiles it once per instruction set.
 #if defined(JVARI_MODAL_TWO_POINT_PASS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_TWO_POINT_PASS
 #undef JVARI_MODAL_TWO_POINT_PASS
@@ -18,9 +18,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Column = TwoPointColumn;
-constexpr int any_number = -1;  // of points, at run time
+constexpr int any_number = -1;  // points counted at run time
 
-// dot() with a column of the modes.
+// dot() with a column in the modes.
 HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Column x) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
@@ -50,8 +50,8 @@ HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
     return {y, u};
 }
 
-// One pass: the update and the next dots. The number of points is a template argument: an absent
-// point costs nothing. Two accumulators per dot hide the latency of adding.
+// One pass: the update and the next dots. The number of points is a template argument, so that an
+// absent point costs nothing. Two accumulators per dot hide the latency of adding.
 template <int points, bool dots_of_y>
 HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) {
     const D d;
@@ -99,7 +99,7 @@ HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) 
     if constexpr (dots_of_y) put(y, m.y);
 }
 
-// As many points as there are: the sums pass through memory, a line at a time.
+// Any number of points: the sums pass through memory, a line at a time.
 template <bool dots_of_y>
 HWY_INLINE void many_points(TwoPointStream& m, const double* HWY_RESTRICT force) {
     const D d;

@@ -3,17 +3,17 @@
 //
 // Layout: modes j and N-j stand in pairs, level = [lo | hi] with lo = modes 1 .. H, hi = modes N-1
 // .. N-H, each padded with zeros. On a node sin(i(N-j) pi/N) = -(-1)^i sin(ij pi/N), so a pair
-// shares one weight and enters as lo + hi on odd nodes, lo - hi on even ones. Weights of a run of
+// shares one weight and enters by lo + hi on odd nodes, lo - hi on even ones. Weights for a run of
 // consecutive nodes come from two loads by sin((i+2)a) = 2cos(2a) sin(ia) - sin((i-2)a) in
-// registers; their sums stay in registers. For even N the middle mode is its own partner:
-// the place opposite holds C~ = 0, kappa = 1, so that what is pushed into it reads as 0.
+// registers; their sums stay in registers. For even N the middle mode is its own partner: the place
+// opposite holds C~ = 0, kappa = 1, so that a force pushed into it reads 0.
 //
 // Vector instructions are chosen at run time (Highway); the order of summation, so the last digits,
 // depends on the machine.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schemes/modal/kernels/three_point_pass.cpp"
 #ifndef HWY_DISABLED_TARGETS
-// vectors of unknown size make no arrays
+// vectors with unknown size make no arrays
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #endif
 #include <hwy/foreach_target.h>  // NOLINT: must come before highway.h
@@ -34,7 +34,7 @@ struct Push {  // a port that is pushed in this step
 };
 struct NodeRun {            // consecutive nodes
     int first, count, out;  // places of its first read in Pass::line and Pass::free
-    double sign;            // +1 where its first node is odd, else -1
+    double sign;            // +1 if its first node is odd, otherwise -1
 };
 struct Pass {
     const double *Ct, *kappa, *twocos;
@@ -42,7 +42,7 @@ struct Pass {
     long half;  // padded length of lo and of hi
     const Push* push;
     int pushes;
-    const double* const* line;  // [lo | hi] weights of every read
+    const double* const* line;  // [lo | hi] weights for every read
     const NodeRun* run;
     int runs;
     int lines;
@@ -66,7 +66,7 @@ constexpr int most_sums = HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 ? 20 : 8;
 
 HWY_INLINE double total(V x) { return hn::GetLane(hn::SumOfLanes(D(), x)); }
 
-// Adds to sum[k] the displacement of node first + k: a = lo + sign hi, b = lo - sign hi.
+// Adds to sum[k] the displacement at node first + k: a = lo + sign hi, b = lo - sign hi.
 template <int K>
 HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, long v, V a, V b,
                            V* sum) {
@@ -94,7 +94,7 @@ HWY_INLINE void synthesise(const Pass& p, const double* s0, const double* s1, lo
     }
 }
 
-// What is pushed in this step: the first two ports' parts stay in registers, further ports (a long
+// Forces pushed in this step: the first two ports' parts stay in registers, further ports (a long
 // contact, a pluck) are looped over.
 template <int pushes>  // 0, 1, 2, or 3 for more
 struct Pushed {
@@ -109,7 +109,7 @@ struct Pushed {
     }
 };
 
-// The step itself on the pair of vectors at v; returns y + d of lo and hi.
+// Makes the step itself on the pair of vectors at v; returns y + d for lo and hi.
 struct Pair {
     V lo, hi;
 };
@@ -147,7 +147,7 @@ HWY_INLINE Pair reread(const Pass& p, long v) {
 
 constexpr int no_step = -1;  // in place of pushes: the update has happened in an earlier pass
 
-// K nodes from place `first` of the reads; `pushes` as in Pushed.
+// K nodes from place `first` in the reads; `pushes` has the meaning in Pushed.
 template <int K, int pushes>
 void nodes(const Pass& pass, int first, int count, int out, double sign) {
     const Pass p = pass;  // a copy that no store can alias: its members stay in registers
@@ -170,7 +170,7 @@ void nodes(const Pass& pass, int first, int count, int out, double sign) {
 }
 
 template <int pushes, int K = most_sums>
-// by the least K, even or 1, that has room
+// uses the least sufficient K, even or 1
 void chunk(const Pass& p, int first, int count, int out, double sign) {
     if constexpr (K > 2)
         if (count <= K - 2) return chunk<pushes, K - 2>(p, first, count, out, sign);
@@ -178,7 +178,7 @@ void chunk(const Pass& p, int first, int count, int out, double sign) {
     nodes<K, pushes>(p, first, count, out, sign);
 }
 
-// K reads from place `first`, by weights of their own on lo and hi.
+// K reads from place `first`, with separate weights on lo and hi.
 template <int K, int pushes>
 void lines(const Pass& pass, int first, int count) {
     const Pass p = pass;
@@ -252,17 +252,17 @@ namespace jvari {
 
 namespace {
 HWY_EXPORT(advance);
-constexpr int pad = 8;  // doubles of the widest vector
+constexpr int pad = 8;  // doubles in the widest vector
 }  // namespace
 
 struct ThreePointPass::Plan {
     LinearUpdate update;
     int half;                            // H
-    std::vector<AlignedVector> weights;  // of each port, [lo | hi]
-    // what it pushes, over gain; none where the weights are that too
+    std::vector<AlignedVector> weights;  // for each port, [lo | hi]
+    // push weights over gain; none if they equal the read weights
     std::vector<AlignedVector> pushed;
-    std::vector<int> port;            // of each read in the order that the pass reads them
-    std::vector<const double*> line;  // its weights
+    std::vector<int> port;            // for each read in the order of the pass
+    std::vector<const double*> line;  // weights of the read
     std::vector<NodeRun> runs;
     std::vector<Push> push;
     AlignedVector Ct, kappa, twocos;

@@ -1,6 +1,5 @@
-// The pass of the two-moment string, and its fused rows, compiled once per instruction set by
-// Highway. The number of points is a template argument up to five: what a scene lacks costs
-// nothing.
+// Pass of the two-moment string, and its fused rows; Highway compiles both once per instruction
+// set. The number of points is a template argument up to five, so that absent points cost nothing.
 #include "schemes/modal/kernels/two_moment_kernel.hpp"
 
 #include <utility>
@@ -19,9 +18,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace {
 using Stream = TwoMomentStream;
-constexpr int any_number = -1;  // of points, at run time
+constexpr int any_number = -1;  // points counted at run time
 
-// Sums of on_a a + on_b b, of several weights in one pass.
+// Sums of on_a a + on_b b, for several weights in one pass.
 template <int count>
 HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, const Stream& m,
                         double* to) {
@@ -89,7 +88,7 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi) {
     }
 }
 
-// As many points as there are: forces and sums pass through memory, a line at a time.
+// Any number of points: forces and sums pass through memory, a line at a time.
 HWY_INLINE void many_points(Stream& m, const double* HWY_RESTRICT phi, bool forced) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d)), points = m.points,
@@ -145,7 +144,7 @@ void pass_of(Stream& m, const double* phi, bool contacts) {
     pass<points, thread>(m, phi, contacts);
 }
 
-// Taps that read modes, two at a time in one pass: a tap and the next such one.
+// Taps that read modes, two at a time in one pass: a tap and the next such tap.
 class TapPairs {
 public:
     TapPairs(const Stream& m, const FusedTap* taps, int count)

@@ -1,8 +1,8 @@
-// State and kernels of a string in its modes under forces that are lines in the step;
+// State and kernels for a string in its modes under forces that are lines in the step;
 // two_moment_modes.hpp has the equations.
 //
 // One step is one pass over the modes: forces (2), the turn to the next centre (3), and the sums
-// (1) that the next step's forces need. Whole rows are made with the obstacle's steps.
+// (1) that the next step's forces need. Whole rows include the obstacle's steps.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace jvari {
 
-// A line of eight modes of each column, then the next eight: a, b, A11, A12, A22, then p_0 of each
-// point, then p_1 of each.
+// Stream layout: a line with eight modes from each column, then the next eight: a, b, A11, A12,
+// A22, then p_0 for each point, then p_1 for each.
 struct TwoMomentStream {
     enum Column { a, b, A11, A12, A22, weights };
     static constexpr int line = 8;
@@ -22,7 +22,7 @@ struct TwoMomentStream {
     int points = 0;
     bool thread = false;  // the last point
     double* stream = nullptr;
-    double* free = nullptr;  // moments of the points without forces, of the step to come
+    double* free = nullptr;  // moments at the points without forces, for the coming step
 
     int columns() const { return weights + 2 * points; }
     std::ptrdiff_t at(int column, std::ptrdiff_t mode) const {
@@ -30,7 +30,7 @@ struct TwoMomentStream {
     }
 };
 
-// Makes a step of the modes; phi: means of all points, then first moments.
+// Makes a step of the modes; phi: means for all points, then first moments.
 using TwoMomentPass = void (*)(TwoMomentStream&, const double* phi, bool contacts);
 TwoMomentPass two_moment_pass(int points, bool thread);
 
@@ -38,7 +38,7 @@ TwoMomentPass two_moment_pass(int points, bool thread);
 using TwoMomentRowsKernel = bool (*)(TwoMomentStream&, MomentObstacle&, const Block&, RowsInHand&);
 TwoMomentRowsKernel two_moment_rows(int points, bool thread, bool series);
 
-// Sum of on_a a + on_b b, over the padded modes.
+// Sum over on_a a + on_b b, over the padded modes.
 using TwoMomentSum = double (*)(const double* on_a, const double* on_b, const TwoMomentStream&);
 TwoMomentSum two_moment_sum();
 

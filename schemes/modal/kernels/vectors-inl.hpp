@@ -1,5 +1,5 @@
-// The vectors of the modal kernels, and their sum of products: two accumulators hide the latency of
-// adding. Compiled once per instruction set by Highway.
+// Vectors for the modal kernels, and their sum of products: two accumulators hide the latency of
+// adding. Highway compiles this once per instruction set.
 #if defined(JVARI_MODAL_VECTORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_VECTORS
 #undef JVARI_MODAL_VECTORS
@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// Sum of w x. size: a multiple of twice the lanes.
+// Sum over w x. size: a multiple of twice the lanes.
 HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x, int size) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
@@ -29,8 +29,8 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
-// Sums over the lanes of four vectors at once: half the shuffles of four sums, each by halves of
-// halves.
+// Sums over the lanes of four vectors at once: half the shuffles that four separate sums need, each
+// by halving twice.
 HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
     const D d;
 #if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
@@ -49,8 +49,8 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 #endif
 }
 
-// In a register from here on: GCC 12 otherwise reads it from memory at each use, three loads for
-// one, and a pass waits for its loads.
+// Keeps v in a register from here on: GCC 12 otherwise reads it from memory at each use, three
+// loads instead of one, and a pass waits for its loads.
 HWY_INLINE V in_register(V v) {
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     asm("" : "+v"(v.raw));
