@@ -10,16 +10,16 @@
 
 namespace jvari {
 
-// Bounds on the error of a run with error e against a reference that is itself uncertain by c. By
-// the triangle inequality the run differs from the motion of the scene by e + c at most and by e -
-// c at least, relative to the norm of the reference.
+// Bounds on a run's error e against a reference that is itself uncertain by c. By the triangle
+// inequality the run differs from the scene's motion by e + c at most and by e - c at least,
+// relative to the norm of the reference.
 double at_most(double error, double uncertainty);   // NaN if c is unknown
 double at_least(double error, double uncertainty);  // 0 at least; 0 if c is unknown
 
 struct Offer {
     std::string scheme;
     double most, least;         // bounds on the error
-    double cost, lower, upper;  // median and quartiles of the cost
+    double cost, lower, upper;  // median and quartiles
 };
 
 // `best`: the run with the least cost among the runs within `accuracy`. `ties` never change `best`:

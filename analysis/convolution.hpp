@@ -19,7 +19,7 @@ public:
     ~Convolution();
     Convolution(Convolution&&) noexcept;
 
-    int block() const;  // rows of a block
+    int block() const;  // rows in a block
     // each has `block` rows; both may be the same memory
     void advance(std::span<const double> in, std::span<double> out);
     void reset();  // starts again from silence

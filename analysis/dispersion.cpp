@@ -26,13 +26,13 @@ using std::numbers::pi;
 // side lobes at -150 dB, first zero at 6.45/T for a window of T seconds
 constexpr double kaiser_shape = 20;
 constexpr double main_lobe = 6.45;  // sqrt(1 + (shape/pi)^2)
-constexpr long most_rows = 640;     // of the thinned signal: the pencil costs their cube
+constexpr long most_rows = 640;     // in the thinned signal: the pencil costs their cube
 // singular values below this share of the largest are rounding
 constexpr double rounding_margin = 1e-13;
-// and below this many medians noise: white noise takes the lobe's shape, 70 from the lobe's top to
-// its median over half the thinned band (5 half widths), times the scatter of the largest of them
+// noise if below this many medians: white noise takes the lobe's shape, 70 from the lobe's top to
+// its median over half the thinned band (5 half widths), times the scatter of its largest value
 constexpr double noise_margin = 350;
-// a partial below this share of the signal's largest value may be what the side lobes let in
+// a partial below this share of the signal's largest value may be leakage through the side lobes
 constexpr double leakage = 1e-7;
 
 std::vector<double> kaiser(long n) {
@@ -67,8 +67,9 @@ std::vector<double> zoom(std::span<const double> x, const std::vector<double>& w
     return y;
 }
 
-// Poles of y[m] = sum Re c_k p_k^m above the real axis. The column space of the Hankel matrix, less
-// its first row, is that less its last times a matrix that has them as eigenvalues.
+// Poles of y[m] = sum Re c_k p_k^m above the real axis. The column space of the Hankel matrix
+// without its first row equals the space without its last row times a matrix with the poles as
+// eigenvalues.
 std::vector<Complex> poles_of(std::span<const double> y) {
     const std::size_t width = y.size() / 2, height = y.size() - width + 1;
     std::vector<double> hankel(height * width), right(width * width), values(width), work(width);
@@ -145,7 +146,8 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
     const long step = std::max(1L, static_cast<long>(rate / (10 * half_width)));
     const long rows = std::min(most_rows, (static_cast<long>(signal.size()) - taps) / step + 1);
     if (static_cast<long>(signal.size()) < taps || rows < 16) return {};
-    gsl_set_error_handler_off();  // it would end the program where an iteration does not converge
+    // the default handler would end the program if an iteration does not converge
+    gsl_set_error_handler_off();
 
     const std::vector<double> w = kaiser(taps);
     const std::vector<double> y = zoom(signal, w, centre, step, rows);
@@ -159,7 +161,7 @@ std::vector<Partial> partials_between(std::span<const double> signal, double rat
     for (std::size_t k = 0; k < poles.size(); ++k) {
         // per row, relative to the centre
         const Complex exponent = std::log(poles[k] / Complex(0, 1)) / static_cast<double>(step);
-        // of the zoom for this pole
+        // gain of the zoom for this pole
         Complex gain = 0;
         for (long j = 0; j < taps; ++j) gain += w[j] * std::exp(exponent * static_cast<double>(j));
         // a real partial shows one of its two exponentials

@@ -1,9 +1,9 @@
-// The energy balance of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n]
+// Energy balance of a run: stored[n] - stored[n-1] = supplied[n] - dissipated[n]
 // (schemes/scheme.hpp; van Walstijn et al. 2016, eqs 49-52).
 //
 // All columns are in joules, one row per tap interval; supplied and dissipated are sums over the
 // interval that ends at the row. A scheme whose balance closes may still be wrong: it can conserve
-// an energy of its own that is not the string's.
+// an energy that is not the string's.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ struct EnergyBalance {
     double accumulated;
     // (stored[last] - stored[0]) / largest_stored; for runs without losses
     double drift;
-    double smallest_dissipated;  // [J] of one row; if negative, a loss feeds energy in
+    double smallest_dissipated;  // [J] in one row; if negative, a loss feeds energy in
 };
 
 // Residuals are 0 for a single row, and +inf if an entry is not finite or no energy was ever
@@ -32,10 +32,10 @@ EnergyBalance energy_balance(std::span<const double> stored, std::span<const dou
                              std::span<const double> dissipated);
 EnergyBalance energy_balance(const Trace&);  // all NaN if the run was not probed
 
-// The energy that a run gained, for schemes whose balance need not close. A loss that feeds energy
-// in counts as no loss.
+// Energy that a run gained, for schemes whose balance need not close. A loss that feeds energy in
+// counts as no loss.
 struct EnergyGain {
-    double budget;  // energy stored at the start plus all that was supplied [J]
+    double budget;  // energy stored at the start plus all supplied energy [J]
     // largest excess of the stored energy over the balance, relative to the budget at that row
     double largest;
 };

@@ -1,4 +1,4 @@
-// Implements the definitions of error.hpp with the sums of schemes/trace.hpp.
+// Implements the definitions in error.hpp by the sums in schemes/trace.hpp.
 #include "analysis/error.hpp"
 
 #include <algorithm>

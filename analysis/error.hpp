@@ -35,7 +35,8 @@ double relative_l2(std::span<const double> candidate, std::span<const double> re
 double horizon(std::span<const double> candidate, std::span<const double> reference, double rate,
                double threshold = 0.1);
 
-// Of each tap. Throws std::invalid_argument unless the traces have the same taps at the same rate.
+// One error for each tap. Throws std::invalid_argument unless the traces have the same taps at the
+// same rate.
 std::vector<double> relative_l2(const Trace& candidate, const Trace& reference, Window = {});
 
 }  // namespace jvari

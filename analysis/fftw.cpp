@@ -1,5 +1,5 @@
-// The only file that sees FFTW. Its plans are estimated, not measured: the same signal gives the
-// same bits in each run.
+// Wraps FFTW, which no other file includes. Its plans are estimated, not measured: the same signal
+// gives the same bits in each run.
 #include "analysis/convolution.hpp"
 #include "analysis/squared_transform.hpp"
 
@@ -62,10 +62,10 @@ struct Convolution::State {
     }
 
     int block, bins;
-    Rows now;  // two blocks: the last one and this, then their convolution
+    Rows now;  // two blocks: the previous and the current one, then their convolution
     Spectrum sum;
     fftw_plan forward, back;
-    // by partition; a ring of the spectra of the last inputs
+    // by partition; a ring with the spectra of the last inputs
     std::vector<Spectrum> responses, inputs;
     std::size_t newest = 0;
     std::vector<double> last;  // the last block

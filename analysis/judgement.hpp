@@ -1,26 +1,26 @@
 // Judges a run: its flags, whatever its error, and its outcome in maps. Each judgement is defined
 // only here; run, compare, suite, trim, maps, check and the page all use it.
 //
-// The outcome of a run is the gravest that applies. Each threshold with its reason: error
-// the scheme failed: it threw, its program ended with an error, or it took too
+// The outcome of a run is the gravest that applies. Each threshold with its reason:
+//   error           the scheme failed: it threw, its program ended with an error, or it took too
 //                   long
-// refused         the scheme does not represent the scene, or not at these settings diverged
-// the run's own status: an energy or a tap beyond the bound for ten times the
+//   refused         the scheme does not represent the scene, or not at these settings
+//   diverged        the run's own status: an energy or a tap beyond the bound for ten times the
 //                   scene's energy (schemes/run.hpp)
-// not_converged   the run's own status: the contact equation was left unsolved energy_gaining
-// stored energy above the ledger (in which a negative loss counts as none:
+//   not_converged   the run's own status: the contact equation was left unsolved
+//   energy_gaining  stored energy above the ledger (in which a negative loss counts as none:
 //                   obstacles add no energy) by more than
 //                   energy_allowed of E if the scheme promises a balance to rounding, 1e-2 if
 //                   it promises none: there the true energy
 //                   is no invariant, and wavers by O((omega dt)^2) in stable runs
-// adhesive        the contact pulls by more than pull_allowed of its largest push (below)
-// inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal
+//   adhesive        the contact pulls by more than pull_allowed of its largest push (below)
+//   inaccurate      relative L2 error of the nut force over the run above 10 %: the headline signal
 //                   of compare, and the threshold of its predictability horizon
-// flagged         none of these, but a flag counts against the run, as in a comparison: the
+//   flagged         none of these, but a flag counts against the run, as in a comparison: the
 //                   ledger is open, psi is stuck, modes alias
-// unjudged        none of these, and no figure that could show a fault: no energy reported,
+//   unjudged        none of these, and no figure that could show a fault: no energy reported,
 //                   no smallest contact force, no reference
-// sound           none of these, and at least one figure that would show a fault
+//   sound           none of these, and at least one figure that would show a fault
 #pragma once
 
 #include <limits>

@@ -1,11 +1,11 @@
-// Spectra of a trace: levels in bands, spectrograms, and differences of them that ignore what an
-// ear ignores (phase, small delays).
+// Spectra of a trace: levels in bands, spectrograms, and differences between them that ignore
+// inaudible differences (phase, small delays).
 //
-// Signals have one row per 1/rate [s]. Powers are one-sided mean squares in the unit of the signal
-// squared: a sine of amplitude A has A^2/2 with any window. The window is the periodic Hann, w[n] =
-// (1 - cos(2 pi n/N))/2, where nothing else is said. To compare two signals, the candidate is cut
-// to the reference's rows. The difference is +inf if the candidate is shorter or not finite, and
-// NaN if the reference is not finite, empty or zero. There is no model of hearing.
+// Signals have one row per 1/rate [s]. Powers are one-sided mean squares in squared signal units: a
+// sine with amplitude A has A^2/2 with any window. The default window is the periodic Hann, w[n] =
+// (1 - cos(2 pi n/N))/2. To compare two signals, the candidate is cut to the reference's rows. The
+// difference is +inf if the candidate is shorter or not finite, and NaN if the reference is not
+// finite, empty or zero. There is no model of hearing.
 #pragma once
 
 #include <span>
@@ -46,13 +46,13 @@ struct Bands {
     // 10 log10 of the mean square in the band [dB re the unit squared]; -inf for none
     std::vector<double> level;
 };
-// Which bands are compared. Absent: all third octaves that lie below half of 44.1 kHz and that one
+// Bands to be compared. Default: all third octaves that lie below half of 44.1 kHz and that one
 // second of signal resolves.
 struct BandChoice {
     // least and largest centre [Hz], with 2 % of tolerance for nominal names
     double lowest = 50, highest = 16e3;
     Taper taper = Taper::hann;
-    double range = 100;  // bands within so much of the reference's strongest count [dB]
+    double range = 100;  // bands within this distance from the reference's strongest count [dB]
 };
 
 // Third octaves of base ten (IEC 61260-1, ISO 266) with ideal flanks at 10^(+-1/20) of the centre.
@@ -60,11 +60,11 @@ struct BandChoice {
 // out, and bands whose centre is at half the rate or above; the last band ends at half the rate.
 Bands third_octaves(std::span<const double> signal, double rate, const BandChoice& = {});
 
-// Root mean square over bands of (candidate level - reference level) [dB], over the bands where the
-// reference has energy. A candidate's level below the floor of that range is set to the floor. The
-// taper matters: Hann resolves weak bands beside strong ones, so that a band between two partials
-// weighs as much as one that sounds. The rectangular taper weighs the attack like the rest, but the
-// jump from the last row to the first leaks into bands far below their neighbours.
+// Root mean square over bands of (candidate level - reference level) [dB], over the bands with
+// reference energy. A candidate level below the floor of that range is set to the floor. The taper
+// matters: Hann resolves weak bands beside strong ones, so that a band between two partials weighs
+// the same for both. The rectangular taper weighs the attack like the rest, but the jump from the
+// last row to the first leaks into bands far below their neighbours.
 double third_octave_difference(std::span<const double> candidate, std::span<const double> reference,
                                double rate, const BandChoice& = {});
 
@@ -74,10 +74,10 @@ struct StftDifference {
     double level;        // mean |20 log10(|C|/|R|)| [dB]
     double convergence;  // || |C| - |R| ||_F / || |R| ||_F ("spectral convergence")
 };
-// One resolution, with frames every window/4 rows. `level` covers the cells where the reference is
-// within `range` [dB] of its strongest; the candidate's level does not go below that floor. (Arik,
-// Jun & Diamos 2019; Yamamoto, Song & Kim 2020, eqs 4-6, with a natural logarithm: a factor of
-// 8.686 dB)
+// One resolution, with frames every window/4 rows. `level` covers the cells in which the reference
+// is within `range` [dB] of its strongest; the candidate's level does not go below that floor.
+// (Arik, Jun & Diamos 2019; Yamamoto, Song & Kim 2020, eqs 4-6, with a natural logarithm: a factor
+// of 8.686 dB)
 StftDifference stft_difference(std::span<const double> candidate, std::span<const double> reference,
                                double rate, int window, double range = 100);
 // Mean over windows of 512, 1024, 2048 and 4096 rows. Windows longer than the signal are left out,

@@ -3,13 +3,13 @@
 //     y_i(t) = e^(-sigma t) (cos wt + sigma sin(wt)/w) y_i(0) + e^(-sigma t) sin(wt)/w v_i(0)
 //              + Duhamel integral of the pluck,
 //
-// w^2 = omega0^2 - sigma^2, hyperbolic where that is negative, t itself in place of sin(wt)/w where
-// it is zero (van Walstijn et al. 2016, eqs 16-21). Every 32nd row after the last forced one comes
-// straight from the state there, with the phase reduced in long double; a row between them from the
-// row before it, by the flight of one row: no error accumulates beyond 32 roundings. The loss of a
-// string on which nothing acts is the difference of its energies. Under a force, loss and supply
-// are integrated, as Duhamel's integral is: Gauss-Legendre on panels that are short against the
-// fastest mode and the pluck's own time scale.
+// w^2 = omega0^2 - sigma^2, hyperbolic if that is negative, t itself in place of sin(wt)/w if it is
+// zero (van Walstijn et al. 2016, eqs 16-21). Every 32nd row after the last forced one comes
+// straight from the state there, with the phase reduced in long double. A row between them comes
+// from the row before, by the flight over one row: no error accumulates beyond 32 roundings. The
+// loss of a string without acting forces is the difference in its energies. Under a force, loss and
+// supply are integrated like Duhamel's integral: Gauss-Legendre on panels that are short against
+// the fastest mode and the pluck's own time scale.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,7 +71,7 @@ public:
             pluck_.push_back(*s.pluck);
             excited_ = footprint_weights(modes_, s.pluck->position, s.pluck->width);
             for (double& g : excited_) g /= modes_.mass;
-            // the phase 2 pi h_e/tau_e turns at pi (1 + k coth k)/tau_e where it is fastest
+            // the phase 2 pi h_e/tau_e turns at most at the rate pi (1 + k coth k)/tau_e
             const double k = std::abs(s.pluck->skew);
             if (s.pluck->time.empty())
                 rate_ = std::max(rate_, std::numbers::pi * (2 + k) / s.pluck->duration);
@@ -158,7 +158,7 @@ private:
             to.v[i] = f.vy * y + f.vv * v;
         }
     }
-    // free flight and the pluck's force, one panel
+    // Moves the state by free flight and the pluck's force, over one panel
     void push(State& state, double from, double to) const noexcept {
         fly(state, static_cast<long double>(to) - from, state);
         if (pluck_.empty() || from >= pluck_[0].start + pluck_[0].duration || to <= pluck_[0].start)
@@ -173,7 +173,7 @@ private:
             }
         }
     }
-    // from state_, energies of one panel by quadrature
+    // integrates the energies over one panel by quadrature, from state_
     void ledger(double from, double to) noexcept {
         std::copy(state_.y.begin(), state_.y.end(), node_state_.y.begin());
         std::copy(state_.v.begin(), state_.v.end(), node_state_.v.begin());
@@ -212,7 +212,7 @@ private:
     PluckParts parts_;
     ModalStart start_;
     std::vector<double> excited_;        // g_e/m
-    double tap_rate_, rate_ = 0;         // rate: the fastest of modes and pluck [1/s]
+    double tap_rate_, rate_ = 0;         // rate: the fastest rate among modes and pluck [1/s]
     State anchor_, state_, node_state_;  // at the last forced row; at this row; the probe's
     std::vector<Flight> each_row_;
     long anchor_row_ = 0, row_ = 0;

@@ -1,13 +1,13 @@
-// A profile barrier as point barriers: the force of a density K [g(x) - y(x)]^alpha on mode i
-// (Issanchou et al. 2016, eqs 3-4) is
+// Represents a profile barrier by point barriers: the force of a density K [g(x) - y(x)]^alpha on
+// mode i (Issanchou et al. 2016, eqs 3-4) is
 //
 //     int_from^to K [eta(x)]^alpha v_i(x) dx  ~  sum_q w K [eta(x_q)]^alpha v_i(x_q),
 //
-// by a rule of equal weights, for what is touched ends inside the profile, at a place that moves.
-// Two choices: `count` points in the middles of as many equal parts, which approach the integral as
-// their number grows; or the nodes x_q = qL/N, N = modes + 1, of the grid of modal_spatial_newton
-// with its weight L/N: then both have the same equations, and the error of the integral is in
-// neither's comparison.
+// by a rule with equal weights, because the touched part ends inside the profile, at a place that
+// moves. There are two choices. `count` points in the middles of equally many equal parts approach
+// the integral when their number grows. The nodes x_q = qL/N, N = modes + 1, on the grid of
+// modal_spatial_newton have its weight L/N: then both have the same equations, and the integration
+// error does not enter their comparison.
 #pragma once
 
 #include "schemes/scheme.hpp"
@@ -27,8 +27,8 @@ inline constexpr Approximation points_for_a_profile[] = {
     {Feature::profile_barrier, facts::contact_points}};
 ProfilePoints profile_points(const Settings&);
 
-// The string with its profiles replaced. Throws Refusal where they come to no point, or to more
-// than most_points.
+// Replaces the string's profiles. Throws Refusal if they come to no point, or to more than
+// most_points.
 String with_points(String, int modes, ProfilePoints);
 
 }  // namespace jvari

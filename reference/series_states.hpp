@@ -1,6 +1,6 @@
-// What is in series with a string's points (in_series.hpp), for string_equations.hpp: its states w
-// z, w^2 = S_jj/m, are velocities as the modes' are. A point's displacement then is that of the
-// modes and one of them, whose velocity its own force moves at once.
+// States in series with a string's points (in_series.hpp), for string_equations.hpp: the states w
+// z, w^2 = S_jj/m, are velocities like the modes'. A point's displacement is then the modes'
+// displacement plus one state, whose velocity its own force moves at once.
 #pragma once
 
 #include <cmath>
@@ -47,7 +47,7 @@ struct SeriesStates {
         return count > 0 ? push_[a * points + a] / width_[a] : 0;
     }
     double push(int i, int a) const noexcept { return push_[i * points + a]; }
-    double share(int a) const noexcept { return 1 / width_[a]; }  // of state a in D_a
+    double share(int a) const noexcept { return 1 / width_[a]; }  // weight of state a in D_a
     void speed(const double* w, const double* force, double* out) const noexcept {
         for (int i = 0; i < count; ++i) {
             out[i] = moved(i, w);
@@ -107,7 +107,7 @@ private:
         return sum;
     }
     std::vector<double> width_;  // w [1/s]
-    // A [state][state], B [state][point] and Q [state][state], of w z
+    // A [state][state], B [state][point] and Q [state][state], for w z
     std::vector<double> drift_, push_, losing_;
     // (I - gamma A)^-1 [state][state], and times B behind it [point][state]
     std::vector<double> reply_, left_;

@@ -10,13 +10,13 @@
 namespace jvari {
 
 namespace {
-// A cubic between every two rows of a table. Each is monotone: its slope at a row is that of the
-// parabola through the row and its neighbours, 0 where the heights turn, and at most twice a
-// neighbouring secant's. At the table's ends the slope is the secant's.
+// Interpolates by a cubic between every two rows of a table. Each cubic is monotone: its slope at a
+// row belongs to the parabola through the row and its neighbours, is 0 if the heights turn, and at
+// most twice a neighbouring secant's. At the table's ends the slope is the secant's.
 class MonotoneCubics {
 public:
     explicit MonotoneCubics(const TableCurve& c) : x_(c.x), y_(c.height) {
-        const std::size_t last = x_.size() - 2;  // of the intervals
+        const std::size_t last = x_.size() - 2;  // last interval
         slope_.push_back(secant(0));
         for (std::size_t i = 1; i <= last; ++i) {
             const double before = secant(i - 1), after = secant(i);
@@ -40,7 +40,7 @@ public:
 private:
     double width(std::size_t i) const { return x_[i + 1] - x_[i]; }
     double secant(std::size_t i) const { return (y_[i + 1] - y_[i]) / width(i); }
-    const std::vector<double>&x_, &y_;  // of the table, which outlives this
+    const std::vector<double>&x_, &y_;  // from the table, which outlives this object
     std::vector<double> slope_;         // at each row
 };
 

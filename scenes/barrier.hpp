@@ -12,12 +12,12 @@ namespace jvari {
 // (Steffen 1990).
 double height(const Curve&, double x);
 
-// The same for many positions; the spline of a table is computed once.
+// Heights at many positions; the spline through a table is computed once.
 std::vector<double> heights(const Curve&, const std::vector<double>& x);
 
-// The nodes first, first + 1, ... of a grid of spacing L/intervals that lie on a profile, without
-// the string's ends; x [m] is their place. A node counts as on the end of the profile if both agree
-// to within near_node of the string's length, because both are rounded.
+// Grid nodes first, first + 1, ... at spacing L/intervals that lie on a profile, without the
+// string's ends; x [m] is their place. A node counts on the end of the profile if both agree to
+// within near_node of the string's length, because both are rounded.
 constexpr double near_node = 1e-9;
 struct ProfileNodes {
     int first;
@@ -25,13 +25,13 @@ struct ProfileNodes {
 };
 ProfileNodes nodes_on(const ProfileBarrier&, double length, int intervals);
 
-// Replaces a profile by point contacts at each x [m], each with the stiffness of the profile over
-// `spacing` [m]; or in the middles of so many equal parts.
+// Replaces a profile by point contacts at each x [m], each with the profile's stiffness over
+// `spacing` [m]; or in the middles of this many equal parts.
 std::vector<LumpedBarrier> lumped(const ProfileBarrier&, const std::vector<double>& x,
                                   double spacing);
 std::vector<LumpedBarrier> lumped(const ProfileBarrier&, int parts);
 
-// The barriers of the string, with the points that stand for each profile in its place.
+// Returns the string's barriers, with points in place of each profile.
 using PointsOf = std::function<std::vector<LumpedBarrier>(const ProfileBarrier&)>;
 std::vector<Barrier> without_profiles(const String&, const PointsOf&);
 
@@ -39,7 +39,7 @@ std::vector<Barrier> without_profiles(const String&, const PointsOf&);
 // 2016, eq 55)
 double contact_modulus(double young1, double poisson1, double young2, double poisson2);
 
-// k = pi/4 E* w [N/m] of two parallel cylinders in contact over the width w [m]   (eq 54)
+// k = pi/4 E* w [N/m] for two parallel cylinders in contact over the width w [m]   (eq 54)
 LumpedStiffness contact_stiffness(double contact_modulus, double width);
 
 }  // namespace jvari

@@ -1,4 +1,4 @@
-// A TOML document as plain values, each with its place in the file. No other file includes the TOML
+// A TOML document in plain values, each with its place in the file. No other file includes the TOML
 // library.
 #pragma once
 
@@ -23,7 +23,7 @@ struct Value {
 
     // nullptr if this is no table or has no such key
     const Value* find(std::string_view key) const;
-    std::optional<std::int64_t> whole() const;  // of 1000 and of 1e3
+    std::optional<std::int64_t> whole() const;  // accepts 1000 and 1e3
     std::string found() const;                  // for messages: 3, "text", a table
 };
 struct Member {
@@ -47,7 +47,7 @@ struct Document {
 Document parse_document(std::string_view text, const std::string& file,
                         const std::vector<std::string>& overrides);
 
-// The document as a scene; validate() checks what depends on several values. Throws
+// Turns the document into a scene; validate() checks rules that involve several values. Throws
 // SceneFileError. (scene_reader.cpp)
 struct Scene;
 Scene scene_of(const Document&);

@@ -162,7 +162,7 @@ double stored(const Modes& modes, const std::vector<double>& y, const ProfileBar
     return energy;
 }
 
-// |F| at most and the integral of |F'|, over the largest force
+// max |F| plus the integral of |F'|, over the largest force
 double rise_and_fall(const Pluck& e) {
     if (e.time.empty()) return 2;
     double sum = 1 + std::abs(e.share.front()) + std::abs(e.share.back());

@@ -38,7 +38,7 @@ inline std::filesystem::path file_of_this_code() {
         dladdr(reinterpret_cast<const void*>(&file_of_this_code), &in) ? in.dli_fname : nullptr;
 #ifdef AT_EXECFN
     if (!file || *file != '/')
-        // as it was called  NOLINTNEXTLINE(performance-no-int-to-ptr)
+        // path of the program in its call  NOLINTNEXTLINE(performance-no-int-to-ptr)
         file = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
 #endif
     return file ? file : "";

@@ -23,13 +23,13 @@ constexpr int most_modes = 1 << 20;  // no string has more
 // > most_modes.
 Modes modes_of(const String&, int count);
 
-// The number of measured modes; nothing if the string has no table of them.
+// Number of measured modes; nothing if the string has no table of them.
 std::optional<int> modes_measured(const String&);
 
-// The number of modes whose undamped frequency is below `hertz`, at most most_modes + 1. It does
-// not depend on the losses.
+// Number of modes whose undamped frequency is below `hertz`, at most most_modes + 1. Independent of
+// the losses.
 int modes_below(const String&, double hertz);
-double lowest_frequency(const Scene&);  // first mode of the lowest string [Hz]
+double lowest_frequency(const Scene&);  // first mode on the lowest string [Hz]
 
 // omega0^2 - sigma^2 [rad^2/s^2], negative if the mode is overdamped
 double omega_squared_damped(double omega0, double sigma);
@@ -41,12 +41,13 @@ std::vector<double> footprint_weights(const Modes&, double position, double widt
 // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 std::vector<double> nut_force_weights(const Modes&, const String&);
 
-// The coupled mass of each mode and the end at x = 0 [kg], the integral of mu v_i (1 - x/L): it
-// multiplies the end's acceleration in the equation of the mode, and the mode's in that of the end.
+// Coupled mass between each mode and the end at x = 0 [kg], the integral of mu v_i (1 - x/L): it
+// multiplies the end's acceleration in the mode's equation, and the mode's acceleration in the
+// end's.
 std::vector<double> end_inertia(const Modes&, const String&);
 
-// The quantity of these weights under a steady force of 1 N through the same weights [m/N]: sum_i
-// w_i^2/(m omega0_i^2).
+// Value of the quantity with these weights under a steady force of 1 N through the same weights
+// [m/N]: sum_i w_i^2/(m omega0_i^2).
 double static_compliance(const Modes&, const std::vector<double>& weights);
 
 }  // namespace jvari

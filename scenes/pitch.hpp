@@ -1,4 +1,4 @@
-// The pitch of a string, and the tension that gives it.
+// Converts between a string's pitch and its tension.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@ namespace jvari {
 // B9. Nothing for any other text.
 std::optional<double> frequency_of_note(std::string_view note);  // [Hz]
 
-// The tension at which the first mode, without damping and with bending stiffness, has this
-// frequency: T = mu (2 L f)^2 - EI (pi/L)^2. It is not positive if the stiffness alone gives that
+// Tension at which the first mode, without damping and with bending stiffness, has this frequency:
+// T = mu (2 L f)^2 - EI (pi/L)^2. The result is not positive if the stiffness alone gives that
 // frequency or a higher one.
 double tension_for(const String&, double hertz);  // [N]
-double slack_pitch(const String&);                // of a string without tension [Hz]
+double slack_pitch(const String&);                // for a string without tension [Hz]
 
-// Of the first mode without damping [Hz]: by length, tension, linear density and bending stiffness;
-// and as the string has it, of measured modes their own.
+// First-mode frequency without damping [Hz]: the first function uses length, tension, linear
+// density and bending stiffness; the second uses measured modes if the string has them.
 double tuned_pitch(const String&);
 double pitch_of(const String&);
-// B = pi^2 EI/(T L^2), where f_n = n f_0 sqrt(1 + B n^2); infinite without tension
+// B = pi^2 EI/(T L^2) in f_n = n f_0 sqrt(1 + B n^2); infinite without tension
 double inharmonicity(const String&);
 // the nearest note and the deviation: "E2", "C3 -14 cents"; "" outside C-1 to B9
 std::string note_of(double hertz);

@@ -1,4 +1,5 @@
-// A scene as TOML: the writing pass over the schema. Values that equal their default are left out.
+// Writes a scene in TOML: the writing pass over the schema. Values equal to their default are left
+// out.
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -12,7 +13,7 @@ namespace jvari {
 namespace {
 struct Writer : Pass<Writer> {
     std::string& out;
-    // path: "string.barrier", for a header names the last entry of every array
+    // path: "string.barrier", because a header names the last entry in every array
     Writer(std::string& text, std::string key) : Pass{std::move(key)}, out(text) {}
 
     void line(const char* key, const std::string& value) {
@@ -80,7 +81,7 @@ struct Writer : Pass<Writer> {
     }
 };
 
-// The contents of the tables, for the hash.
+// Contents of the tables, for the hash.
 struct Tables : Pass<Tables> {
     std::string& out;
     explicit Tables(std::string& text) : out(text) {}
@@ -112,7 +113,7 @@ std::string write_scene(const Scene& scene) {
 }
 
 std::string scene_hash(const Scene& scene) {
-    const Scene heard = unfiltered(scene);  // filters change nothing of a run, and name files
+    const Scene heard = unfiltered(scene);  // filters do not affect a run, and name files
     std::string text = write_scene(heard);
     // the word by which committed results know a shape
     constexpr std::string_view header = "[string.start]";

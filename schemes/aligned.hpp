@@ -1,4 +1,4 @@
-// Doubles on a 64-byte boundary: what vector loads want.
+// Doubles on a 64-byte boundary, for fast vector loads.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
-// The facts that schemes and references report of a run, each with its unit and its meaning: `jvari
+// Facts that schemes and references report about a run, each with its unit and its meaning: `jvari
 // list facts` prints the table.
 //
 // A scheme reports {facts::grid_intervals, value}; the program finds a fact again by the same
 // constant. With several strings each reports its own, "string.<k>." before the name. A plugin may
-// report facts of its own beside these.
+// report facts outside this table.
 #pragma once
 
 #include <span>

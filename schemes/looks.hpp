@@ -1,8 +1,8 @@
-// Chooses the rows of a run at which the energy is evaluated: one in `rows_between_looks`, and the
-// last two. The energy of a row costs about the same time that many steps cost. While a pluck
-// supplies energy, some `samples` rows measure the supplied energy, and each stands for the rows up
-// to the next sample. The rows follow from the scene alone, so that the verdict on a run depends
-// neither on the energy probe of the caller nor on the block size.
+// Chooses the rows at which a run's energy is evaluated: one in `rows_between_looks`, and the last
+// two. Evaluating the energy costs about the same time that many steps cost. While a pluck supplies
+// energy, some `samples` rows measure the supplied energy, and each stands for the rows up to the
+// next sample. The rows follow from the scene alone, so that the verdict on a run depends neither
+// on the caller's energy probe nor on the block size.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ public:
                : (row - p->from) % p->each() == 1       ? p->each()
                                                         : 0;
     }
-    // Rows that report all the supplied energy, and the energy of each row from `since` on.
+    // Rows that report all the supplied energy, and each row's energy from `since` on.
     Look back_at(long row, long since) const {
         if (row >= since) return {true, rows_};
         if (row == 0) return {true, 1};

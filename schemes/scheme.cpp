@@ -103,7 +103,7 @@ std::unique_ptr<Scheme> make_scheme(const Descriptor& descriptor, const Scene& s
 double margin_of(const Descriptor& descriptor, const Scene& scene, const Settings& settings) {
     double least = std::numeric_limits<double>::quiet_NaN();
     for (int k = 0; descriptor.limit.margin && k < static_cast<int>(scene.strings.size()); ++k)
-        // of a number and NaN the number
+        // fmin of a number and NaN returns the number
         least = std::fmin(least, descriptor.limit.margin(alone(scene, k), settings));
     return least;
 }

@@ -1,4 +1,4 @@
-// Defines the interface between the schemes and the rest of the program.
+// Interface between the schemes and the rest of the program.
 //
 // A scheme is made once for a scene and a setting; only then may it allocate or throw. Afterwards
 // it steps block by block into a window of the caller's trace. Checks and values for `make`:
@@ -22,8 +22,8 @@ class Impacts;
 // Window of the caller's trace: column-major, one row per tap interval.
 struct Block {
     int rows = 0, taps = 0;
-    long stride = 0;        // number of rows of the whole trace
-    double* tap = nullptr;  // one column per tap of the scene
+    long stride = 0;        // rows in the whole trace
+    double* tap = nullptr;  // one column per tap
     // three columns: stored, supplied, dissipated [J]; nullptr = not probed, in this block
     double* energy = nullptr;
     // one for each string, to be filled with its contacts (impacts.hpp); nullptr: not requested
@@ -52,10 +52,10 @@ const char* name_of(Outcome);
 
 struct Status {
     Outcome outcome = Outcome::ok;
-    long step = 0;  // step of the failure
+    long step = 0;  // the failing step
 };
 
-// Number that a scheme reports about its run: an approximation, the work done, or a property of the
+// Number that a scheme reports about its run: an approximation, the work done, or a property of its
 // contacts.
 struct Fact {
     Fact(const FactName& known, double v) : name(known.name), value(v), unit(known.unit) {}
@@ -74,14 +74,14 @@ inline double fact_of(const std::vector<Fact>& all, const FactName& known) {
     return fact_of(all, known.name);
 }
 
-// Mode of the free string in the scheme's own recursion, which has the root z = exp((i omega -
+// Mode in the scheme's own recursion for the free string, which has the root z = exp((i omega -
 // sigma) dt).
 struct FreeMode {
     double omega = 0;  // damped angular frequency [rad/s]; 0 if overdamped
     double sigma = 0;  // decay rate [1/s]
 };
 
-// Modal displacements and velocities of one string at one instant.
+// Modal displacements and velocities on one string at one instant.
 struct ModalState {
     std::vector<double> displacement, velocity;  // [m], [m/s]
 };
@@ -103,13 +103,13 @@ public:
     // energy are sums over the same interval. Allocates nothing.
     virtual Status advance(const Block& out) noexcept = 0;
 
-    // number of doubles of state, no more than the scene needs
+    // size of the state in doubles, no more than the scene needs
     virtual int dofs() const = 0;
     // Facts of the run so far; call this between blocks only.
     virtual std::vector<Fact> facts() const { return {}; }
 
-    // Modes 1, 2, ... of the string (of the first string, if there are several), without its
-    // barriers and its thread. Empty if the scheme has no relation in closed form.
+    // Modes 1, 2, ... on the string (on the first, if there are several), without its barriers and
+    // its thread. Empty if the scheme has no relation in closed form.
     virtual std::vector<FreeMode> free_modes() const { return {}; }
 
     // State at the instant of the next row, from which another run would continue like this one. A
@@ -134,7 +134,7 @@ struct Refusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Option of a scheme beside its settings. The value is a word if there are choices; otherwise the
+// Option of a scheme beside its settings. If there are choices the value is a word; otherwise the
 // meaning describes it.
 struct Option {
     const char* name;
@@ -146,8 +146,8 @@ struct Option {
 };
 
 // Feature that a scheme takes but changes, at any rate and with any number of modes. If a scene
-// needs the feature, the scheme reports the fact, which says how. If there are several facts for
-// one feature, it reports at least one.
+// needs the feature, the scheme reports the fact, which says how. Among several facts for one
+// feature the scheme reports at least one.
 struct Approximation {
     Feature feature;
     FactName fact;
@@ -188,10 +188,10 @@ struct Descriptor {
     // one sentence for the capability table about properties that the features cannot express
     const char* note = "";
     Limit limit = {};
-    // The able scheme of the highest rank stands in if there is no reference.
+    // The highest-ranked able scheme stands in if there is no reference.
     int stand_in_rank = 1;
     Confirmation (*confirmation)(const Scene&) = nullptr;  // for a reference
-    // `make` gets all strings of a scene even if nothing couples them
+    // `make` gets all strings even if nothing couples them
     bool all_strings = false;
     // for a scheme from outside: a pointer by which its `make` recognises it
     const void* own = nullptr;

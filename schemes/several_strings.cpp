@@ -128,7 +128,7 @@ private:
 
 std::string of_string(int k) { return "string." + std::to_string(k); }
 
-// Key in the scene of one string: "string.0.tension", "string.damping.file"
+// Key in a single-string scene: "string.0.tension", "string.damping.file"
 std::string renamed(const std::string& key, int k) {
     for (const std::string own : {"string.0.", "string."})
         if (key.starts_with(own)) return of_string(k) + "." + key.substr(own.size());

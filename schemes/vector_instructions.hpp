@@ -1,6 +1,6 @@
-// Names the vector instructions that the kernels use on this machine: the last digits of a trace
-// depend on them. They are the best set that the processor has and Highway compiled, chosen by the
-// dispatch that the kernels use.
+// Names the kernels' vector instructions on this machine: the last digits of a trace depend on
+// them. They are the best set that the processor has and Highway compiled, chosen by the kernels'
+// own dispatch.
 #pragma once
 
 #include <string>

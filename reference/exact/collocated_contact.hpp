@@ -1,13 +1,14 @@
-// Contact of any law over one step of a window, by collocation at Gauss-Legendre nodes (Hairer,
+// Contact with any law over one step in a window, by collocation at Gauss-Legendre nodes (Hairer,
 // Norsett & Wanner, section II.7): the forces are polynomials, and the points' motion under them is
 // exact,
 //
 //     p_a(c_i d) = r_a(c_i d) + sum_b sum_l h_ab^(l) d^(l+1) sum_j w^l_ij F_bj,
 //     w^l_ij = int_0^c_i (c_i - x)^l/l! L_j(x) dx,
 //
-// so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface as
-// in string_equations.hpp; where it is clipped, 0 in place of a negative factor. Newton's iteration
-// solves for the node forces; the last Legendre coefficients say whether the step was short enough.
+// so that a step touches no mode. F = k eta|eta|^(alpha-1) (1 - beta v), odd beyond the surface
+// like in string_equations.hpp; a clipped force has 0 in place of a negative factor. Newton's
+// iteration solves for the node forces; the last Legendre coefficients say whether the step was
+// short enough.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +25,10 @@ class MacroWindow;
 
 struct BarrierLaw {  // odd beyond the surface
     ContactLaw law;
-    double beta = 0;  // of a contact loss [s/m]
+    double beta = 0;  // for a contact loss [s/m]
     bool clipped = false;
     bool spring() const noexcept { return law.alpha == 1 && beta == 0; }
-    // -dF/dy where the elastic force is known
+    // -dF/dy if the elastic force is known
     double stiffness(double eta, double elastic) const noexcept {
         if (eta == 0) return law.alpha == 1 ? law.k : 0;
         return law.alpha * std::abs(elastic / eta);
@@ -35,7 +36,7 @@ struct BarrierLaw {  // odd beyond the surface
     double elastic(double eta) const noexcept {
         return std::copysign(law.force(std::abs(eta)), eta);
     }
-    // F over the elastic force, where the string leaves at v
+    // F over the elastic force, for a string that leaves at v
     double give(double v) const noexcept {
         return clipped ? std::max(0.0, 1 - beta * v) : 1 - beta * v;
     }
@@ -46,14 +47,14 @@ class CollocatedContact {
 public:
     CollocatedContact(const MacroWindow&, std::span<const BarrierLaw> per_contact);
 
-    // Over d from r[contact][stride]; the touching points are given. Its error relative to the
-    // speeds there, or infinity.
-    // where it starts, seen from the last step: its forces are a first guess
+    // Makes a step of length d from r[contact][stride]; the touching points are given. Returns its
+    // error relative to the speeds there, or infinity. From: the start of this step relative to the
+    // last one, whose forces are a first guess
     enum class From { elsewhere, last_end, same_start };
     double step(const double* r, std::span<const int> touching, double d, From) noexcept;
 
-    // Of the last step: every contact's derivatives, forces and their moments, and the energy that
-    // contact losses took [J].
+    // Results of the last step: every contact's derivatives, forces and their moments, and the
+    // energy that contact losses took [J].
     void path(const double* r, double* path) const noexcept;
     // `at` from the step's start [N]
     double force(int which, double at) const noexcept;
@@ -62,7 +63,8 @@ public:
     double dissipated(int which) const noexcept;
 
 private:
-    void derivatives(int which, double* f) const noexcept;  // of a force, at the step's start
+    // derivatives of a force, at the step's start
+    void derivatives(int which, double* f) const noexcept;
     static constexpr int nodes = 8, orders = 34;
     const MacroWindow* window_;
     std::vector<BarrierLaw> law_;
@@ -76,7 +78,8 @@ private:
 
     void guess(std::span<const int> touching, double d, From) noexcept;
     void couple(double d) noexcept;
-    // in the last step, or takes hold again: the force that it has or would have [N]; 0 where not
+    // Tests whether the contact lets go in the last step, or takes hold again: returns its force,
+    // or the force that it would have [N]; 0 if neither happens
     double lets_go_within(int which) const noexcept;
 
     std::vector<int> touching_;

@@ -2,9 +2,9 @@
 // start and end, unless alpha is 1. The error of a step there does not fall like the error of a
 // smooth step:
 // - over a step that begins or ends there the force keeps its shape whatever the length d, and the
-// error is its push, d^(1 + alpha);
+//   error is its push, d^(1 + alpha);
 // - over a step at a distance D the measured error is d^(1 + alpha) (d/D)^4, so lengths grow away
-// from there.
+//   from there.
 //
 // The allowed length is learnt from the errors and kept from one contact to the next: it hardly
 // depends on the speed. Leaves out: the effect of a point's onset on other points' forces, of order

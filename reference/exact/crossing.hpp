@@ -1,13 +1,13 @@
-// The first instant at which a gap turns negative: a slow motion, given by its derivatives, plus
-// fast exponential pairs,
+// Finds the first instant at which a gap turns negative: a slow motion, given by its derivatives,
+// plus fast exponential pairs,
 //
 //     g(u) = sign (sum p_n u^n/n! + Re sum b_k e^(lambda_k u)).
 //
-// Steps are taken that cannot pass a crossing: over a step d, g stays above g + g'd + g''d^2/2 - A
-// d^3/6 with A a bound of |g'''|, or the slow part alone stays above the sum of the amplitudes of
-// the pairs. So nothing is sampled and nothing is missed, except dips that stay above -bound. Near
-// a crossing the derivative has one sign and Householder's iteration finishes.
-// Amplitudes may not grow: Re lambda_k <= 0.
+// No step can pass a crossing. Over a step d, g stays above g + g'd + g''d^2/2 - A d^3/6 with A a
+// bound on |g'''|, or the slow part alone stays above the sum of the pairs' amplitudes. So nothing
+// is sampled and nothing is missed, except dips that stay above -bound. Near a crossing the
+// derivative has one sign and Householder's iteration finishes. Amplitudes may not grow: Re
+// lambda_k <= 0.
 #pragma once
 
 #include <complex>
@@ -16,20 +16,20 @@
 
 namespace jvari {
 
-constexpr int most_pairs = 8;  // of a gap
+constexpr int most_pairs = 8;  // in a gap
 
 struct Gap {
     double sign;
     const double* p;  // [size], zeros behind
     int size;
-    // p_n is of the order of growth^n at most: late terms may be left out early
+    // p_n is at most of order growth^n: late terms may be left out early
     double growth;
     const std::complex<double>*b, *lambda;  // [pairs]
     int pairs;
 
     struct Values {
-        double g, slope, curvature;               // all of it
-        double third;                             // of the pairs
+        double g, slope, curvature;               // slow part and pairs together
+        double third;                             // for the pairs
         double slow, slow_slope, slow_curvature;  // without the pairs
         double amplitude;                         // sum |b_k| e^(Re lambda_k u)
     };
@@ -37,16 +37,17 @@ struct Gap {
     Values at_start() const noexcept;
     Values at(double u) const noexcept { return at(u, size); }
     int terms_until(double u) const noexcept;       // in whole vectors
-    double depth_bound(double end) const noexcept;  // of g in [0, end]
-    // The greatest g inside [0, end], or -inf where g has no maximum there. Pairs smaller than 1e-9
-    // of `known` are left out.
+    double depth_bound(double end) const noexcept;  // for g in [0, end]
+    // Greatest g inside [0, end], or -inf if g has no maximum there. Pairs smaller than 1e-9 times
+    // `known` are left out.
     double greatest(double end, double known) const noexcept;
-    // A step from u in which g has one turning point at most. The fastest of the pairs that are
-    // larger than `least` decides.
+    // Step from u in which g has one turning point at most. The fastest pair larger than `least`
+    // decides.
     double one_turn(double u, double least) const noexcept;
 };
 
-// In [0, end], or 2 if there is none. g(0) may be zero already: then what follows is asked for.
+// First crossing in [0, end], or 2 if there is none. g(0) may be zero already: then the next
+// crossing is returned.
 double first_crossing(const Gap&, double end, double bound) noexcept;
 
 }  // namespace jvari

@@ -6,9 +6,9 @@
 // From one event to the next the points follow
 // - their free motion, if nothing touches;
 // - touching_set.hpp, if linear contacts touch: a slow polynomial and one fast part per point, or a
-// polynomial if they are soft;
+//   polynomial if they are soft;
 // - collocated_contact.hpp, step by step (contact_steps.hpp), if the law is no spring or there are
-// many contacts.
+//   many contacts.
 //
 // crossing.hpp finds the next event and misses none. A profile acts like the points in
 // profile_points.hpp. With compliance=matched the yield and radiation of the omitted modes stand in

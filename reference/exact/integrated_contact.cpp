@@ -72,7 +72,8 @@ public:
         running_ = false;
         sums_ = {};
         events_ = 0;
-        if (choice_.exact_flight) return;  // it finds what is touched from the start
+        // the exact flight finds the touched barriers from the start
+        if (choice_.exact_flight) return;
         start(false, 0);
         for (int a = 0; a < equations_.contacts; ++a)
             equations_.touched[a] = equations_.penetration(a, integrator_.state()) > 0;
@@ -109,7 +110,7 @@ private:
         sums_ = {};
         return parts_.each(row_ / tap_rate_, interval_, 1 / flight_.window.osc.rate,
                            [&](double from, double to, bool plucked) {
-                               // lines of a file meet at an angle
+                               // lines from a file meet at an angle
                                if (plucked && !pluck_[0].time.empty()) running_ = false;
                                return stretch(from, to, plucked, out);
                            });
@@ -187,7 +188,7 @@ private:
         running_ = false;
         ++events_;
     }
-    // of the fastest motion [1/s]; decays: of a contact in series as well
+    // rate of the fastest motion [1/s]; decays: including a contact in series
     double pace(bool decays) noexcept {
         return std::max(flight_.window.springs.growth(untouched_.data()) * flight_.window.osc.rate,
                         equations_.pace(integrator_.state(), decays));
@@ -234,8 +235,8 @@ private:
     int leaving_ = -1;  // the barrier just left
     int idle_ = 0;
     Flight::Sums sums_;
-    bool running_ = false;                     // the integrator's state is the present one
-    double seen_[StringEquations::sums] = {};  // of its sums, by sums_
+    bool running_ = false;                     // true if the integrator's state is the present one
+    double seen_[StringEquations::sums] = {};  // the integrator's sums already taken by sums_
     double events_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Four vectors of modes at a time hide the latency of the recurrences; the derivatives of a block
-// are kept for all outputs.
+// Reads four vectors of modes at a time to hide the latency of the recurrences; a block's
+// derivatives are kept for all outputs.
 #include "reference/exact/modal_sweep.hpp"
 
 #include <type_traits>
@@ -51,8 +51,8 @@ constexpr double inverse_factorials[32] = {1.0 / 1,
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// K vectors of modes from i on, which are scaled by `base`: the last output is their sum. One or
-// two outputs are summed on the way; for more the derivatives are kept.
+// Reads K vectors of modes from i on, scaled by `base`: the last output is their sum. One or two
+// outputs are summed on the way; for more the derivatives are kept.
 template <int fixed_outputs, int K>
 HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
                            double* HWY_RESTRICT kept) {
@@ -123,7 +123,7 @@ void read_blocks(const ModalSweep& m, double* HWY_RESTRICT sum, double* HWY_REST
     for (; i + 4 * N <= m.modes; i += 4 * N) read_block<outputs, 4>(m, i, sum, kept);
     for (; i < m.modes; i += N) read_block<outputs, 1>(m, i, sum, kept);
 }
-// The sums over the lanes of N vectors, one in each lane.
+// Sums over the lanes of N vectors, one in each lane.
 HWY_INLINE V fold(const double* rows) {
     const D d;
 #if HWY_TARGET == HWY_SCALAR
@@ -222,8 +222,8 @@ void move(const ModalSweep& m) {
     }
 }
 
-// Of a convolution, step -1, row j begins at out[j]: what lies before are zeros, and whole vectors
-// of them are left out.
+// In a convolution, step -1, row j begins at out[j]: only zeros lie before it, and whole vectors of
+// zeros are left out.
 template <int vectors, bool convolution, bool fresh>
 void combine_in(double* HWY_RESTRICT out, const double* HWY_RESTRICT x, int count, const double* A,
                 long step) {
@@ -357,7 +357,7 @@ void subtract(double* to, double f, const double* column, int from, int size) {
         hn::StoreU(hn::NegMulAdd(factor, hn::LoadU(d, column + i), hn::LoadU(d, to + i)), d,
                    to + i);
 }
-// Eight columns at a time: first among themselves, then from each column that follows, which is
+// Factors eight columns at a time: first among themselves, then each following column, which is
 // read and written once for all eight.
 void factor(double* matrix, double* column, int size) {
     constexpr int block = 8;
@@ -416,7 +416,7 @@ void substitute(const double* matrix, double* right, double* x, int size) {
     }
     for (int c = size - 1; c >= 0; --c) {
         const double* pivot = matrix + static_cast<long>(c) * size;
-        // right[c] and what follows it in its vector are of no more use
+        // right[c] and the rest of its vector are no longer needed
         x[c] = right[c] / pivot[c];
         subtract(right, x[c], pivot, 0, c);
     }

@@ -1,5 +1,5 @@
 // Taylor series of the pluck's force (van Walstijn et al. 2016, eqs 14-15), an entire function of
-// time; of a file that of the line which the window begins on.
+// time; for a file the series of the line on which the window begins.
 #pragma once
 
 #include "scenes/scene.hpp"

@@ -28,7 +28,7 @@ SeriesWindow::SeriesWindow(const InSeries& s, double seconds, int derivatives, i
     free_.assign(static_cast<std::size_t>(points_) * derivatives * states_, 0.0);
     push_.assign(static_cast<std::size_t>(states_) * points_ * moments, 0.0);
     std::vector<double> column(states_), next(states_);
-    for (int j = 0; j < states_; ++j) {  // A^n of a unit state
+    for (int j = 0; j < states_; ++j) {  // A^n for a unit state
         std::fill(column.begin(), column.end(), 0.0);
         column[j] = 1;
         for (int n = 0; n < derivatives; ++n, column.swap(next)) {

@@ -11,9 +11,9 @@ namespace jvari {
 namespace {
 using Complex = std::complex<double>;
 
-constexpr double rounding = 1e-15, of_tolerance = 1e-3;  // of an integral, relative
+constexpr double rounding = 1e-15, of_tolerance = 1e-3;  // for an integral, relative
 constexpr double longest = 2.5;                          // growth over a piece, in powers of e
-// |lambda| x piece from which on a Legendre series against e^(lambda t) keeps its digits
+// |lambda| x piece above which a Legendre series against e^(lambda t) keeps its digits
 constexpr double fast = 10;
 
 // int_0^z e^x dx/z
@@ -96,7 +96,7 @@ WindowEnergies::Pairs WindowEnergies::pairs_of(const TouchingSet& set) {
     std::vector<double> y(M), alone(M), u(M);
     const int states = static_cast<int>(speed_.size());
     w.open(rest.data(), rest.data(), false, 0,
-           // the thread alone acts then: what it does is taken off
+           // only the thread acts then: its effect is subtracted
            std::vector<double>(states).data());
     w.state_at(1, p.moments.data(), rest.data(), rest.data(), y.data(), alone.data());
     const std::vector<double> z_alone(w.series_state(), w.series_state() + states);
@@ -168,7 +168,7 @@ int WindowEnergies::plan(const Stretch& s) noexcept {
     const auto cut = [&](double growth) {
         return std::max(1, static_cast<int>(std::ceil(whole * growth / longest)));
     };
-    // the slowest stay with the string, until all that are split are fast against a piece
+    // the slowest pairs stay with the string, until all split pairs are fast against a piece
     double growth = smooth;
     for (; !split_.empty() && !(rate(split_.back()) * whole / cut(growth) > fast);
          split_.pop_back())
@@ -188,7 +188,7 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
     const int M = w.osc.padded;
     const std::size_t row = moments_.size();
     const double weight = length_ * rule_->weight[q];
-    for (const int k : split_) {  // what is left of them is slow
+    for (const int k : split_) {  // the slow remainder
         const Complex z = s.touch->set.beta(k) * std::exp(s.touch->pairs.rates[k] * (at - s.from));
         const double *re = s.touch->pairs.moments.data() + 2 * k * row, *im = re + row;
         for (std::size_t n = 0; n < row; ++n) moments_[n] -= z.real() * re[n] - z.imag() * im[n];
@@ -221,7 +221,7 @@ void WindowEnergies::add_node(const Stretch& s, int q, double at, Sums& sums) no
             for (const int k : split_)
                 lost_to_[k * most_nodes + q] += 2.0 * lost * s.touch->pairs.series[k * states + j];
         }
-    // the points move by C_ae F_e as well
+    // the points move by C_ae F_e too
     for (int a = 0; states > 0 && a < w.springs.points; ++a) {
         const double per_force = -w.series()->plucked(a) * pluck.change;
         sums.supplied += weight * per_force * force_[a];
@@ -259,7 +259,7 @@ void WindowEnergies::add_pairs(const Stretch& s, double start, Sums& sums) noexc
         sums.dissipated += 0.5 * length_ * (beta * lost).real();
         sums.supplied += 0.5 * length_ * (beta * gained).real();
         for (const int l : split_) {
-            const auto integral = [&](Complex a, Complex b) {  // of e^((a + b)(t - from))
+            const auto integral = [&](Complex a, Complex b) {  // integral of e^((a + b)(t - from))
                 return std::exp((a + b) * (start - s.from)) * mean_exponential((a + b) * length_) *
                        length_;
             };

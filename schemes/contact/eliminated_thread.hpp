@@ -1,13 +1,13 @@
-// Threads are linear in the step and leave the contact equation: van Walstijn, Bridges & Mehes
-// 2016, eqs 44-48. With r the motion of a thread's point over the step, span the time between the
-// outer levels and k_c, r_c its stiffness and damping,
+// Eliminates threads, which are linear in the step, from the contact equation: van Walstijn,
+// Bridges & Mehes 2016, eqs 44-48. With r the motion of a thread's point over the step, span the
+// time between the outer levels and k_c, r_c its stiffness and damping,
 //
 //     F_c = k (h_c - y_c) - phi r,   phi = k_c/2 + r_c/span                                  (45)
 //     r = free + theta_cc F_c + theta_bc F_b                                                 (44)
 //     F_c = v - beta F_b,   v = (1 + phi theta_cc)^-1 [k (h_c - y_c) - phi free]   (46), (47)
 //
 // and a contact sees theta_bb - theta_bc beta for its own compliance (48). A string has one thread
-// at most; on a body that moves those of all strings are eliminated together, and phi, beta and (1
+// at most; on a body that moves all strings' threads are eliminated together, and phi, beta and (1
 // + phi theta_cc)^-1 are matrices.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace jvari {
 
 class EliminatedThreads {
 public:
-    struct One {  // of one thread, beside one contact at most
+    struct One {  // one thread, beside one contact at most
         double k = 0, rest = 0, phi = 0, inverse = 1, coupling = 0, answer = 0;
         // v
         double alone(double older, double free) const {
@@ -38,12 +38,12 @@ public:
     int count() const { return static_cast<int>(laws_.size()); }
     const std::vector<Thread>& laws() const { return laws_; }
     const One& one() const { return one_; }
-    // theta_bc of contact a [m/N]
+    // theta_bc for contact a [m/N]
     double coupling(int a, int t) const { return coupling_[a * count() + t]; }
     double answer(int t, int a) const { return answer_[t * contacts_ + a]; }  // beta (47)
-    // theta of (48), the threads yielding: contacts x contacts
+    // theta in (48), with yielding threads: contacts x contacts
     std::vector<double> between_contacts(std::span<const double> theta) const;
-    // of the points' readings: v of each thread
+    // v for each thread, from the points' readings
     void alone(const double* older, const double* free, double* v) const noexcept {
         const int m = count();
         for (int t = 0; t < m; ++t) {
@@ -55,7 +55,7 @@ public:
             }
         }
     }
-    // r of a thread that started from a reading and pulled by F [m]   (45)
+    // r for a thread that started from a reading and pulled by F [m]   (45)
     double moved(int t, double older, double F) const {
         return phi_[t] > 0 ? (laws_[t].stiffness * (laws_[t].height - older) - F) / phi_[t] : 0;
     }
@@ -74,18 +74,18 @@ private:
     double span_ = 1;
 };
 
-// What the contacts of a run did.
+// Statistics of the contacts in a run.
 struct ContactTally {
     ForceRange force;
-    double deepest = 0, residual = 0;  // [m]; of an equation, relative
+    double deepest = 0, residual = 0;  // [m]; relative residual of an equation
     long solves = 0, iterations = 0;
     int most_iterations = 0;
 
-    void note(double force_, double deepest_) noexcept {  // of a contact
+    void note(double force_, double deepest_) noexcept {  // for a contact
         force.note(force_);
         deepest = std::max(deepest, deepest_);
     }
-    void note(int iterations_, double residual_) noexcept {  // of a solve
+    void note(int iterations_, double residual_) noexcept {  // for a solve
         ++solves;
         if (iterations_ == 0) return;  // closed form
         iterations += iterations_;
@@ -98,12 +98,12 @@ struct ContactTally {
 struct ContactAndThread {
     bool contact = false, thread = false;
     ContactLaw law;
-    double height = 0, theta = 0;  // of the contact; theta: the thread yielding (48)
+    double height = 0, theta = 0;  // of the contact; theta: with a yielding thread (48)
     EliminatedThreads::One of_thread;
     ContactTally tally;
 
-    // Of contact b and thread c: readings at the older level and at the one that the step is
-    // centred on, increments without forces [m]; F_b, F_c [N] out. False: not converged.
+    // Solves contact b and thread c: readings at the older level and at the step's central level,
+    // increments without forces [m]; F_b, F_c [N] out. False: not converged.
     template <bool contact, bool thread>
     [[gnu::always_inline]] bool solve(double y_b, double now_b, double u_b, double y_c, double u_c,
                                       double& F_b, double& F_c) noexcept {

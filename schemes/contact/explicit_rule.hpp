@@ -1,8 +1,8 @@
-// The force of the level that the step is centred on, known before it: F_a = V_a'(eta_a). A
+// Takes the force at the step's central level, known before the step: F_a = V_a'(eta_a). A
 // conditionally stable control, which balances no energy. In two-point steps that level is the
-// middle of the step, from where the string would move by itself: position Verlet, of second order.
-// (The force of the older level would act half a step late and gain energy at any rate.) With
-// losses F_a = V_a'(eta_a) (1 - kappa_a r_a), which is linear in the step.
+// middle of the step, reached by the string's own motion: position Verlet, second order. (The force
+// at the older level would act half a step late and gain energy at any rate.) With losses F_a =
+// V_a'(eta_a) (1 - kappa_a r_a), which is linear in the step.
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"
@@ -12,7 +12,7 @@ namespace jvari {
 class ExplicitRule : public ObstacleRule {
 public:
     static constexpr bool conserves = false, own_only = true;
-    // in two-point steps it yields less by half of Theta under a steady force
+    // in two-point steps the contact yields less, by half of Theta, under a steady force
     static constexpr Features leaves_out = Feature::equilibrium;
 
     ExplicitRule(std::span<const ContactLaw> laws, std::span<const double> theta, int levels)

@@ -1,5 +1,5 @@
-// Two to five linear contacts without losses, by the discrete gradient, inline for the kernels that
-// make whole steps: the equations of contact_gram.hpp, in three tiers.
+// Solves two to five linear contacts without losses, by the discrete gradient, inline for the
+// kernels that make whole steps: the equations of contact_gram.hpp, in three tiers.
 //   1. One contact alone touches, before the step or by its end: its own equation (contact.hpp).
 //   2. The contacts that touch before the step are in full contact, the others out: with D = k/2,
 //      F = (1/D + Theta)^-1 (2 eta + b) of them. The inverses of all sets are kept, at most 31.
@@ -23,8 +23,8 @@ public:
     // theta: n x n, row-major [m/N]
     FewContacts(std::span<const ContactLaw> laws, std::span<const double> theta);
 
-    // eta and b [m] in, the new depths eta - r [m] and the mean forces [N] out; n of each. Returns
-    // Newton's iterations, or -1 where they did not end.
+    // Takes eta and b [m] and returns the new depths eta - r [m] and the mean forces [N]; n values
+    // each. Returns the number of Newton iterations, or -1 if they did not end.
     template <int n>
     [[gnu::always_inline]] int solve(const double* eta, const double* b, double* depth,
                                      double* force) const noexcept {
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    static constexpr double rounding = 8e-15;  // of the terms of one equation
+    static constexpr double rounding = 8e-15;  // in the terms of one equation
     static constexpr int most_steps = 12;
 
     template <int n>
@@ -132,7 +132,7 @@ private:
 
     double k_[most] = {}, give_[most] = {};  // give_: 2/k
     double theta_[most * most] = {};
-    std::vector<double> M_;  // of each set of contacts, n x n; zeros in rows and columns of others
+    std::vector<double> M_;  // for each set of contacts, n x n; zeros in other rows and columns
 };
 
 }  // namespace jvari

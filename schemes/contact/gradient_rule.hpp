@@ -1,12 +1,12 @@
-// The discrete gradient of each contact's potential over the step, which takes from it exactly what
-// the contact does on the string:
+// Discrete gradient of each contact's potential over the step. The potential loses exactly the work
+// done by the contact on the string:
 //
 //     F_a(r_a) = -[V_a(eta_a - r_a) - V_a(eta_a)]/r_a >= 0
 //
-// and with a loss 1 - kappa_a r_a times that, of the second order as well (StepLoss).
-// Two-point steps: van Walstijn, Bridges & Mehes 2016, eqs 30 and 48; three-point: Issanchou et al.
-// 2016, eq 16. One contact has a closed form with exponent 1 (contact.hpp), several that Theta
-// couples take Newton steps (contact_gram.hpp).
+// and with a loss 1 - kappa_a r_a times that, of the second order as well (StepLoss). Two-point
+// steps: van Walstijn, Bridges & Mehes 2016, eqs 30 and 48; three-point: Issanchou et al. 2016, eq
+// 16. One contact has a closed form with exponent 1 (contact.hpp), several that Theta couples take
+// Newton steps (contact_gram.hpp).
 #pragma once
 
 #include "schemes/contact/rigid_rule.hpp"

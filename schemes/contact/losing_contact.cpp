@@ -41,7 +41,7 @@ ContactSolution ContactGram::pulling_alone(int a, double eta, double b) const no
     for (int i = 1;; ++i) {
         const bool last = s.residual < nearly && i > 1;
         const MeanForce G = spring_at(a, eta, eta - s.r);
-        const double w = loss_[a].factor(s.r);  // with the digits of r, not of eta
+        const double w = loss_[a].factor(s.r);  // with the digits of r, not eta
         s.force = G.value * w;
         const double miss = s.r + b - theta * s.force;
         s.iterations = i;
@@ -55,7 +55,7 @@ ContactSolution ContactGram::pulling_alone(int a, double eta, double b) const no
     }
 }
 
-// G is read from F where the contact closes, whose depth is below the rounding of r.
+// Reads G from F if the contact closes, because its depth is below the rounding of r.
 double ContactGram::lost_by(int a, double eta, double r, double force) const noexcept {
     const double w = loss_[a].factor(r), G = r > 0 ? spring_at(a, eta, eta - r).value : force / w;
     return (1 - w) * r * G;

@@ -1,14 +1,14 @@
 // Moreau-Jean time stepping: Newton's law of impact with a coefficient of restitution e (Moreau
-// 1988; Jean 1999; of a string in its modes: Issanchou, Acary, Perignon, Touze & Le Carrou 2018).
+// 1988; Jean 1999; for a string in its modes: Issanchou, Acary, Perignon, Touze & Le Carrou 2018).
 // Barriers are rigid, whatever stiffness and exponent they have.
 //
-// A contact whose gap would close within half a step at the speed v that it has is active, and then
+// A contact is active if its gap would close within half a step at its present speed v, and then
 //     0 <= F,   0 <= v+ + e v,   F (v+ + e v) = 0;       v, v+ the speeds before and after the step
 // In three-point steps v = (y^n - y^{n-1})/dt and v+ = (y^{n+1} - y^n)/dt. A two-point step moves
 // by dt (v + v+)/2, so v+ = 2 r/dt - v. With w = v dt or v dt/2, r = w + w+ either way, and the law
-// is 0 <= F, r >= (1 - e) w. What is lost is -F r/levels: nothing where e = 1. Where e < 1 an
-// active contact that moves away, w > 0, is given a little by the law as it is published. No energy
-// is stored. Option `restitution` = e, 0 to 1 (1).
+// is 0 <= F, r >= (1 - e) w. The loss is -F r/levels: nothing if e = 1. If e < 1 the published law
+// gives a little energy to an active contact that moves away, w > 0. No energy is stored. Option
+// `restitution` = e, 0 to 1 (1).
 #pragma once
 
 #include "schemes/contact/obstacle_rule.hpp"
@@ -46,7 +46,8 @@ public:
         for (std::size_t a = 0; a < w_.size(); ++a) w_[a] = levels_ == 1 ? 0.5 * moving[a] : 0;
         lost_ = 0;
     }
-    bool acts(const BeforeStep&) const override { return !w_.empty(); }  // it follows the speed
+    // the rule follows the speed
+    bool acts(const BeforeStep&) const override { return !w_.empty(); }
     GramSolution solve(const BeforeStep& at, double* r, double* force) noexcept override;
     // from rest: y^{-1} = y^1, a two-point step
     GramSolution start(const BeforeStep& at, double* r, double* force) noexcept override {

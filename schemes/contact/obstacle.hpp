@@ -63,7 +63,7 @@ public:
     // Sets the step's theta; requires no thread, contact loss or series compliance.
     void set(std::span<const double> theta) noexcept;
     void follow(const Obstacle& first);  // after `first` made the first half step
-    // true if both have equally many points; the present state of the series compliance is copied
+    // Tests whether start_from() can copy the series state: both have equally many points.
     bool is_like(const Obstacle& other) const {
         return contacts() == other.contacts() && points() == other.points() &&
                series_.has_value() == other.series_.has_value();

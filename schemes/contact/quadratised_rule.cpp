@@ -11,7 +11,7 @@ namespace jvari {
 
 namespace {
 constexpr int most_steps = 200;
-constexpr double root_rounding = 2e-15, root_change = 1e-9;  // as in contact_gram.cpp
+constexpr double root_rounding = 2e-15, root_change = 1e-9;  // see contact_gram.cpp
 constexpr double no_psi = 1e-150;                            // [sqrt(J)] its square is no number
 }  // namespace
 
@@ -53,7 +53,7 @@ bool QuadratisedContacts::solve_linearly() noexcept {
         next_[a] = psi_[a];
         const double gamma = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
         gamma_[a] = gamma;
-        // F = G - (c gamma^2 + D) r, the loss with G of r = 0
+        // F = G - (c gamma^2 + D) r, the loss with G at r = 0
         shift_[a] = kappa_[a] * std::max(0.0, 2 * c_ * gamma * psi_[a]);
         scale_[a] = std::sqrt(c_ * gamma * gamma + shift_[a]);
         if (gamma != 0) set_[many_++] = a;
@@ -86,8 +86,8 @@ bool QuadratisedContacts::stays(int a) const noexcept {
     return gamma_[a] > 0 && f_[a] >= c_ * psi_[a] * (gamma_[a] - kappa_[a] * psi_[a]);
 }
 
-// The r that f belongs to: f = c gamma (2 psi - gamma r)(1 - kappa r), or where psi+ = 0 f = c
-// psi^2 (1/r - kappa)
+// The r to which f belongs: f = c gamma (2 psi - gamma r)(1 - kappa r), or for psi+ = 0 f = c psi^2
+// (1/r - kappa)
 double QuadratisedContacts::way(int a) const noexcept {
     if (!stays(a)) return c_ * psi_[a] * psi_[a] / (f_[a] + shift_[a]);
     const double left = 2 * psi_[a] - f_[a] / (c_ * gamma_[a]);
@@ -95,7 +95,7 @@ double QuadratisedContacts::way(int a) const noexcept {
     return 2 * left / (gamma_[a] + 2 * kappa_[a] * psi_[a] + slant(a));
 }
 
-// -df/dr/(c gamma) where psi+ >= 0
+// -df/dr/(c gamma) for psi+ >= 0
 double QuadratisedContacts::slant(int a) const noexcept {
     const double unequal = gamma_[a] - 2 * kappa_[a] * psi_[a];
     return std::sqrt(unequal * unequal + 4 * kappa_[a] * f_[a] / c_);
@@ -123,8 +123,8 @@ void QuadratisedContacts::guess() noexcept {
         }
 }
 
-// Newton's df of the contacts in set_. One at f = 0 that would go below leaves the set, whose other
-// members aim again: without it they would swap from step to step.
+// Newton's df for the contacts in set_. A contact at f = 0 that would go below leaves the set, and
+// the other members aim again: otherwise they would swap from step to step.
 bool QuadratisedContacts::aim(bool& all) noexcept {
     for (all = true; many_ > 0;) {
         for (int i = 0; i < many_; ++i) {
@@ -151,7 +151,7 @@ bool QuadratisedContacts::aim(bool& all) noexcept {
     return true;
 }
 
-// The part of df up to `most` where the merit's slope has fallen by half, past its minimum
+// Part of df, up to `most`, at which the merit's slope has fallen by half, past its minimum
 double QuadratisedContacts::search(double most) noexcept {
     const auto slope = [this](double t) {
         double sum = 0;
@@ -212,7 +212,7 @@ bool QuadratisedContacts::release() noexcept {
         if (stays(a))
             next_[a] = kappa_[a] == 0 ? f_[a] / (c_ * gamma_[a]) - psi_[a]
                                       : std::max(0.0, psi_[a] - gamma_[a] * way(a));
-        // kappa F r^2/(1 - kappa r), as c (psi^2 - psi+^2) kappa r
+        // kappa F r^2/(1 - kappa r), in the form c (psi^2 - psi+^2) kappa r
         if (kappa_[a] != 0 && (gamma_[a] > 0 || psi_[a] > 0))
             lost_ +=
                 c_ * (psi_[a] - next_[a]) * (psi_[a] + next_[a]) * kappa_[a] * way(a) / levels_;
@@ -250,7 +250,7 @@ GramSolution QuadratisedContacts::start(const BeforeStep& at, double* r, double*
         f_[a] = 0;
         next_[a] = psi_[a];
         gamma_[a] = eta_[a] > 0 ? psi_of_[a].gamma(eta_[a]) : 0;
-        scale_[a] = std::sqrt(2.0) * gamma_[a];  // of F/2 by 2 Theta
+        scale_[a] = std::sqrt(2.0) * gamma_[a];  // for F/2 by 2 Theta
         if (gamma_[a] > 0) set_[many_++] = a;
     }
     if (!factor()) return {0, 0, false};

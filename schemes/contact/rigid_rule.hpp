@@ -1,24 +1,23 @@
 // Barriers that do not give way: the limit of the discrete gradient (gradient_rule.hpp) for k ->
-// infinity. What then gives way is Theta alone: the modes over the step, and with
-// compliance=matched the element that stands for the modes left out, a contact point without mass
-// (Monjaraz-Tec, Gross & Krack 2022, "massless boundary component mode synthesis"). No law of
-// impact is needed.
+// infinity. Only Theta gives way then: the modes over the step and, with compliance=matched, the
+// element that represents the modes left out, a contact point without mass (Monjaraz-Tec, Gross &
+// Krack 2022, "massless boundary component mode synthesis"). No law of impact is needed.
 //
 // A spring that gets ever stiffer gives way by nothing, but its energy V = k eta^2/2 has a limit.
-// So each contact has one state, V, which is not 0 only in a step in which it lies on its barrier.
-// With b and gap = -eta before the step, r = -b + Theta F,
+// So each contact has one state, V, which is nonzero only in a step in which the contact lies on
+// its barrier. With b and gap = -eta before the step, r = -b + Theta F,
 //
 //     V = 0:   0 <= F,   0 <= gap + r,   F (gap + r) = 0,   V+ = F gap
 //              stays out; or comes to lie on the barrier, or stays there
 //     V > 0:   F r = V,   r > 0,   V+ = 0
-//              what struck the barrier is thrown back by what it gave
+//              a point that struck the barrier gets its energy back and is thrown off
 //
 // The first line is a linear complementarity problem. It constrains the new position, not the mean:
-// a point that strikes does so F gap before the step ends, and the second line returns this. The
-// invariant of obstacle_rule.hpp holds exactly with potential = V; F never pulls; no energy is
-// gained whatever the step. Several contacts: the same in turn, each with the others' forces held
-// (Gauss-Seidel on a convex problem: Theta is a Gram matrix), until no force changes.
-// In three-point steps every other level is a chain of its own, with a V of its own.
+// a striking point does the work F gap before the step ends, and the second line returns this work.
+// The invariant in obstacle_rule.hpp holds exactly with potential = V; F never pulls; no energy is
+// gained whatever the step. Several contacts are solved in turn, each with the others' forces held
+// (Gauss-Seidel on a convex problem: Theta is a Gram matrix), until no force changes. In
+// three-point steps every other level is a separate chain, with a separate V.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +54,7 @@ private:
     struct Levels {                 // V [J]
         double older = 0, now = 0;  // now: in three-point steps only
     };
-    // of a contact with the others' forces held in b
+    // force on a contact with the others' forces held in b
     double force_of(std::size_t a, double eta, double b) const {
         const double theta = theta_[a * stored_.size() + a], V = stored_[a].older;
         if (V <= 0) return std::max(0.0, (eta + b) / theta);

@@ -1,6 +1,6 @@
-// The obstacle rules that every string is paired with, beside the discrete gradient: the columns of
-// the table of pairings (driver/pairings.hpp). A new rule is a file like explicit_rule.hpp and a
-// row here, with its file above.
+// Lists the obstacle rules with which every string is paired, beside the discrete gradient: the
+// columns in the table of pairings (driver/pairings.hpp). A new rule is a file like
+// explicit_rule.hpp and a row here, with its file above.
 #pragma once
 
 #include "schemes/contact/explicit_rule.hpp"

@@ -1,13 +1,13 @@
-// A scheme is a string (string_step.hpp), an obstacle rule (contact/obstacle_rule.hpp) and this
-// driver, which has all that is neither: rows, means of the contact forces, the energy ledger, what
-// stands in series and is moved by the pluck, stopping and failing.
+// Combines a string (string_step.hpp) and an obstacle rule (contact/obstacle_rule.hpp) into a
+// scheme. The driver has everything that belongs to neither: rows, mean contact forces, the energy
+// ledger, the series compliance moved by the pluck, stopping and failing.
 //
-// Instants. Row n is written when the force of step n is known. A contact force is the mean over
-// the interval that ends at the row: of two-point steps the mean of theirs; of three-point steps,
-// whose force F^n stands for n - 1/2 .. n + 1/2, the trapezoidal mean. Energy: stored(n) -
-// stored(n-1) = supplied - dissipated, over the steps after the former row, where the rule
-// conserves. Stored is the string's own (string_step.hpp) and the points' potential at the same
-// instants, P(n) or [P(n) + P(n+1)]/2.
+// Instants. Row n is written when the force in step n is known. A contact force is the mean over
+// the interval that ends at the row. For two-point steps this is the mean of the steps' forces; for
+// three-point steps, whose force F^n stands for n - 1/2 .. n + 1/2, the trapezoidal mean. Energy:
+// stored(n) - stored(n-1) = supplied - dissipated, over the steps after the former row, if the rule
+// conserves. Stored is the string's own energy (string_step.hpp) and the points' potential at the
+// same instants, P(n) or [P(n) + P(n+1)]/2.
 //
 // Moments. A force is constant in a step, or a line, whose two moments stand one after the other
 // (moments/moment_obstacle.hpp): arrays over the points have the means first, so that rows, masses
@@ -27,7 +27,7 @@
 
 namespace jvari {
 
-// Means of the forces of a string's points, from row to row.
+// Mean forces at a string's points, from row to row.
 class RowForces {
 public:
     RowForces(int points, int levels, int steps)
@@ -36,8 +36,8 @@ public:
     void count(const double* force) noexcept {
         for (std::size_t p = 0; p < sum_.size(); ++p) sum_[p] += force[p];
     }
-    double* sum() noexcept { return sum_.data(); }  // of each point
-    // last: the forces of the step in hand
+    double* sum() noexcept { return sum_.data(); }  // for each point
+    // last: the forces in the current step
     const double* take(const double* last, bool at_start) noexcept {
         for (std::size_t p = 0; p < sum_.size(); ++p) {
             const double half = levels_ == 2 ? 0.5 * last[p] : 0;
@@ -166,7 +166,7 @@ public:
 private:
     // With tension modulation Theta changes in every step.
     static constexpr bool stretches = requires(const String s) { s.theta(); };
-    // One that has a kernel for rows without an energy probe.
+    // True if the string has a kernel for rows without an energy probe.
     static constexpr bool fuses = requires(String s, const Block& out, double* sum) {
         s.fused_rows(out, 0, sum);
     };
@@ -183,7 +183,7 @@ private:
     void step(bool probed, bool last_of_row) noexcept {
         string_->approach(last_of_row);
         masses_.approach();
-        // the level that the step is centred on, or starts from; its oldest
+        // the central or starting level of the step; its oldest level
         const long n = done_ + levels - 1, before = n + 1 - levels;
         const ReadingsBeforeStep at = at_contacts(string_->readings(), before, n, n + 1);
         if constexpr (stretches) obstacle_.set(string_->theta());
@@ -213,7 +213,7 @@ private:
         }
     }
 
-    // The pluck moves the points by way of what is in series too.
+    // Force of the pluck, which also moves the points through the series compliance.
     double pluck_at(long n) const {
         return points().pluck ? jvari::force(*points().pluck, static_cast<double>(n) * points().dt)
                               : 0;
@@ -244,13 +244,13 @@ private:
         masses_.subtract_way(free_.data(), static_cast<double>(newer - older));
         return {older_.data(), now_.data(), free_.data()};
     }
-    // int F' P_1 dt of the pluck over a step, by parts [N]
+    // int F' P_1 dt for the pluck over a step, by parts [N]
     double turned_pluck(long n) const {
         if (!plucked_in_series_) return 0;
         const double t = static_cast<double>(n) * points().dt;
         return pluck_at(n) + pluck_at(n + 1) - 2 * mean_force(*points().pluck, t, points().dt);
     }
-    // the work that the forces do there [J]
+    // work done there by the forces [J]
     double by_way_of_series(long older, long newer) const noexcept {
         double work = 0;
         if (!plucked_in_series_) return work;
@@ -264,7 +264,7 @@ private:
         return work / levels;
     }
 
-    // of the contacts, into now_
+    // reads the contacts into now_
     void read(int level) noexcept {
         string_->reading(level, now_.data());
         if (const double F_e = plucked_in_series_ ? pluck_at(done_ + level) : 0; F_e != 0)
@@ -302,16 +302,16 @@ private:
     RowForces means_;
     FreeMasses<levels, moments> masses_;
     Points obstacle_;
-    std::optional<Obstacle> start_;  // of three-point schemes
+    std::optional<Obstacle> start_;  // for three-point schemes
     std::vector<double> older_, free_, now_, force_;
-    std::vector<double> moving_, resting_;  // at t = 0: of dt by their speeds [m], forces [N]
+    std::vector<double> moving_, resting_;  // at t = 0: way in dt by their speeds [m], forces [N]
     long done_ = 0;                         // steps
-    Impacts* impacts_ = nullptr;            // of the block in hand
+    Impacts* impacts_ = nullptr;            // in the current block
     double supplied_ = 0, dissipated_ = 0;  // since the last row [J]
     Status status_;
 };
 
-// The scheme of a string and a rule. Rigid barriers use the rule's limit.
+// Makes the scheme from a string and a rule. Rigid barriers use the rule's limit.
 template <StringStep String>
 std::unique_ptr<Scheme> driven(std::unique_ptr<String> string, const Descriptor& scheme,
                                const Settings& settings, const RuleChoice& rule) {

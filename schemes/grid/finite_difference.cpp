@@ -27,8 +27,8 @@ Stencil trimmed(int first, std::vector<double> w) {  // without zeros at either 
     return {first + static_cast<int>(low), std::vector<double>(w.begin() + low, w.begin() + high)};
 }
 
-// P(x), P'' the footprint (pi/2w) cos(pi x/w) on |x| < w/2: 0 before it, x after it   (van Walstijn
-// et al. 2016, eq 6)
+// P(x) with P'' the footprint (pi/2w) cos(pi x/w) on |x| < w/2: 0 before it, x after it   (van
+// Walstijn et al. 2016, eq 6)
 long double twice_integrated(long double x, long double w) {
     if (x <= -w / 2) return 0;
     if (x >= w / 2) return x;
@@ -83,7 +83,7 @@ struct Fit {
     double square = HUGE_VAL;  // weighted sum of squared relative errors
 };
 
-// Least squares with the powers 0, 1, 2 of x that `powers` has a bit for.
+// Least squares with those powers 0, 1, 2 of x for which `powers` has a bit.
 Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<double>& sigma,
                const std::vector<double>& weight) {
     std::vector<int> power;
@@ -100,7 +100,7 @@ Fit fit_powers(int powers, const std::vector<double>& x, const std::vector<doubl
                 normal[b * n + a] += weighted * std::pow(root, power[b]);
         }
     const std::vector<long double> inverse = inverse_of(normal, static_cast<int>(n));
-    double coefficient[3] = {};  // of each power
+    double coefficient[3] = {};  // for each power
     for (std::size_t a = 0; a < n; ++a)
         coefficient[power[a]] = static_cast<double>(
             std::inner_product(right.begin(), right.end(), inverse.begin() + a * n, 0.0L));
@@ -118,7 +118,7 @@ LossFit fit_losses(const String& s) {
     const Modes modes = modes_of(s, std::clamp(modes_below(s, 20e3), 3, most_modes));
     const std::size_t n = modes.beta.size();
     std::vector<double> x, w;
-    double all = 0;  // of the weights: the square that a fit of nothing would leave
+    double all = 0;  // sum over the weights: the squared error of an empty fit
     for (std::size_t i = 0; i < n; ++i) {
         if (modes.sigma[i] <= 0) return {};
         const double relative = modes.beta[i] / modes.beta.back(),
@@ -127,8 +127,8 @@ LossFit fit_losses(const String& s) {
         w.push_back(weight / (modes.sigma[i] * modes.sigma[i]));
         all += weight;
     }
-    // the least squares without negative coefficients are those of the best set of powers that
-    // needs none; fewest first
+    // Least squares without negative coefficients: the best set of powers that needs none; smallest
+    // sets first
     Fit best;
     for (const int powers : {1, 2, 4, 3, 5, 6, 7}) {
         const Fit fit = fit_powers(powers, x, modes.sigma, w);
@@ -174,7 +174,8 @@ double theta_spacing_limit(const String& s, double dt) {
 
 // ---- The grid.
 
-constexpr double most_intervals = 1 << 17;  // the sum of an initial shape grows with their square
+// the summation cost for an initial shape grows with their square
+constexpr double most_intervals = 1 << 17;
 
 Grid grid_of(const Descriptor& d, const String& s, double intervals) {
     if (std::isnan(intervals))
@@ -213,7 +214,8 @@ Grid grid_for(const Descriptor& d, const String& s, const Settings& settings, do
 namespace {
 constexpr std::size_t most_contacts = 1 << 13;  // per string: half a gigabyte of compliances
 
-// K u = g/(mu dx) against the series of the string's modes, as many as leave less than 1e-4 out.
+// Solves K u = g/(mu dx) and compares with the series over the string's modes, with enough modes to
+// leave out less than 1e-4.
 double relative_compliance(const GridString& g, const String& s, const LumpedBarrier& b) {
     const Modes modes = modes_of(s, 20000);
     std::vector<double> u(g.grid.intervals + 1, 0.0);
@@ -223,7 +225,7 @@ double relative_compliance(const GridString& g, const String& s, const LumpedBar
     return own / static_compliance(modes, footprint_weights(modes, b.position, b.width));
 }
 
-// At the nodes, of as many modes as the grid can carry.
+// Values at the nodes, from the modes that the grid can carry.
 std::vector<double> at_nodes(const std::vector<double>& a, const Grid& g) {
     std::vector<double> u(g.intervals + 1, 0.0), sine(2 * g.intervals);
     for (int k = 0; k < 2 * g.intervals; ++k) sine[k] = std::sin(pi * k / g.intervals);
@@ -233,12 +235,12 @@ std::vector<double> at_nodes(const std::vector<double>& a, const Grid& g) {
     return u;
 }
 
-// What the grid takes from the string's compliance (contact/compliance.hpp); its steps take none
-// under a steady force.
+// Puts the compliance that the grid takes from the string in series (contact/compliance.hpp); the
+// time steps take none under a steady force.
 void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s) {
     const Sites sites = sites_of(scene, footprints_of(s));
     const BandedFactor stiffness(g.grid, 0, -g.c2, g.kappa2);
-    std::vector<std::vector<double>> shape;  // under 1 N of each force
+    std::vector<std::vector<double>> shape;  // under 1 N from each force
     for (const Footprint& f : sites.forces) {
         shape.emplace_back(g.grid.intervals + 1, 0.0);
         footprint_stencil(g.grid, f.position, f.width).add(1 / g.mass, shape.back().data());
@@ -327,7 +329,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
 
 namespace {
 struct Symbols {
-    // of -D2, of K = -c^2 D2 + kappa^2 D4, of R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
+    // for -D2, for K = -c^2 D2 + kappa^2 D4, for R = 2 sigma0 - 2 sigma1 D2 + 2 sigma2 D4
     double lambda, stiffness, loss;
 };
 Symbols symbols(const GridString& g, int mode) {

@@ -1,17 +1,16 @@
 // Explicit finite differences with implicit contact: Bilbao, Torin & Chatziioannou 2015, "Numerical
-// modeling of collisions in musical instruments"; the contact equation is that of van Walstijn et
-// al. 2016, eq 48, over the span 2 dt.
+// modeling of collisions in musical instruments"; the contact equation is van Walstijn et al. 2016,
+// eq 48, over the span 2 dt.
 //
 //     (1 + sigma0 dt) u+ = (2 I + c^2 dt^2 D2 - kappa^2 dt^2 D4 - S) u
 //         - ((1 - sigma0 dt) I - S) u- + dt^2/(mu dx) g F
 //
 // with S = -2 sigma1 dt D2 + 2 sigma2 dt D4: the loss in space takes the backward difference in
-// time, that of sigma0 the central one. Written with the central one throughout, the difference is
-// taken from the mass, M = I - S/2, so the balance is exact and R >= 0; it is stable where M >=
-// dt^2 K/4, that is dx^2 >= (p + sqrt(p^2 + 16 q))/2, p = c^2 dt^2 + 4 sigma1 dt, q = kappa^2 dt^2
-// + 4 sigma2 dt. Options: `grid` (intervals), `over_limit`.
-// What it approximates and leaves out: finite_difference.hpp. Rows, energy and start:
-// three_point_string.hpp.
+// time, the sigma0 loss the central one. Written with the central one throughout, the difference is
+// taken from the mass, M = I - S/2, so the balance is exact and R >= 0. The scheme is stable if M
+// >= dt^2 K/4, that is dx^2 >= (p + sqrt(p^2 + 16 q))/2, p = c^2 dt^2 + 4 sigma1 dt, q = kappa^2
+// dt^2 + 4 sigma2 dt. Options: `grid` (intervals), `over_limit`. Approximations and omissions:
+// finite_difference.hpp. Rows, energy and start: three_point_string.hpp.
 #include "schemes/driver/pairings.hpp"
 #include "schemes/grid/three_point_string.hpp"
 #include "schemes/making.hpp"

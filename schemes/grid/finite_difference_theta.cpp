@@ -1,19 +1,18 @@
-// The theta scheme for the stiff string: Bilbao 2009, "Numerical Sound Synthesis", chapter 7; a
-// parametric implicit three-point scheme of the kind that section 5 of van Walstijn et al. 2016
-// names.
+// Theta scheme for the stiff string: Bilbao 2009, "Numerical Sound Synthesis", chapter 7; a
+// parametric implicit three-point scheme, a kind named in section 5 of van Walstijn et al. 2016.
 //
 //     (theta + (1 - theta) A) (u+ - 2u + u-)/dt^2 = c^2 D2 u - kappa^2 D4 u - R (u+ - u-)/2dt
 //         + g F/(mu dx),
 //     A = I + dx^2/2 D2
 //
-// so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve of three diagonals, or five where the
+// so M = I + (1 - theta) dx^2/2 D2, and u+ costs one solve with three diagonals, or five if the
 // loss has u_xxxxt (grid_solve.hpp). Expanding omega^2 = c^2 beta^2 + kappa^2 beta^4 in dx and dt,
 // the error c^2 beta^4 [dx^2/12 - c^2 dt^2/12 - (1 - theta) dx^2/2] vanishes for
 //     theta = 5/6 + c^2 dt^2/(6 dx^2),
-// the default (option `theta` overrides): what is left is of second order times kappa^2 beta^2/c^2,
-// and of fourth order. Stable where 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4; at the
-// default theta, c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4 <= 1. Losses are centred, and do not enter the
-// limit. Options: `grid` (intervals), `over_limit`, `theta`.
+// the default (option `theta` overrides): the remaining error is second order times kappa^2
+// beta^2/c^2, and fourth order. Stable if 2 theta - 1 >= c^2 dt^2/dx^2 + 4 kappa^2 dt^2/dx^4; at
+// the default theta, c^2 dt^2/dx^2 + 6 kappa^2 dt^2/dx^4 <= 1. Losses are centred, and do not enter
+// the limit. Options: `grid` (intervals), `over_limit`, `theta`.
 #include "schemes/driver/pairings.hpp"
 #include "schemes/grid/grid_solve.hpp"
 #include "schemes/grid/three_point_string.hpp"
@@ -24,12 +23,12 @@ namespace jvari {
 namespace {
 struct ThetaUpdate {
     FivePoint pass;
-    GridSolve solve;  // of M + dt R/2
+    GridSolve solve;  // for M + dt R/2
     int intervals;
     IncrementPass add = increment_pass();
 
-    // For the increment: where the loss in space is strong or the string slow, the solve loses
-    // digits of what it solves for, and u+ is all but u. Of u+ - u- they are not missed.
+    // Solves for the increment: if the loss in space is strong or the string slow, the solve loses
+    // digits of its solution, and u+ is nearly u. In u+ - u- those digits do not matter.
     void operator()(double* next, const double* now, const double* before) noexcept {
         pass(solve.input(), now, before);
         solve(next);

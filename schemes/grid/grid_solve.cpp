@@ -28,8 +28,8 @@ HWY_INLINE void mirror(double* HWY_RESTRICT x, int N, int reach) {
     }
 }
 
-// out_l = c_0 x_l + sum_k c_k (x_{l - k step} + x_{l + k step}) of `vectors` vectors of l. Where a
-// vector holds several steps they read the same neighbours, in memory once.
+// out_l = c_0 x_l + sum_k c_k (x_{l - k step} + x_{l + k step}) for `vectors` vectors along l. If a
+// vector holds several steps, they read the same neighbours, in memory once.
 template <int pairs, int step, int vectors, int... j>
 HWY_INLINE void sum_at(int l, const double* HWY_RESTRICT c, const double* HWY_RESTRICT x,
                        double* HWY_RESTRICT out, std::integer_sequence<int, j...>) {
@@ -122,13 +122,13 @@ GridSolve::Sums GridSolve::sums(int pairs) { return HWY_DYNAMIC_DISPATCH(choose)
 
 namespace {
 using Real = long double;
-struct Band {  // of a symmetric convolution
+struct Band {  // one symmetric convolution
     Real c0, c1, c2;
-    Band next() const {  // A(z) A(-z), of z^2
+    Band next() const {  // A(z) A(-z), in z^2
         const Band b{c0 * c0 + 2 * c2 * c2 - 2 * c1 * c1, 2 * c0 * c2 - c1 * c1, c2 * c2};
         return {1, b.c1 / b.c0, b.c2 / b.c0};
     }
-    Real scale() const { return c0 * c0 + 2 * c2 * c2 - 2 * c1 * c1; }  // what next() is divided by
+    Real scale() const { return c0 * c0 + 2 * c2 * c2 - 2 * c1 * c1; }  // divisor of next()
 };
 
 // One side of a symmetric sequence times A(-z^step).

@@ -33,11 +33,11 @@
 
 namespace jvari {
 
-// of node 0 in its array: node 1 on a 64-byte boundary, node -1 inside
+// position of node 0 in its array: node 1 on a 64-byte boundary, node -1 inside
 constexpr int node_offset = 7;
 
-// operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): what a
-// unit of dt^2/(mu dx) on g adds to u+
+// operator()(next, now, before): u+ without forces, `before` its last `now`; response(g): the
+// increment that a unit of dt^2/(mu dx) on g adds to u+
 template <class Update>
 class ThreePointString {
 public:
@@ -96,7 +96,7 @@ public:
         diverged_ = false;
         step_ = 0;
         budget_ = HUGE_VAL;
-        update_(next, now, before);  // so that it keeps what it needs of u-
+        update_(next, now, before);  // lets the update keep the part of u- that it needs
         update_(next, now, before);  // with u- = u this is u + dt^2 (acceleration)
         for (int l = 1; l < N; ++l) {
             const double by_speed = drift_.empty() ? 0 : drift_[l] - 0.25 * next[l];
@@ -120,7 +120,7 @@ public:
         std::copy_n(next - 1, g_.grid.intervals + 2, before - 1);  // u^{-1} = u^1 - 2 dt v
         for (std::size_t l = 0; l < drift_.size(); ++l) before[l] -= 2 * dt_ * g_.start_velocity[l];
     }
-    // what it has at the start [J]
+    // energy at the start [J]
     void expect(double energy) noexcept { budget_ = std::abs(energy); }
 
     void approach(bool) noexcept {
@@ -203,8 +203,8 @@ public:
 
     double inertia() const { return inertia_; }
     double pluck() const { return F_e_; }
-    // most that the ends' inertia takes of a node's, sum over the sine modes of mu_j^2/(M - dt^2
-    // K/4) [kg]
+    // greatest part of a node's inertia that the ends' inertia takes, sum over the sine modes of
+    // mu_j^2/(M - dt^2 K/4) [kg]
     double share() const {
         const int N = g_.grid.intervals;
         double sum = 0;
@@ -217,7 +217,7 @@ public:
         }
         return sum;
     }
-    // of the half step
+    // at the half step
     double momentum() const noexcept {
         return (g_.mu.read(level_[2]) - g_.mu.read(level_[1])) / dt_;
     }
@@ -252,18 +252,18 @@ private:
     std::vector<Fact> own_;
     std::vector<Stencil> responses_;
     Stencil pluck_response_, mu_response_;
-    double F_e_ = 0, inertia_ = 0;  // of the step: the pluck [N]; sum mu v'' without forces [N]
+    double F_e_ = 0, inertia_ = 0;  // in the step: the pluck [N]; sum mu v'' without forces [N]
     std::vector<double> older_, now_, free_;
     AlignedVector buffer_[3];
-    std::vector<double> drift_;  // of each node by a velocity at t = 0; none at rest [m]
+    std::vector<double> drift_;  // each node's drift by a velocity at t = 0; none at rest [m]
     double* level_[3] = {};      // u^{n-1}, u^n, u^{n+1}; [l] is node l
     long step_ = 0;              // n
     double budget_ = HUGE_VAL;
     bool diverged_ = false;
 };
 
-// A string on its grid as a scheme, or all strings of a scene on a moving body. make(scene of one
-// string) -> unique_ptr<String>.
+// Makes a scheme from a string on its grid, or from all strings of a scene on a moving body.
+// make(scene of one string) -> unique_ptr<String>.
 template <class String, class Make>
 std::unique_ptr<Scheme> on_three_point_support(const Descriptor& scheme, const Scene& scene,
                                                const Settings& settings, const RuleChoice& rule,
@@ -273,8 +273,8 @@ std::unique_ptr<Scheme> on_three_point_support(const Descriptor& scheme, const S
     });
 }
 
-// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. Of the increment u+ - u-
-// instead: (2M - dt^2 K) u - 2M u-, which is what is left after (M + dt R/2) u-.
+// (2M - dt^2 K) u - (M - dt R/2) u-, M = I + m D2 + m4 D4, over `divisor`. For the increment u+ -
+// u- instead: (2M - dt^2 K) u - 2M u-, the remainder after (M + dt R/2) u-.
 class FivePoint {
 public:
     enum class Of { next, increment };
@@ -305,7 +305,7 @@ private:
     int intervals_;
     FivePointWeights w_;
     FivePointPass pass_;
-    AlignedVector kept_;  // of the level before
+    AlignedVector kept_;  // for the level before
 };
 
 }  // namespace jvari

@@ -1,12 +1,12 @@
-// A string in its modes over rigid barriers by Moreau-Jean time stepping: Issanchou, Acary,
-// Perignon, Touze & Le Carrou 2018 ("A modal-based approach to the nonlinear vibration of strings
-// against a unilateral obstacle"; Siconos). Their theta scheme with the modal theta and damping by
-// which free motion is exact is the recursion of three_point_modes.hpp, its gain dt^2/W = kappa/(m
-// omega0^2), kappa = 1 + C~ - C, by which every mode yields to a steady force as it should.
+// String in its modes over rigid barriers by Moreau-Jean time stepping: Issanchou, Acary, Perignon,
+// Touze & Le Carrou 2018 ("A modal-based approach to the nonlinear vibration of strings against a
+// unilateral obstacle"; Siconos). Their theta scheme with the modal theta and damping that make
+// free motion exact is the recursion in three_point_modes.hpp, with the gain dt^2/W = kappa/(m
+// omega0^2), kappa = 1 + C~ - C. This gain gives every mode the right yield under a steady force.
 // Contacts by contact/moreau_jean_rule.hpp. The energy shown is the scheme's own, with W for m; it
-// tends to the true one. Option `compliance` = own (default, the paper's scheme) | matched: what
-// cut and step take from the string's compliance in series. Leaves out: contact loss, as the
-// barriers are rigid; polarisation; a body that moves.
+// tends to the true one. Option `compliance` = own (default, the paper's scheme) | matched: puts
+// the compliance that cut and step take from the string in series. Leaves out: contact loss,
+// because the barriers are rigid; polarisation; a body that moves.
 #include "schemes/contact/moreau_jean_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/modal/three_point_modes.hpp"

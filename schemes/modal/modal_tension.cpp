@@ -1,21 +1,21 @@
-// A string whose tension grows as it stretches (Kirchhoff 1883, Carrier 1945): T + EA l/(2L), l =
+// String whose tension grows with its stretch (Kirchhoff 1883, Carrier 1945): T + EA l/(2L), l =
 // int y'^2 dx = L/2 sum beta_i^2 q_i^2, by the potential V = EA l^2/(8L). Between the points it
-// steps as the string of three_point_modes.hpp, whose coefficients are exact at the tension T. The
-// stretching is one force lambda along a direction d of the modes, linear in each step (Bilbao
+// steps like the string in three_point_modes.hpp, whose coefficients are exact at the tension T.
+// The stretching is one force lambda along a direction d of the modes, linear in each step (Bilbao
 // 2009, ch. 8):
 //
 //     lambda = -(A + kappa r),   r = d.(q+ - q-),   d = beta^2 q,   A = EA L/8 d.q-,
 //     kappa = EA L/16
 //
-// A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). By a gain
-// dt^2/m that would be 2x/sin 2x times as much, x = omega dt/2. The gain of an impulse, dt R
-// sin(omega dt)/(m omega), is right to first order in dT at any rate, and the energy balances with
-// W = dt^2/gain for the mass.
+// A tension that grows by dT lifts the frequency of mode i by 1/2 dT beta^2/(mu omega). With a gain
+// dt^2/m the frequency would rise 2x/sin 2x times more, x = omega dt/2. The gain of an impulse, dt
+// R sin(omega dt)/(m omega), is right to first order in dT at any rate, and the energy balances
+// with W = dt^2/gain for the mass.
 //
-// lambda is eliminated before the contacts are solved for, so they see a string that yields less:
-// Theta - kappa D D'/(1 + kappa d.e), D_p = d.e_p. Energy is kept to rounding with EA L/32 (d.q+)^2
-// in it. Second order.
-// Leaves out: thread, contact loss, profiles, compliance=matched, polarisation, a body that moves.
+// lambda is eliminated before the contact solve, so the contacts see a string that yields less:
+// Theta - kappa D D'/(1 + kappa d.e), D_p = d.e_p. Energy is kept to rounding, including the term
+// EA L/32 (d.q+)^2. Second order. Leaves out: thread, contact loss, profiles, compliance=matched,
+// polarisation, a body that moves.
 #include <cmath>
 #include <numbers>
 
@@ -28,11 +28,11 @@ namespace jvari {
 
 namespace {
 
-// The one force, and what the points see of it.
+// The stretching force, and its effect at the points.
 struct Stretching {
     double A = 0, kappa = 0;
     double free = 0, own = 0;        // r without forces [m^2/N at the scale of d]; d.e
-    std::vector<double> on, theta_;  // D_p; Theta between the points that yield less
+    std::vector<double> on, theta_;  // D_p; Theta between the points, which yield less
 
     explicit Stretching(const StringPoints& p) : on(p.count(), 0.0), theta_(p.theta) {}
     double force(const double* F) const {
@@ -90,7 +90,7 @@ public:
         std::fill(last_.begin(), last_.end(), 0.0);
         std::copy(p_.first.begin(), p_.first.end(), coming_.begin());
         prepare(0.5);
-        // the outer levels are one: lambda = -2 kappa (d.q + r), r of the half step
+        // the outer levels are equal: lambda = -2 kappa (d.q + r), r for the half step
         one_.kappa *= 2;
         settle(0.5);
     }
@@ -141,8 +141,8 @@ public:
 private:
     const std::vector<double>& port(std::size_t p) const { return p_.update.ports[p].weights; }
     double gain(std::size_t i) const { return p_.update.gain_of(static_cast<int>(i)); }
-    // The direction at y, and what it and the points do without their forces. share: of its force
-    // that the step applies.
+    // Computes the direction at y, and the motion along it and at the points without their forces.
+    // share: the part of the force that the step applies.
     void prepare(double share) noexcept {
         F_e_ = p_.points.pluck
                    ? mean_about(*p_.points.pluck, static_cast<double>(step_) * p_.dt, p_.dt)
@@ -181,7 +181,7 @@ private:
     Stretching one_;
     double kappa_;  // EA L/16
     std::vector<std::pair<Quantity, std::vector<double>>> taps_;
-    // y^n, y^n - y^{n-1}, y^{n+1} - y^n; beta^2 y, and what a force of 1 along it moves
+    // y^n, y^n - y^{n-1}, y^{n+1} - y^n; beta^2 y, and the displacement by a force of 1 along it
     std::vector<double> y_, last_, coming_, d_, e_;
     std::vector<double> older_, now_, free_;
     double F_e_ = 0, sum_ = 0;

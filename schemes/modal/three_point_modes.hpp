@@ -1,25 +1,25 @@
-// A string in its modes by three-point steps: Issanchou et al. 2016, eqs 14 and 20-21, in
-// increments d^n = q^n - q^{n-1}:
+// String in its modes by three-point steps: Issanchou et al. 2016, eqs 14 and 20-21, in increments
+// d^n = q^n - q^{n-1}:
 //
 //     d^{n+1} = C~ d^n - kappa q^n + sum_p e_p F_p,   q^{n+1} = q^n + d^{n+1},   e_p = gain g_p;
 //     r_p = y_p^{n+1} - y_p^{n-1}
 //
 // which is q^{n+1} = C q^n - C~ q^{n-1} + ... without its cancellation at high rates, kappa = 1 +
-// C~ - C. Theta_pq = g_p.e_q. gain = dt^2/m unless a scheme says else; W, the inertia that its
-// energy shows, is the modal mass then. Points are places on the string, read and pushed by weights
-// on the modes, or nodes of a grid with as many interior nodes as modes, which are orthogonal to
-// each other.
+// C~ - C. Theta_pq = g_p.e_q. gain = dt^2/m unless a scheme says otherwise; W, the inertia in its
+// energy, is then the modal mass. Points are places on the string, read and pushed by weights on
+// the modes. They can also be nodes on a grid with equally many interior nodes and modes; such
+// nodes are orthogonal to each other.
 //
-// Stored energy is that of eq 21 with C1 = (1 + C~)/2, C2 = kappa/dt^2, C3 = loss/dt: sum W [(1 +
-// C~)/2 d^2 + kappa q (q + d)]/(2 dt^2), d = d^{n+1}; lost in a step: sum W loss (d^{n+1} +
-// d^n)^2/(4 dt^2). Order: free motion is exact. Forced motion is second order without losses and
-// first order with them: eq 14 puts dt^2/m F on a mode where a damped one wants e^{-sigma dt} of it
-// (a factor per mode would couple the nodes, so the paper's form is kept). Start: the free motion
-// from rest, and every force on the first half step with half its weight. Velocity is that of the
-// free motion through levels n-1, n, n+1 corrected for F^n for the modes that tell it and a centred
-// difference for the rest (three_point.hpp).
+// Stored energy is eq 21 with C1 = (1 + C~)/2, C2 = kappa/dt^2, C3 = loss/dt: sum W [(1 + C~)/2 d^2
+// + kappa q (q + d)]/(2 dt^2), d = d^{n+1}; lost in a step: sum W loss (d^{n+1} + d^n)^2/(4 dt^2).
+// Order: free motion is exact. Forced motion is second order without losses and first order with
+// them. The reason is that eq 14 puts dt^2/m F on a mode, while a damped mode needs e^{-sigma dt}
+// times this force (a factor per mode would couple the nodes, so the paper's form is kept). Start:
+// the free motion from rest, and every force on the first half step with half its weight. Velocity
+// comes from the free motion through levels n-1, n, n+1 corrected for F^n, for the modes that
+// determine it, and from a centred difference for the rest (three_point.hpp).
 //
-// Form steps the modes: kernels/three_point_pass.hpp, or another of the same members.
+// Form steps the modes: kernels/three_point_pass.hpp, or another class with the same members.
 #pragma once
 
 #include <cmath>
@@ -35,27 +35,27 @@
 
 namespace jvari {
 
-// Of a mode, over dt^2/m. nullptr: 1. A gain that differs from mode to mode balances with W =
+// Gain for a mode, over dt^2/m. nullptr: 1. A gain that differs from mode to mode balances with W =
 // dt^2/gain in place of m.
 using ModalGain = double (*)(double omega0, double sigma, double dt);
 
-// What one scene and setting come to before a form is chosen.
+// One scene and setting, reduced to numbers before a form is chosen.
 struct ThreePointProblem {
-    Scene scene;  // of one string
+    Scene scene;  // with one string
     double dt = 0;
     Modes modes;
     ModalStart start;
-    std::vector<double> first;  // y^1 - y^0 of each mode without contacts and pluck [m]
+    std::vector<double> first;  // y^1 - y^0 for each mode without contacts and pluck [m]
     ThreePoint three_point;
     std::vector<double> W;  // [kg]
-    // ports: contacts, thread, moving body, which all are read, and the pluck
+    // ports: contacts, thread and moving body, which all are read, and the pluck
     LinearUpdate update;
     StringPoints points;
-    std::vector<std::vector<double>> theta;  // of each port on every read [m/N]
-    std::vector<Fact> facts;                 // beside those of the string
+    std::vector<std::vector<double>> theta;  // from each port to every read [m/N]
+    std::vector<Fact> facts;                 // in addition to the string's
     bool on_body = false;
     const String& string() const { return scene.strings.front(); }
-    // H^{n+1/2} of y = y^n and d = y^{n+1} - y^n  (21) [J]
+    // H^{n+1/2} for y = y^n and d = y^{n+1} - y^n  (21) [J]
     double stored(const std::vector<double>& y, const std::vector<double>& d) const {
         double H = 0;
         for (int j = 0; j < modes.count(); ++j)
@@ -70,18 +70,19 @@ struct ThreePointProblem {
         return all;
     }
 };
-// The modes as they are, their points by the weights of their footprints, a profile by points of
-// its own. Refuses modes above half the rate.
+// Takes the modes unchanged, their points by footprint weights, a profile by separate points.
+// Refuses modes above half the rate.
 ThreePointProblem problem_of_modes(const Descriptor&, const Scene&, const Settings&,
                                    ModalGain = nullptr);
-// p with points and update.ports for its contacts: the rest of both, and what follows from them.
+// Completes p, which has points and update.ports for its contacts: adds the remaining points and
+// ports, and the members that follow from them.
 void complete(ThreePointProblem& p, const Descriptor&, const Settings&, ModalGain = nullptr);
 
 template <class Form>
 class ThreePointModesBy {
 public:
     static constexpr int levels = 2;
-    // a step of many coupled points takes tens of microseconds
+    // a step with many coupled points takes tens of microseconds
     static constexpr long steps_between_looks = 64;
 
     explicit ThreePointModesBy(ThreePointProblem problem)
@@ -174,13 +175,13 @@ public:
     double share() const {
         const auto& mu = p_.update.ports[p_.points.count()].weights;
         double sum = 0;
-        for (int j = 0; j < p_.modes.count(); ++j)  // of the mass that H shows, C1 - dt^2/4 C2 (22)
+        for (int j = 0; j < p_.modes.count(); ++j)  // for the mass in H, C1 - dt^2/4 C2 (22)
             sum += mu[j] * mu[j] /
                    (p_.modes.mass *
                     (1 - 0.5 * p_.three_point.loss[j] - 0.25 * p_.three_point.kappa[j]));
         return sum;
     }
-    double momentum() noexcept {  // sum mu_j v_j of the half step
+    double momentum() noexcept {  // sum mu_j v_j at the half step
         fill_coming();
         return modal_dot(p_.update.ports[p_.points.count()].weights, modal_coming_) / p_.dt;
     }
@@ -189,10 +190,10 @@ private:
     struct TapReading {
         Quantity quantity;
         AlignedVector displacement, increment, kept;  // weights on the form's levels
-        std::vector<double> force, earlier_force;     // velocity: weights of F^n and F^{n-1}
+        std::vector<double> force, earlier_force;     // velocity: weights on F^n and F^{n-1}
         double at_start = 0;                          // velocity at t = 0 [m/s]
     };
-    // of its force that a step applies: half in the first half step only
+    // part of its force that a step applies: half in the first half step only
     double applied() const { return step_ == 0 ? 0.5 : 1; }
 
     void keep() noexcept {  // before the last step of a row
@@ -215,7 +216,7 @@ private:
         }
         failed_ = !(std::abs(all) < modal_overflow);
     }
-    // the forces of the step, and what they make of its newer level
+    // applies the step's forces, and computes their effect on its newer level
     void put(const double* force, double a) noexcept {
         const double share = applied();
         const std::size_t points = p_.points.count(), reads = read_.size();
@@ -228,7 +229,7 @@ private:
         }
     }
 
-    void fill_coming() noexcept {  // y^{n+1} - y^n with the force of step n
+    void fill_coming() noexcept {  // y^{n+1} - y^n with the force in step n
         form_.to_modal(form_.levels.increment, modal_coming_.data());
         for (std::size_t z = 0; z < p_.update.ports.size(); ++z)
             if (force_[z] != 0)
@@ -236,7 +237,7 @@ private:
                     modal_coming_[j] += applied() * force_[z] * p_.update.gain_of(j) *
                                         p_.update.ports[z].weights[j];
     }
-    Spent account() noexcept {  // what step n supplied and dissipated
+    Spent account() noexcept {  // energy that step n supplied and dissipated
         modal_last_.swap(modal_coming_);
         fill_coming();
         Spent spent;
@@ -297,11 +298,11 @@ private:
     bool failed_ = false;
     int pluck_port_ = -1;
     long step_ = 0;
-    // levels n-1, n, n+1 of the reads [m]
+    // levels n-1, n, n+1 at the reads [m]
     std::vector<double> older_, now_, coming_;
     // level n+1 without the points' forces, and from level n-1 to there
     std::vector<double> read_, free_;
-    // F^n and, for velocity taps, F^{n-1} of each port [N]
+    // F^n and, for velocity taps, F^{n-1} at each port [N]
     std::vector<double> force_, earlier_force_;
     double inertia_ = 0;        // sum mu v'' without forces [N]
     double drift_of_body_ = 0;  // dt sum mu v' at t = 0 [kg m]

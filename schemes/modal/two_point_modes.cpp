@@ -17,10 +17,10 @@ namespace {
 using Column = TwoPointColumn;
 
 // Phase [rad] by which a mode released with q = 0 leads the true motion released at rest: q/y =
-// tanh(s dt/2) on the discrete mode z = exp(s dt), where the true motion has s dt/2.
+// tanh(s dt/2) on the discrete mode z = exp(s dt), while the true motion has s dt/2.
 double lead_at_start(double omega0, double sigma, double A, double B) {
     if (omega0 <= sigma) return 0;
-    // z of (35)
+    // z in (35)
     const double J = 1 + A + B, real = (1 - A) / J, square = (1 + A - B) / J - real * real;
     if (square <= 0) return 0;
     const std::complex<double> z(real, std::sqrt(square)), t = (z - 1.0) / (z + 1.0),
@@ -28,7 +28,8 @@ double lead_at_start(double omega0, double sigma, double A, double B) {
     return std::abs(std::atan2(t.real(), t.imag()) - std::atan2(s.real(), s.imag()));
 }
 
-// Rounded once: an error in Theta is one in the balance of every step of contact, and of one sign.
+// Rounds only once: a rounding error in Theta would enter the balance in every step with contact,
+// with the same sign.
 double gram(const AlignedVector& a, const AlignedVector& b) {
     long double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<long double>(a[i]) * b[i];
@@ -116,7 +117,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
             pluck_.mean.push_back(mean_in_step(pluck_.of, n, dt_));
     }
-    for (const AlignedVector& g : g_)  // theta of (43), (44)
+    for (const AlignedVector& g : g_)  // theta in (43), (44)
         for (const AlignedVector& h : g_) p_.theta.push_back(gram(g, h));
 
     for (const Tap& tap : scene.taps) {
@@ -129,7 +130,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
                 t.on_y[i] *= 2 * A[i] / dt_;
             }
         }
-        std::vector<double> one(p_.count());  // 1 N of each point
+        std::vector<double> one(p_.count());  // 1 N at each point
         for (int p = 0; t.on_y.empty() && p < p_.count(); one[p++] = 0) {
             one[p] = 1;
             t.on_mean.push_back(heard_force(tap.quantity, p_, one.data()));

@@ -20,9 +20,9 @@ Square times(const Square& a, const Square& b) {
 
 struct Doubled {
     Square step;  // exp(A H)
-    Square loss;  // int over the step of y q q' y, as a form of y at its beginning
+    Square loss;  // int y q q' y over the step, a form in y at its beginning
 };
-// Taylor's series of a short step, then steps of twice the length.
+// Taylor's series for a short step, then steps of doubled length.
 Doubled exponential(const Square& A, const std::array<Real, states>& q, Real H) {
     Real norm = 0;
     for (const auto& row : A)
@@ -30,8 +30,8 @@ Doubled exponential(const Square& A, const std::array<Real, states>& q, Real H) 
     int doublings = 4;
     for (; norm > 1; norm /= 2) ++doublings;
     const Real h = std::ldexp(H, -doublings);
-    // y(t) = sum of (A t)^n y/n!, so the loss is the sum over m and n of h/(m+n+1) times
-    // ((A h)'^m q/m!) (q' (A h)^n/n!)
+    // y(t) = sum of (A t)^n y/n!, so the loss is the sum over m and n of h/(m+n+1) times ((A h)'^m
+    // q/m!) (q' (A h)^n/n!)
     Doubled all{};
     Square term{};
     for (int i = 0; i < states; ++i) term[i][i] = all.step[i][i] = 1;
@@ -63,8 +63,8 @@ Doubled exponential(const Square& A, const std::array<Real, states>& q, Real H) 
     return all;
 }
 
-// The variables (d, v tau, c u_0, c u_1 P_1, mean of d so far, 2 c u_1), tau^2 = c M: the norm of A
-// is a number of decays or turns. mass 0: a damper to the ground alone.
+// Uses the variables (d, v tau, c u_0, c u_1 P_1, mean of d so far, 2 c u_1), tau^2 = c M: the norm
+// of A is a number of decays or turns. mass 0: a damper to the ground alone.
 void put_step(ExactLadder::Pattern& s, double resistance, double span) {
     enum { d, v, mean, ramp, integral, rate };
     const Real R = resistance, c = s.c, H = span, tau = s.mass > 0 ? std::sqrt(c * s.mass) : 1;
@@ -72,7 +72,7 @@ void put_step(ExactLadder::Pattern& s, double resistance, double span) {
     A[d][d] = -1 / (R * c), A[d][mean] = A[d][ramp] = 1 / (R * c);
     if (s.mass > 0) A[d][v] = A[v][mean] = A[v][ramp] = 1 / tau, A[v][d] = -1 / tau;
     A[integral][d] = A[ramp][rate] = 1 / H;
-    std::array<Real, states> q{};  // of c u - d
+    std::array<Real, states> q{};  // for c u - d
     q[d] = -1, q[mean] = q[ramp] = 1;
     const Doubled all = exponential(A, q, H);
     std::array<std::array<Real, states>, 4> from{};  // by d, v, u_0, u_1

@@ -12,9 +12,9 @@ namespace jvari {
 
 namespace {
 constexpr double half_bit = std::numeric_limits<double>::epsilon();
-constexpr double radiates = 0.2;            // rho from which on rule D takes the contact
-constexpr double stiff = 1e10;              // of a rigid barrier, k T_00
-constexpr double rounding_squared = 1e-22;  // of r, by rule G
+constexpr double radiates = 0.2;            // value of rho above which rule D takes the contact
+constexpr double stiff = 1e10;              // for a rigid barrier, k T_00
+constexpr double rounding_squared = 1e-22;  // squared rounding error of r, in rule G
 constexpr int most_newton = 100, most_halvings = 25;
 
 MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
@@ -51,7 +51,7 @@ MomentRule::Quotient MomentRule::quotient(double from, double to, const Powers& 
     if (law_.alpha == 1 && from > 0 && to > 0)
         return {0.5 * (a.force + b.force), 0.5 * law_.k, 0.5 * law_.k};
     const double d = to - from;
-    if (from > 0 && std::abs(d) < 0.05 * from) {  // without the difference of V
+    if (from > 0 && std::abs(d) < 0.05 * from) {  // avoids the difference in V
         const double by = 1 / from;
         const auto [value, slope] = power_quotient(law_.alpha + 1, d * by);
         const double mean = a.force * share_ * value, by_to = a.force * share_ * slope * by;
@@ -85,7 +85,7 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
             return put(phi_0, phi_1, c_ * (phi_0 - phi_1), c_ * (phi_0 + phi_1));
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
-    if (E_1 > 0) {  // enters: no sum below has terms of both signs
+    if (E_1 > 0) {  // enters: no sum below has terms with both signs
         const double rise = E_1 - E_0,
                      square = c_ * c_ * rise * rise - 2 * c_ * E_1 * (A_0 * E_0 + A_1 * E_1);
         if (square >= 0) {
@@ -111,8 +111,8 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
     return (half != 0 && leaves(C / half)) || (A != 0 && leaves(half / A));
 }
 
-// One scalar equation in x = e_0: p = (x + T_11 V'(x) - E_0)/A_1, e_1 = E_1 - A_0 p + T_01 V'(x),
-// g = p - DV(x, e_1) = 0.   (9)
+// Solves one scalar equation in x = e_0: p = (x + T_11 V'(x) - E_0)/A_1, e_1 = E_1 - A_0 p + T_01
+// V'(x), g = p - DV(x, e_1) = 0.   (9)
 void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
                            MomentContact& s) const noexcept {
     if (E_0 <= 0 && E_1 <= 0) {
@@ -167,7 +167,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         }
         if (size > 1e-6 * scale && (!(next > low && next < high) || !(slope > 0)))
             next = std::isfinite(high) ? 0.5 * (low + high) : x + 2 * (x - low) + 1e-14;
-        // to rounding, which may be more where the contact is stiff
+        // to rounding, which may be larger if the contact is stiff
         s.converged = size <= 1e-14 * scale || std::abs(next - x) <= half_bit * std::abs(x) ||
                       (size <= 1e-11 * scale && size >= 0.5 * last);
         s.residual = size / scale;
@@ -175,7 +175,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         last = size;
         x = next;
     }
-    // p, not DV: where the contact is stiff, DV has the rounding of penetrations
+    // p, not DV: in a stiff contact DV has the rounding error of penetrations
     s.phi_0 = p, s.phi_1 = p - a.force, s.from = x, s.to = to;
     if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) {  // enters: the end from the energy
         b = powers(to);
@@ -190,8 +190,8 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     }
 }
 
-// Brackets p, between 0 and a force that is too large: slower, where rounding keeps by_lines and
-// by_newton from an end.
+// Brackets p, between 0 and a force that is too large: slower, for cases in which rounding keeps
+// by_lines and by_newton from an end.
 void MomentRule::by_bracket(const MomentMatrix& T, double E_0, double E_1,
                             MomentContact& s) const noexcept {
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
@@ -232,12 +232,12 @@ void MomentRule::without_loss(const MomentMatrix& T, double eta, double E_0, dou
     if (s.converged) return;
     const double A_1 = T.m10 + T.m11;
     if (A_1 > 1e-6 * T.m00) by_newton(T, eta, E_0, E_1, s);
-    // where forces move the contact by little, p is the small difference of two penetrations
+    // if forces hardly move the contact, p is the small difference between two penetrations
     const bool small = A_1 * std::abs(s.phi_0) < 1e-3 * (std::abs(s.from) + std::abs(E_0));
     if (!s.converged || (s.phi_0 != 0 && small)) by_bracket(T, E_0, E_1, s);
 }
 
-// The step with the dampers l_0, l_1 of (11).
+// Makes the step with the dampers l_0, l_1 from (11).
 void MomentRule::damped(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0,
                         double l_1, MomentContact& s) const noexcept {
     const MomentMatrix L{l_0 / span_, l_1 / span_, l_1 / span_, 3 * l_0 / span_};
@@ -249,8 +249,8 @@ void MomentRule::damped(const MomentMatrix& T, double eta, double b_0, double b_
     const auto push = [&](int i) {
         return i == 0 ? s.phi_0 - L.m00 * r_0 - L.m01 * r_1 : s.phi_1 - L.m10 * r_0 - L.m11 * r_1;
     };
-    // A contact that creeps moves by little beside b: what rounding leaves of r = b + T phi is put
-    // right by changes of r that the dampers alone resist.
+    // A creeping contact moves little beside b: rounding errors in r = b + T phi are corrected by
+    // changes in r that the dampers alone resist.
     const double off_0 = b_0 + T.m00 * push(0) + T.m01 * push(1) - r_0,
                  off_1 = b_1 + T.m10 * push(0) + T.m11 * push(1) - r_1;
     r_0 += I.m00 * off_0 + I.m01 * off_1, r_1 += I.m10 * off_0 + I.m11 * off_1;
@@ -262,7 +262,8 @@ void MomentRule::damped(const MomentMatrix& T, double eta, double b_0, double b_
     s.slope = {-L.m00, -L.m01, -L.m10, -L.m11};
 }
 
-// l_0 = beta DV(e_0, e_1), bracketed from 0 by regula falsi (Illinois); l_1 in a fixed ratio to it.
+// l_0 = beta DV(e_0, e_1), bracketed from 0 by regula falsi (Illinois); l_1 in a fixed ratio to
+// l_0.
 void MomentRule::with_loss(const MomentMatrix& T, double eta, double b_0, double b_1,
                            MomentContact& s) const noexcept {
     damped(T, eta, b_0, b_1, 0, 0, s);
@@ -307,7 +308,7 @@ void MomentRule::with_loss(const MomentMatrix& T, double eta, double b_0, double
     s.iterations = std::max(s.iterations, passes);
 }
 
-// A clipped loss: less of the dampers until the contact does not pull in the mean.
+// Handles a clipped loss: reduces the dampers until the mean contact force does not pull.
 void MomentRule::shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0,
                         double l_1, MomentContact& s) const noexcept {
     double low = 0, high = 1;
@@ -441,8 +442,8 @@ bool MomentRule::guess_in_full(const MomentMatrix& T, double eta, double b_0, do
     return s.to > 0 && eta - 0.5 * r_0 + 0.75 * std::min(r_1, 0.0) > 0;
 }
 
-// First from the line or rule D's step, else by a path from no compliances to all; a step that has
-// neither is rule D's, which loses what is lost there.
+// Starts from the line or rule D's step, or else follows a path from no compliances to all. A step
+// for which both fail is rule D's, with rule D's loss.
 void MomentRule::by_galerkin(const MomentMatrix& T, double eta, double b_0, double b_1,
                              MomentContact& s) const noexcept {
     if (stays_out(eta, b_0, b_1)) {

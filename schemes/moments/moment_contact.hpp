@@ -1,5 +1,5 @@
 // One contact over a step in which its force is a line, F = phi_0 + phi_1 P_1(s), s = (t - t_n)/H,
-// P_1 = 2s - 1 (docs/two-moments.md, where the equations have these numbers).
+// P_1 = 2s - 1 (docs/two-moments.md, which numbers the equations).
 //
 //     symbol    meaning                                                            unit
 //     r_0, r_1  moments of the point's velocity, int Y' dt and int Y' P_1 dt       m
@@ -17,9 +17,9 @@
 // Rule G (rho < 0.2, a contact alone): moments of V' over the parabola
 //     eta_0 - r_0 s - 3 r_1 (s^2 - s)                                                (10)
 //
-// Contact loss V'(eta) (1 + beta eta'): rule G integrates it as it stands. In rule D it is a line
-// lambda >= 0 of dampers with the moments l_0, l_1 (11); the step with the compliances
-// (1 + T L/H)^-1 T is the one without loss.
+// Contact loss V'(eta) (1 + beta eta'): rule G integrates it directly. In rule D the loss is a line
+// lambda >= 0 of dampers with the moments l_0, l_1 (11); the step uses the lossless rule with the
+// compliances (1 + T L/H)^-1 T.
 #pragma once
 
 #include "schemes/contact/contact.hpp"
@@ -36,16 +36,17 @@ struct MomentContact {            // over a step
     double lost = 0;              // [J]
     bool touches = false;         // at the end of the step
     bool by_parabola = false;     // by rule G
-    MomentMatrix slope;           // d phi/d r, where asked for [N/m]
+    MomentMatrix slope;           // d phi/d r, if requested [N/m]
     int iterations = 0;           // 0: closed form
     bool converged = true;
-    double residual = 0;  // relative, of the last iteration
+    double residual = 0;  // relative, in the last iteration
 };
 
 class MomentRule {
 public:
     MomentRule() = default;
-    // T: of the contact alone, the thread eliminated [m/N]; span: H [s]; alone: rule G may have it
+    // T: for the contact alone, the thread eliminated [m/N]; span: H [s]; alone: rule G may take
+    // the contact
     MomentRule(const ContactLaw&, double beta, LossLaw, const MomentMatrix& T, double span,
                bool alone = true);
 
@@ -59,10 +60,10 @@ public:
     bool stays_out(double eta, double b_0, double b_1) const;
     // One step from eta. T: the compliances, own or with others eliminated.
     MomentContact solve(const MomentMatrix& T, double eta, double b_0, double b_1) const noexcept;
-    // d phi/d b = slope (1 - T slope)^-1 of a step solved with these T
+    // d phi/d b = slope (1 - T slope)^-1 for a step solved with these T
     MomentMatrix answer(const MomentMatrix& T, const MomentContact&) const noexcept;
 
-    // (7) of a linear contact, without cancellation
+    // (7) for a linear contact, without cancellation
     double lost_linear(double eta, double from) const {
         if (from <= 0) return law_.potential(eta);
         return eta > 0 ? 0.5 * law_.k * (eta - from) * (eta - from)
@@ -70,7 +71,7 @@ public:
     }
 
 private:
-    struct Powers {  // of a penetration
+    struct Powers {  // powers of a penetration
         double V, force, slope;
     };
     struct Quotient {  // DV and its derivatives by both ends
@@ -92,7 +93,7 @@ private:
     void shrink(const MomentMatrix& T, double eta, double b_0, double b_1, double l_0, double l_1,
                 MomentContact&) const noexcept;
 
-    struct Integrals {  // of the force over the parabola, and their derivatives by r
+    struct Integrals {  // integrals of the force over the parabola, and their derivatives by r
         double phi_0 = 0, phi_1 = 0, lost = 0;
         MomentMatrix slope;
     };

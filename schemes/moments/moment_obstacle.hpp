@@ -9,12 +9,13 @@
 // thread, one matrix makes b for each contact and the thread's pull from x and free alone. Other
 // matrices make phi_c and the next x.
 //
-// Several contacts (docs/two-moments.md, section 7): 1. the contacts that touched after the last
-// step are in full contact, the others out: one
+// Several contacts (docs/two-moments.md, section 7):
+//   1. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
-// 2. if one contact contradicts this, its own equation with the others eliminated; 3. otherwise
-// Newton's steps on all contacts, each contact solved for itself. If no solution is found, even for
-// one contact alone, forces are constant in the step (contact_gram.hpp).
+//   2. if one contact contradicts this, its own equation with the others eliminated;
+//   3. otherwise Newton's steps on all contacts, each contact solved for itself.
+// If no solution is found, even for one contact alone, forces are constant in the step
+// (contact_gram.hpp).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The schemes of a shared object (jvari_scheme.h), as the program has schemes.
+// Makes schemes from a shared object (jvari_scheme.h), in the program's own form.
 #pragma once
 
 #include <string>

@@ -3,17 +3,17 @@
 // rigid ends, a bridge below which no node may pass.
 //
 // Loss: every wave decays by step_loss per step, so (9) becomes y+ = loss (y_{m+1} + y_{m-1}) -
-// loss^2 y-: the same string as sitar_waveguide's, sample by sample, where there is no bridge.
-// Under the bridge they differ: here a node that would pass is moved up by some d >= 0, an impulse
-// Z d that leaves to both sides and never pulls; there the returning wave alone is set. With `old`
-// for loss^2 y-,
+// loss^2 y-: the same string that sitar_waveguide has, sample by sample, without a bridge. Under
+// the bridge they differ. Here a node that would pass is moved up by some d >= 0, an impulse Z d
+// that leaves to both sides and never pulls; there only the returning wave is set. With `old` for
+// loss^2 y-,
 //
 //   sitar_fdm (12)              y+ = profile, the node is put back on it
 //                               loses energy
 //   characteristic_lattice (reference/)  y+ + old = max(2 profile, loss (y_{m+1} + y_{m-1}))
 //                                        tends to the motion on a flat wall
 //
-// The latter is of Schatzman & Bercovier, "Numerical approximation of a wave equation with
+// The latter comes from Schatzman & Bercovier, "Numerical approximation of a wave equation with
 // unilateral constraints", Math. Comp. 53, 1989.
 //
 // Left out: any stiffness of the contact, a fractional length, the second polarisation (the paper's
@@ -28,7 +28,7 @@ namespace jvari {
 
 namespace {
 
-enum class BridgeRule { clamping, characteristic };  // of a node that would pass the profile
+enum class BridgeRule { clamping, characteristic };  // for a node that would pass the profile
 
 template <BridgeRule rule>
 class SitarFdm final : public Scheme {
@@ -88,7 +88,7 @@ private:
         slopes_ *= loss2;
         ++steps_;
     }
-    // An impulse Z d at the node. Nodes do not see one another.
+    // Applies an impulse Z d at the node. Nodes do not see one another.
     void meet_bridge() noexcept {
         const double loss = s_.step_loss;
         double moved = 0, change = 0;
@@ -107,9 +107,10 @@ private:
         ledger_.impulse += s_.impedance() * moved;
         ledger_.force.note(s_.impedance() * moved / s_.dt);
     }
-    // Differences of the two travelling waves over two cells, squared: y(n+1, m) - loss y(n, m+1)
-    // is one of y_r, with m and m + 1 exchanged one of y_l. With loss = 1 it is the energy that the
-    // leapfrog conserves, kinetic plus the product of slopes now and before.
+    // Squared differences over two cells in the two travelling waves: y(n+1, m) - loss y(n, m+1) is
+    // a difference in y_r; with m and m + 1 exchanged it is one in y_l. With loss = 1 the sum is
+    // the energy that the leapfrog conserves, kinetic plus the product of the present and previous
+    // slopes.
     double slopes() const {
         double sum = 0;
         for (int m = 0; m < s_.cells; ++m) {
@@ -136,7 +137,7 @@ private:
 
     const SitarString s_;
     std::vector<double> now_, before_;  // y at the nodes [m]
-    double slopes_ = 0;                 // slopes() as it should be
+    double slopes_ = 0;                 // expected value of slopes()
     double slopes_dissipated_ = 0;      // since the last row [m^2]
     long steps_ = 0;
     BridgeLedger ledger_;

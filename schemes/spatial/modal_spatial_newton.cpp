@@ -1,22 +1,22 @@
 // Full-modal spatial Newton: exact three-point recursion per mode, conservative contact forces on
-// the nodes x_i = iL/N of a grid with as many interior nodes as modes. Source: Issanchou et al.
-// 2016, eqs 13-28. The matrices D of (15) and (19) are never formed, for they are full: the modes
-// are stepped (14), (17) and read at the nodes by (13).
+// the nodes x_i = iL/N of a grid with equally many interior nodes and modes. Source: Issanchou et
+// al. 2016, eqs 13-28. The matrices D in (15) and (19) are never formed, for they are full: the
+// modes are stepped (14), (17) and read at the nodes by (13).
 //
-// Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights; the
-// thread's force is the average of the outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ -
-// u-)/(2 dt), and is eliminated from the contact equation as in van Walstijn et al. 2016, eqs
-// 45-48; contacts that are no nodes, or have a thread beside them, are coupled and solved for
-// together. Leaves out two polarisations. On a body that moves (schemes/body) the points of all
-// strings are solved for together, and its acceleration is one more force.
+// Beyond the paper: barriers with a footprint, a thread and a pluck act through modal weights. The
+// thread's force is the average over the outer levels, F_c = k_c (h_c - (u+ + u-)/2) - r_c (u+ -
+// u-)/(2 dt), and is eliminated from the contact equation by van Walstijn et al. 2016, eqs 45-48.
+// Contacts that are no nodes, or have a thread beside them, are coupled and solved for together.
+// Leaves out two polarisations. On a body that moves (schemes/body) the points on all strings are
+// solved for together, and its acceleration is one more force.
 //
-// Option `compliance` = own (default, the paper's scheme) | matched: what cut and step take from
-// the string's compliance stands in series with contacts and thread (contact/compliance.hpp,
-// contact/obstacle.hpp); profiles are touched at points of their own (option `points`), and contact
-// loss is left out. Refused where the scheme is too soft already.
+// Option `compliance` = own (default, the paper's scheme) | matched: puts the compliance that cut
+// and step take from the string in series with contacts and thread (contact/compliance.hpp,
+// contact/obstacle.hpp). Profiles are then touched at separate points (option `points`), and
+// contact loss is left out. Refused if the scheme is too soft already.
 //
-// The string is that of modal/three_point_modes.hpp, its points the nodes. Rows, energy and start
-// are those of driver.hpp.
+// The string comes from modal/three_point_modes.hpp, with the nodes for points. Rows, energy and
+// start come from driver.hpp.
 #include <cmath>
 
 #include "schemes/body/instrument.hpp"
