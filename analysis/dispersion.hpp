@@ -32,9 +32,9 @@ struct Partial {
 std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from,
                                       double to);
 
-// The partial within `half_width` [Hz] of `guess` that is strongest at the first row: by energy
-// over the record a spurious pole that grows could pass for it. NaN where there is none. A good
-// half width is 0.4 of the distance to the next partial.
+// Partial within `half_width` [Hz] of `guess` that is strongest at the first row: by energy over
+// the record a growing spurious pole could be mistaken for it. NaN if there is none. A good half
+// width is 0.4 times the distance to the next partial.
 Partial strongest_near(std::span<const double> signal, double rate, double guess,
                        double half_width);
 

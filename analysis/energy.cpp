@@ -1,5 +1,5 @@
-// Source: energy.hpp. Sums are carried in long double: a second of rows must not add a rounding of
-// 1e-12 to a ledger that closes to 1e-11.
+// Source: energy.hpp. Sums are carried in long double: a ledger that closes to 1e-11 must not gain
+// a rounding of 1e-12 from a second of rows.
 #include "analysis/energy.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ EnergyBalance energy_balance(std::span<const double> stored, std::span<const dou
         const long double residual =
             std::abs(static_cast<long double>(stored[n]) - stored[n - 1] - entry);
         ledger += entry;
-        if (!std::isfinite(residual)) {  // also where stored[n] or an entry is not finite
+        if (!std::isfinite(residual)) {  // also if stored[n] or an entry is not finite
             balance.step = balance.accumulated = inf;
             balance.drift = nan;
             balance.step_row = static_cast<long>(n);

@@ -50,14 +50,14 @@ struct Figures {
 Figures figures_of(Balance, const Scene&, int modes, const Run&);
 
 // Ratio between a contact's pull and its largest push; 0 if the pull is at most pull_floor. NaN if
-// `least` is unknown. An unknown `largest` counts as zero, so any pull above the floor is then too
+// `least` is unknown. An unknown `largest` counts for zero, so any pull above the floor is then too
 // much.
 //
 // The scale is the largest push, because stiffness, tension and amplitude may have any size, and a
 // rounding error grows with the forces. Most schemes never pull at all. sitar_waveguide pulls with
-// 3e-8 of its largest push, by the rounding of its impulses, and the known-bad controls start at
+// 3e-8 times its largest push, by the rounding of its impulses, and the known-bad controls start at
 // 1e-6. The floor covers contacts that hardly touch. At 1e10 N/m, above every lumped obstacle in
-// the library, the rounding of a displacement of 1 mm (1e-19 m) is a force of 1e-9 N.
+// the library, rounding a displacement of 1 mm (by 1e-19 m) gives a force of 1e-9 N.
 double pull_of(double least, double largest);
 constexpr double pull_allowed = 1e-6;
 constexpr double pull_floor = 1e-9;  // [N]

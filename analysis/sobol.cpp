@@ -1,4 +1,4 @@
-// Left out: scrambling of digits. A study with some hundred points does not need it.
+// Left out: scrambling of digits. A study with some hundred points does not need scrambling.
 #include "analysis/sobol.hpp"
 
 #include <gsl/gsl_qrng.h>

@@ -14,7 +14,7 @@ public:
     SquaredTransform(const SquaredTransform&) = delete;
     SquaredTransform& operator=(const SquaredTransform&) = delete;
 
-    std::span<double> rows();   // what is transformed
+    std::span<double> rows();   // input of the transform
     void write(double* power);  // rows/2 + 1
 
 private:

@@ -1,11 +1,11 @@
 // Ideal string above a rigid profile on its lattice of characteristics, dx = c dt: Schatzman &
 // Bercovier, "Numerical approximation of a wave equation with unilateral constraints", Math. Comp.
-// 53 (1989), on the lattice of sitar_fdm.cpp. The lattice contains all modes of the string; its
-// error falls in inverse proportion to the number of cells, because each bounce comes two steps
-// late. On a flat wall the motion tends to the closed form of Bamberger and Schatzman, u = w + 2
-// sup (profile - w)^+ over the backward cone, w the free motion. That form holds until a contact's
-// reflection by an end or by an edge of the wall arrives. After that the lattice goes on, and no
-// closed form is known.
+// 53 (1989), on the lattice in sitar_fdm.cpp. The lattice contains all string modes; its error
+// falls in inverse proportion to the number of cells, because each bounce comes two steps late. On
+// a flat wall the motion tends to Bamberger and Schatzman's closed form, u = w + 2 sup (profile -
+// w)^+ over the backward cone, w the free motion. This form holds until a contact's reflection by
+// an end or by an edge of the wall arrives. After this instant the lattice goes on, and no closed
+// form is known.
 //
 // Rows fall on steps. Among the multiples of the tap rate that give about the requested number of
 // cells, the scheme takes the most accurately tuned one.

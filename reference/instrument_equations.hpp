@@ -94,7 +94,7 @@ struct InstrumentEquations final : Equations {
     }
 
     struct OfString {
-        int first = 0, count = 0;  // its modes
+        int first = 0, count = 0;  // range of its modes
         double mass = 0;           // modal mass [kg]
         std::vector<double> mu;    // [kg]
         std::optional<Pluck> pluck = {};

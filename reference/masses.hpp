@@ -12,7 +12,7 @@
 namespace jvari {
 
 Modes with_masses(Modes, const String&);
-// The argument is start_of() for the modes without the masses.
+// The argument is start_of() for the modes without masses.
 ModalStart with_masses(ModalStart, const Modes&, const String&);
 double share_of(const Modes&, const Mass&);
 

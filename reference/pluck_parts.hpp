@@ -1,5 +1,5 @@
 // Splits an interval into parts with a smooth pluck force: before the pluck, between two rows in
-// its file or from its start to its end, and after it.
+// its file or from start to end, and after the pluck.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,7 @@ public:
         for (const double t : pluck->time) knots_.push_back(t - start_);
     }
     // Calls part(from, to, plucked) for each part of the interval that begins at `now` [s] and runs
-    // from 0 to `length`; in seconds it lasts `unit` times longer. Returns false if a call returns
-    // false.
+    // from 0 to `length`; in seconds it lasts `unit` times longer. Returns false if any call does.
     template <class Part>
     bool each(double now, double length, double unit, Part part) const {
         double from = 0;

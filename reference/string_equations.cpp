@@ -125,7 +125,7 @@ StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     const Point& q = point_[a];
     const double eta = q.height - m.y;
     const double k = q.law.k, alpha = q.law.alpha;
-    if (a >= contacts) {  // its force moves its point by at_once F
+    if (a >= contacts) {  // the point's own force moves it by at_once F
         const double own = 1 + q.r * series_.at_once(a), F = (k * eta - q.r * m.v) / own;
         return {F, k / own, q.r / own, q.r, 0};
     }
@@ -205,9 +205,9 @@ double StringEquations::rounding(const double* z) const noexcept {
     return std::numeric_limits<double>::epsilon() * most;
 }
 
-// An impact at speed v on a barrier goes as deep as m v^2/2 = k eta^(alpha+1)/(alpha+1), m =
-// 1/sum(g^2/m_i) what the modes have there. Points close to each other push the same modes: their
-// stiffnesses add up, as Gershgorin's circles do.
+// Bounds the rate: an impact at speed v on a barrier reaches the depth m v^2/2 = k
+// eta^(alpha+1)/(alpha+1), with m = 1/sum(g^2/m_i) the modes' mass there. Points close to each
+// other push the same modes: their stiffnesses add up, like Gershgorin's circles.
 double StringEquations::pace(const double* z, bool decays) const noexcept {
     double decay = 0;
     for (int a = 0; a < contacts; ++a) {
@@ -219,7 +219,7 @@ double StringEquations::pace(const double* z, bool decays) const noexcept {
         const double depth = std::max(
             penetration(a, z), std::pow(v * v * (alpha + 1) / (2 * k * give), 1 / (alpha + 1)));
         stiffness_[a] = k * std::pow(depth, alpha - 1);
-        // of a point that has no mass
+        // decay rate for a point without mass
         if (decays) decay = std::max(decay, series_.at_once(a) * q.law.slope(depth));
     }
     double fastest = 0;

@@ -36,8 +36,8 @@ namespace {
     throw SceneFileError(path + ":" + std::to_string(line) + ": " + what);
 }
 
-// Rows without numbers list the modes one by one. A missing mode makes one frequency spacing twice
-// as wide as the spacing before, or as the first.
+// Rows without numbers list the modes one by one. A missing mode doubles one frequency spacing
+// relative to the spacing before, or to the first one.
 void refuse_gaps(const std::string& path, const std::vector<int>& lines,
                  const std::vector<double>& hertz) {
     constexpr double wide = 1.6;

@@ -133,7 +133,7 @@ double hann_smoothing(double beta, double s) {
 }
 
 double coefficient(const TriangleShape& t, double length, int mode) {
-    // its square would overflow an int
+    // the square would overflow an int
     const double beta = mode * pi / length, x0 = t.position, number = mode;
     return 2 * t.amplitude * length * length / (number * number * pi * pi * x0 * (length - x0)) *
            std::sin(beta * x0) * hann_smoothing(beta, t.smoothing);
@@ -173,7 +173,7 @@ double rise_and_fall(const Pluck& e) {
 double available_energy(const String& s, const Modes& modes) {
     const ModalStart start = start_of(modes, s);
     const std::vector<double>& y = start.displacement;
-    double energy = 0, stretch = 0;  // stretch: integral of y'^2 [m]
+    double energy = 0, stretch = 0;  // stretch: integral over y'^2 [m]
     for (int i = 0; i < modes.count(); ++i) {
         const double v = start.velocity[i], w = modes.omega0[i] * y[i];
         energy += 0.5 * modes.mass * (v * v + w * w);

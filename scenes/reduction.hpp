@@ -2,9 +2,9 @@
 //
 // The body is kept: its filters change only the sound at the taps, and its modes stay unchanged.
 //
-// Keys are the keys of scene files. Any subset of the reductions can be applied in list order:
-// first the changes of a value, then the removals of a part, then removals from arrays, last entry
-// first. So each key keeps its meaning.
+// Keys are the keys in scene files. Any subset of the reductions can be applied in list order:
+// first changed values, then removed parts, then entries removed from arrays, last entry first. So
+// each key keeps its meaning.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ enum class Part {
     damping,
     bending_stiffness,
     thread,
-    initial_shape,  // if there is a pluck as well
-    pluck,          // if there is an initial shape as well
+    initial_shape,  // if there is a pluck too
+    pluck,          // if there is an initial shape too
     polarisation,
     tap,  // if there is another
     barrier,
@@ -43,8 +43,8 @@ struct Reduction {
     }
 };
 
-// Returns all reductions that apply to this scene. A contact whose exponent becomes 1 keeps its
-// force at the penetration `penetration` [m].
+// Returns all reductions that apply to this scene. If a contact's exponent becomes 1, its force is
+// kept at the penetration `penetration` [m].
 std::vector<Reduction> reductions_of(const Scene&, double penetration = 1);
 
 // Removes force taps for contacts that no longer exist, except the tap `kept`.

@@ -28,7 +28,7 @@ fs::path library() {
     return {};
 }
 
-// "scenes/a.toml" and "./a" are files; "a" is a file too if the working directory has one of that
+// "scenes/a.toml" and "./a" are files; "a" is a file too if the working directory has one by this
 // name.
 std::string path_of(const std::string& name) {
     std::error_code error;
@@ -89,7 +89,7 @@ Scene parse_scene(std::string_view text, const std::string& file_name,
     Scene scene;
     try {
         scene = scene_of(document);
-        // --set string.1.tension=40 on a scene of one string begins another
+        // --set string.1.tension=40 on a single-string scene begins another
     } catch (const SceneFileError& e) {
         const std::string why = e.what();
         if (why.starts_with("--set ") && why.find(": found nothing") != std::string::npos)

@@ -32,7 +32,7 @@ Scene read_scene(const std::string& file_or_library_name,
 Scene parse_scene(std::string_view text, const std::string& file_name,
                   const std::vector<std::string>& overrides = {});
 
-// Lists the scene file and the files of its tables.
+// Lists the scene file and its tables' files.
 std::vector<std::string> files_of(const Scene&, const std::string& file_or_library_name);
 
 // Writes TOML that reads back into an equal scene, if its tables lie beside the file.

@@ -136,7 +136,7 @@ public:
             if (!beside || overridden) wire_[key] = value;
         }
     }
-    // Reads exactly one among three keys. If an override brings one, the others in the file stay
+    // Reads exactly one among three keys. If an override brings one, the file's other keys stay
     // unread.
     void tension(String& s) {
         const char* chosen = nullptr;
@@ -301,8 +301,8 @@ private:
     std::string beside(const std::string& file) const {
         return (std::filesystem::path(document_.file).parent_path() / file).string();
     }
-    // A file named by an override is found from the working directory of the program, and that
-    // place is kept.
+    // A file named by an override is found from the program's working directory, and its place is
+    // kept.
     std::string found_from(const Value& v, const std::string& file) const {
         return v.place < 0 ? (std::filesystem::current_path() / file).string() : file;
     }

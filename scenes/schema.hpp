@@ -1,14 +1,13 @@
 // Schema for scene files: every part's keys in writing order, each with its unit, its range and its
 // default. Four passes use the schema: naming the keys, reading, writing, and checking ranges.
-// validate.cpp checks rules that involve several values, such as a bridge beyond the end of the
-// string.
+// validate.cpp checks rules that involve several values, for example a bridge beyond the string's
+// end.
 //
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
 // scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), modes
-// (columns with numbered rows), one_of (a variant and the key that chooses it), material (with a
-// diameter, in place of two numbers), tension (or a pitch), start ("rest" or a CSV file, in place
-// of a table), start_table (its columns), force (a file), part (a table) and parts (an array of
-// tables).
+// (columns with numbered rows), one_of (a variant and its choosing key), material (with a diameter,
+// in place of two numbers), tension (or a pitch), start ("rest" or a CSV file, in place of a
+// table), start_table (its columns), force (a file), part (a table) and parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -41,7 +40,7 @@ inline constexpr Range not_negative{"a number >= 0", 0};
 inline constexpr Range one_or_more{"a number >= 1", 1};
 inline constexpr Range fraction{"a number above 0 and at most 1", 0, 1, true};
 
-struct Column {  // one column in a CSV file
+struct Column {  // column in a CSV file
     const char* name;
     const char* alias;
     Range range;

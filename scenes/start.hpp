@@ -39,7 +39,8 @@ double displacement_at(const TableStart&, double length, double x);
 // Empty if no string that the tap hears starts this way, or if its tension grows.
 std::optional<double> force_of_a_corner(const Scene&, const Tap&);
 
-double largest_displacement(const String&);  // of the initial shape, 0 for an equilibrium [m]
+// largest value in the initial shape, 0 for an equilibrium [m]
+double largest_displacement(const String&);
 
 // Multiplies displacement, velocity and pluck by `factor`; an equilibrium stays unchanged.
 String scaled(String, double factor);

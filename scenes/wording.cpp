@@ -39,7 +39,7 @@ std::optional<double> number_of(std::string_view text) {
     return error == std::errc() && end == text.data() + text.size() ? std::optional(x)
                                                                     : std::nullopt;
 }
-#else  // a standard library that has both for whole numbers alone: Emscripten's
+#else  // a standard library that has both only for whole numbers: Emscripten's
 std::string number_text(double x) {
     char scientific[32], fixed[400];
     if (!std::isfinite(x)) return std::isnan(x) ? "nan" : x < 0 ? "-inf" : "inf";
@@ -105,7 +105,8 @@ bool is_text(std::string_view s) {
 }
 
 std::string unfit_as_file(std::string_view name) {
-    constexpr std::size_t longest = 100;  // of 255 bytes that a file's name may have
+    // leaves room below the 255 bytes that a file name may have
+    constexpr std::size_t longest = 100;
     if (name.empty()) return "is empty";
     if (name.size() > longest)
         return "has " + std::to_string(name.size()) + " bytes, and at most " +

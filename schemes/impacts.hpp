@@ -29,13 +29,14 @@ struct Impact {
 
 class Impacts {
 public:
-    explicit Impacts(const String&);  // a string of the scene
+    explicit Impacts(const String&);  // a string in the scene
 
     // Adds a part of a contact during which the barrier touched all the time.
     void add(const Impact& part);
 
     struct Step {  // one step of a scheme, on one contact
-        // end of the step, time that it counts for, time in which the string moved by `moved` [s]
+        // end of the step, time that the step counts for, time in which the string moved by `moved`
+        // [s]
         double to, lasts, span;
         double force, moved, lost;  // [N], [m], [J]
     };
@@ -49,7 +50,7 @@ private:
         double speed = 0;  // in the last step
         bool known = false, touches = false;
     };
-    struct Last {  // last row of a barrier, and the force of all its points in the step to `until`
+    struct Last {  // a barrier's last row, and the force at all its points in the step to `until`
         int row = -1;
         double force = 0, until = -1;
     };

@@ -25,7 +25,7 @@ bool declares(const Descriptor&, const std::string& option_name);
 Features approximated(const Descriptor&);
 double margin_of(const Descriptor&, const Scene&, const Settings&);
 
-// Value for a declared option, or its fallback. A choice is one of its words:
+// Value for a declared option, or its fallback. A choice is one among its words:
 // choice_option(settings, levels) == "3".
 std::string option(const Settings&, const Option&);
 std::string choice_option(const Settings&, const Option&);

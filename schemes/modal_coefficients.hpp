@@ -17,7 +17,7 @@
 namespace jvari {
 
 struct ModeStep {
-    double num, den;                                // as above
+    double num, den;                                // see above
     double loss;                                    // 1 - R^2
     double C() const { return 0.5 * (den - num); }  // (14)
     double C_tilde() const { return 1 - loss; }

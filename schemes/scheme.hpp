@@ -67,8 +67,8 @@ struct Fact {
     std::string unit;  // "N"
 };
 
-// Value of a fact, or NaN if the scheme does not report it. If each of several strings reports the
-// fact, the value is the least for smallest contact forces and the largest for any other fact.
+// Value of a fact, or NaN if the scheme does not report it. If several strings report the fact, the
+// value is the least for smallest contact forces and the largest for any other fact.
 double fact_of(const std::vector<Fact>&, const std::string& name);
 inline double fact_of(const std::vector<Fact>& all, const FactName& known) {
     return fact_of(all, known.name);
@@ -161,7 +161,7 @@ struct Limit {
     double (*margin)(const Scene&, const Settings&) = nullptr;
 };
 
-// Ways in which a reference confirms itself in a certificate: options to run it with.
+// Confirms a reference in its certificate: options for further runs.
 using OptionValues = std::vector<std::pair<std::string, std::string>>;
 struct Confirmation {
     // other accuracies of this reference; {} is the default run
@@ -201,8 +201,8 @@ struct Descriptor {
 
 // Makes a scheme; there is no other way. Refuses features that the scheme does not represent,
 // options that it does not declare or finds twice, and words that an option does not take. Then
-// calls `make`, once for each string of the scene, or once for all on a moving body. Throws
-// Refusal, BadScene, or BadScheme.
+// calls `make`, once for each string, or once for all on a moving body. Throws Refusal, BadScene,
+// or BadScheme.
 std::unique_ptr<Scheme> make_scheme(const Descriptor&, const Scene&, const Settings&);
 
 }  // namespace jvari

@@ -15,7 +15,7 @@ namespace jvari {
 // outcome comes from the string that fails first, and a failure names its string.
 std::unique_ptr<Scheme> several_strings(const Descriptor&, const Scene&, const Settings&);
 
-// ---- One string among several, for any scheme that steps them together.
+// ---- Single strings, for any scheme that steps them together.
 
 struct HeardTap {  // a tap of the scene, on one string
     int column;

@@ -29,8 +29,8 @@ struct Trace {
     }
 };
 
-// First row with t >= seconds. An instant within 1e-6 rows of a row is that row: 0.05 s x 44100 Hz
-// is row 2205 whatever its rounding.
+// First row with t >= seconds. An instant within 1e-6 rows of a row counts exactly there: 0.05 s x
+// 44100 Hz is row 2205 whatever the rounding.
 long row_at(double seconds, double rate);
 
 // ||a - b||/||b|| over the common rows; 0 if both are zero, +inf if b alone is. Sums are taken
@@ -38,7 +38,7 @@ long row_at(double seconds, double rate);
 double relative_difference(std::span<const double> a, std::span<const double> b);
 
 // First instant t [s] at which ||a - b||_[0,t] exceeds level x max(||b||_[0,t], max |b|), [0,t]
-// with its last row; the last row of b if that never happens. An a that stops early or is not
+// with its last row; the last row in b if this never happens. An a that stops early or is not
 // finite agrees until its last sound row.
 double agree_until(std::span<const double> a, std::span<const double> b, double rate, double level);
 

@@ -330,7 +330,7 @@ int MacroWindow::act(double at, const double* e, const double* M) noexcept {
     for (int b = 0; b < contacts; ++b)
         if (M[b * stride] != 0) push(b, M + b * stride);
     thread_impulse_ = 0;
-    if (threaded()) {  // its own motion, and its answer kappa_b * F_b to each contact
+    if (threaded()) {  // the thread's own motion, and its answer kappa_b * F_b to each contact
         double* m = moments_.data() + contacts * stride;
         sweep_->combined(m, size, force_.data() + contacts * stride, known_, e + 1, 1);
         for (int b = 0; b < contacts; ++b)

@@ -1,6 +1,6 @@
-// The inner loops of a macro window, compiled once per instruction set: the modes read once, the
-// modes moved once, and the sums over short vectors in between. Modes are in blocks of sweep_lanes,
-// each with its own number of terms: slow modes need few.
+// Inner loops of a macro window, compiled once per instruction set: the modes read once, the modes
+// moved once, and the sums over short vectors in between. Modes are in blocks of sweep_lanes, each
+// with its own number of terms: slow modes need few.
 #pragma once
 
 namespace jvari {
@@ -9,13 +9,14 @@ constexpr int sweep_lanes = 32;  // modes in a block; they are padded to a multi
 
 struct ModalSweep {
     int modes = 0, outputs = 0, forces = 0;
-    int count = 0, stride = 0;                // read: derivatives of an output, and between outputs
+    // read: derivatives per output, and distance between outputs
+    int count = 0, stride = 0;
     const int* terms = nullptr;               // [block]
-    const double *y = nullptr, *u = nullptr;  // state; u = velocity in units of the window
+    const double *y = nullptr, *u = nullptr;  // state; u = velocity in window units
     const double *a = nullptr, *b = nullptr;  // y'' = -a y' - b y
-    // The last output's weights are `base`, and the others' are in units of those: a product less
-    // for each term. Likewise of the forces.
-    // [mode], zero for what fills a vector alone
+    // Weights: the last output's are `base`, and the others' are relative to them, which saves a
+    // product in each term. The forces' gains are stored likewise. [mode], zero in the padding of a
+    // vector
     const double* base = nullptr;
     // [output but the last][mode]
     const double* weights = nullptr;
@@ -25,7 +26,7 @@ struct ModalSweep {
     double* reach = nullptr;
     // move: the free motion's matrix
     const double *e11 = nullptr, *e12 = nullptr, *e21 = nullptr, *e22 = nullptr;
-    // [term], of a force whose gains are `base`
+    // [term], for a force with gains `base`
     const double* base_moments = nullptr;
     // [force][mode], over base
     const double* const* gains = nullptr;
@@ -45,17 +46,17 @@ struct SweepFunctions {
     void (*combined)(double* out, int size, const double* x, int count, const double* A, long step);
     // e[n] = u^n/n!, n < count in whole vectors of at most 8
     void (*powers)(double u, int count, const double* inverse_factorial, double* e);
-    // out[k] = sum_n p[n + k] u^n/n!, k < 3, n < size <= 32: a motion of derivatives p at u, and
+    // out[k] = sum_n p[n + k] u^n/n!, k < 3, n < size <= 32: a motion with derivatives p at u, and
     // its first two derivatives there
     void (*evaluate)(const double* p, int size, double u, double* out);
-    // The same of |p[n + k]| for k = 2, 3: bounds of the second and third derivatives up to u
+    // Likewise for |p[n + k]|, k = 2, 3: bounds on the second and third derivatives up to u
     void (*bound)(const double* p, int size, double u, double* out);
-    // The least and the largest coefficient of the motion of derivatives p over [0, u] in
-    // Bernstein's polynomials of degree size - 1 <= 31, which it stays between. bernstein: C(i,
+    // Least and largest coefficient in Bernstein's polynomials of degree size - 1 <= 31 for the
+    // motion with derivatives p over [0, u]; the motion stays between them. bernstein: C(i,
     // n)/(C(size - 1, n) n!) [n][i]
     void (*range)(const double* p, const double* bernstein, int size, double u, double* out);
-    // sum_j matrix[j][i] x[j] = right[i] without pivots, first the factors in the place of the
-    // matrix, then x in the place of right. scratch: size, a multiple of 8
+    // Solves sum_j matrix[j][i] x[j] = right[i] without pivots: first the factors replace the
+    // matrix, then x replaces right. scratch: size, a multiple of 8
     void (*factor)(double* matrix, double* scratch, int size);
     void (*substitute)(const double* matrix, double* right, double* scratch, int size);
     // out[j][i] = row[i] A[j][i] + row2[i] A2[j][i], and 1 more where i = j; A2 may be absent

@@ -8,7 +8,7 @@
 namespace jvari {
 
 namespace {
-double largest_eigenvalue(const Modes& m) {  // of s^2 + 2 sigma s + omega0^2
+double largest_eigenvalue(const Modes& m) {  // largest root of s^2 + 2 sigma s + omega0^2
     double rate = 0;
     for (int i = 0; i < m.count(); ++i) {
         const double over = -omega_squared_damped(m.omega0[i], m.sigma[i]);

@@ -23,7 +23,7 @@ constexpr int longest_series = 56;  // coefficients of any series here
 struct Oscillators {
     explicit Oscillators(const Modes&);
 
-    // modes, rounded up to whole vectors; what is beyond the last mode stays zero
+    // number of modes, rounded up to whole vectors; the padding beyond the last mode stays zero
     int padded = 0;
     double rate = 0;           // largest |eigenvalue| [1/s]; velocities are u = v/rate [m]
     std::vector<double> a, b;  // padded

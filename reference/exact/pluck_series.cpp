@@ -15,7 +15,7 @@ double pluck_window(const Pluck& e) {
 
 void pluck_series(const Pluck& e, double u, double h, int count, double* c) {
     if (!e.time.empty()) {
-        constexpr double rounding = 1e-6;  // of a line: no window begins so near its end
+        constexpr double rounding = 1e-6;  // for a line: no window begins so near its end
         const double t = e.start + u;
         std::size_t k = line_at(e, t);
         if (k + 2 < e.time.size() && e.time[k + 1] - t < rounding * (e.time[k + 1] - e.time[k]))
@@ -28,8 +28,8 @@ void pluck_series(const Pluck& e, double u, double h, int count, double* c) {
     }
     // h_e is even in the skew
     const double k = std::abs(e.skew), x = u / e.duration, step = h / e.duration;
-    // warped(x) = sinh(kx)/sinh(k) and its slope k cosh(kx)/sinh(k), as scenes/excitation.cpp
-    // writes them: no overflow, limits x and 1.
+    // warped(x) = sinh(kx)/sinh(k) and its slope k cosh(kx)/sinh(k), written like in
+    // scenes/excitation.cpp: no overflow, limits x and 1.
     const double warped =
         k == 0 ? x : std::exp(k * (x - 1)) * std::expm1(-2 * k * x) / std::expm1(-2 * k);
     const double warped_slope =

@@ -93,9 +93,9 @@ void Springs::solve(const char* touching, double z, const double* p, int p_terms
     double power[longest_series];  // z^(i+1)
     power[0] = z;
     for (int i = 1; i < p_terms; ++i) power[i] = power[i - 1] * z;
-    const auto pass_on = [&](int b, int m) {  // what F_b^(m) adds to every later y
+    const auto pass_on = [&](int b, int m) {  // adds the effect of F_b^(m) to every later y
         const double f = F[b * longest_series + m];
-        // h^(i) z^(i+1) no longer counts beyond p_terms, as for p
+        // h^(i) z^(i+1) no longer counts beyond p_terms, like p
         const int last = std::min(p_terms, terms - 1 - m);
         for (int a = 0; a < points; ++a) {
             double* const later = y + a * longest_series + m + 1;

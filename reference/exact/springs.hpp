@@ -23,11 +23,12 @@ namespace jvari {
 struct Springs {
     Springs(const Modes&, const Oscillators&, const String&, const std::optional<InSeries>& = {});
 
-    // points 0 ... contacts - 1; the thread, where there is one, is the last point
+    // points 0 ... contacts - 1; the thread, if there is one, is the last point
     int contacts = 0;
-    int points = 0;                    // contacts and thread
-    int forces = 0;                    // one per point, and the pluck's the last where there is one
-    std::vector<double> k, r, height;  // [N/m], [N/m] (damper x rate), [m], one per point
+    int points = 0;  // contacts and thread
+    // one per point; the pluck's force, if there is one, is the last
+    int forces = 0;
+    std::vector<double> k, r, height;  // [N/m], [N/m] (damper x rate), [m], for each point
     std::vector<double> weights;       // g_a [point][mode]
     std::vector<double> gains;         // g_b/(m rate^2) [force][mode], [m/N]
     std::vector<double> kernel;        // h_ab^(n) [point][force][n], [m/N]

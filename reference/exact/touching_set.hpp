@@ -30,7 +30,7 @@ public:
 
     bool solves() const { return pairs_ > 0 || !resolvent_.empty(); }
     int pairs() const { return pairs_; }
-    // of what is not split off: its derivatives are at most so much larger each
+    // growth of the unsplit part: limit on the ratio between its successive derivatives
     double growth() const { return growth_; }
     double span() const { return span_; }  // how far a solution reaches [window]
     const std::vector<int>& points() const { return points_; }
@@ -40,18 +40,18 @@ public:
         return -k_[which] * shape_[points_[which] * pairs_ + pair];
     }
 
-    // From r[contact][stride], derivatives: the derivatives of every contact's slow part,
-    // path[contact][stride], and the amplitudes of its pairs, amplitude[contact][pairs].
+    // Solves from r[contact][stride], derivatives. Returns the derivatives of every contact's slow
+    // part, path[contact][stride], and the amplitudes of its pairs, amplitude[contact][pairs].
     void solve(const double* r, double* path, std::complex<double>* amplitude) noexcept;
 
-    // of the last solve()
+    // from the last solve()
     std::complex<double> beta(int pair) const { return {beta_[2 * pair], -beta_[2 * pair + 1]}; }
 
     // at u [N]
     double force(int which, const double* path, const std::complex<double>* amplitude,
                  double u) const noexcept;
 
-    // int_0^u (u - w)^i/i! F_b(w) dw, i < size, of the contact points()[which], right for i <
+    // int_0^u (u - w)^i/i! F_b(w) dw, i < size, for the contact points()[which], right for i <
     // count.
     void moments(int which, const double* path, const std::complex<double>* amplitude, double u,
                  int count, double* m) const noexcept;
@@ -64,13 +64,13 @@ private:
     int pairs_ = 0;
     double growth_ = 0, span_ = 1;
     std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
-    // of a soft set: r -> path over its span [contact][point][column: derivative][row]
+    // for a soft set: r -> path over its span [contact][point][column: derivative][row]
     std::vector<double> resolvent_;
     // G [column: derivative][column: point][row: point][row: derivative]
     std::vector<double> inverse_;
     // p(0), p'(0) -> Re beta and -Im beta [pair][2][2 x points]
     std::vector<double> start_;
-    // what Re beta and -Im beta of a pair add to the slow part [contact][pair][2][size]
+    // contribution of a pair's Re beta and -Im beta to the slow part [contact][pair][2][size]
     std::vector<double> slow_;
     // p' = r' - this x p at a start [touching contact]
     std::vector<double> pushed_at_once_;

@@ -75,7 +75,8 @@ public:
     double f() const { return f_; }  // in that step [N]
     double a() const { return a_; }  // w'' [m/s^2]
 
-    double potential(double w) const { return 0.5 * stiffness_ * w * w; }  // of the tension [J]
+    // energy of the tension [J]
+    double potential(double w) const { return 0.5 * stiffness_ * w * w; }
     // for the ends' share, momentum = sum mu_i v_i' [J]
     double kinetic(double velocity, double momentum) const {
         return (0.5 * inertia_ * velocity + momentum) * velocity;

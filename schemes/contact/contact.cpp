@@ -83,8 +83,8 @@ ContactSolution stay(double p, double scale, double eta, double B, double S) {
 ContactSolution enter(double k, double p, double gap, double free, double theta) {
     ContactSolution s;
     const double T = theta * k / p;
-    // x^p < free (gap + x)/T: whichever of gap and x is larger gives the bound, near the root where
-    // T x^p carries the step
+    // x^p < free (gap + x)/T: the larger one of gap and x gives the bound, near the root if T x^p
+    // carries the step
     const double carried = std::log(free / T);
     const double near = gap > 0 ? (carried + std::log(gap)) / p : -HUGE_VAL,
                  deep = carried / (p - 1);
@@ -129,7 +129,7 @@ ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b,
     if (eta <= 0 && eta + b <= 0) return {-b, 0.0};  // stays out
     const double p = law.alpha + 1;
     if (eta <= 0) return enter(law.k, p, -eta, eta + b, theta);
-    // a penetration below the rounding of the step is none
+    // a penetration below the rounding of the step counts for none
     if (b * epsilon > eta) return enter(law.k, p, 0.0, b, theta);
     const double B = b / eta, scale = law.k / p * power(eta, law.alpha), S = theta * scale / eta;
     if (S >= 1 + B) {  // leaves: rho = r/eta >= 1 solves rho^2 + B rho - S = 0
@@ -137,7 +137,7 @@ ContactSolution solve_power_contact(const ContactLaw& law, double eta, double b,
         const double rho = B > 0 ? 2 * S / (B + root) : 0.5 * (root - B);
         return {rho * eta, scale / rho};
     }
-    // Where p is high, V(eta) can be below double's range or (1+z)^p above it: nothing beside V of
+    // If p is high, V(eta) can be below double's range or (1+z)^p above it: negligible beside V at
     // the new depth, but r still ends at eta.
     if (p > 12 && B > 1 &&
         (scale < std::numeric_limits<double>::min() ||

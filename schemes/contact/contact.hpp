@@ -17,12 +17,12 @@
 
 namespace jvari {
 
-// 2 a where that is a whole number and small, else 0.
+// 2 a if this is a small whole number, otherwise 0.
 inline int halves_in(double a) {
     const int halves = a <= 6 ? static_cast<int>(2 * a) : 0;
     return halves == 2 * a ? halves : 0;
 }
-// x^a, x >= 0. Halves of whole numbers, the exponent of Hertz among them, take a root and products.
+// x^a, x >= 0. Halves of whole numbers, such as Hertz's exponent, take a root and products.
 inline double power(double x, double a) {
     const int halves = halves_in(a);
     if (halves <= 0) return std::pow(x, a);
@@ -51,8 +51,8 @@ struct ContactLaw {
 };
 
 // Hunt & Crossley 1975 over a step: F = G (1 - kappa r), G the force of the spring alone. F' = G' -
-// kappa (r G)' <= 0, since G falls and r G, the energy given, rises: one solution. It loses kappa G
-// r^2 >= 0 and pulls only where the contact opens faster than 1/beta, as the law does. Clipped, F
+// kappa (r G)' <= 0, since G falls and r G, the energy given, rises: one solution. The loss is
+// kappa G r^2 >= 0. F pulls only if the contact opens faster than 1/beta, like the law. Clipped, F
 // = 0 there.
 struct StepLoss {
     double kappa = 0;  // beta/span [1/m]
@@ -60,7 +60,7 @@ struct StepLoss {
     double factor(double r) const { return clipped ? std::max(0.0, 1 - kappa * r) : 1 - kappa * r; }
 };
 
-struct Contacts {  // of a string
+struct Contacts {  // the contacts on a string
     std::vector<ContactLaw> laws;
     std::vector<double> heights;  // [m]
     std::vector<double> loss;     // Hunt-Crossley beta [s/m]
@@ -86,7 +86,7 @@ struct Contacts {  // of a string
     }
 };
 
-struct ForceRange {  // of the forces of contacts on the string, over a run [N]
+struct ForceRange {  // range of the contact forces on the string, over a run [N]
     double least = 0, most = 0;
     void note(double force) {
         least = std::min(least, force);
@@ -99,8 +99,8 @@ struct ContactSolution {
     double force = 0;    // mean force on the string over the step, >= 0 without loss [N]
     int iterations = 0;  // 0: closed form
     bool converged = true;
-    // of the equation at the last iterate, before its final correction, relative to its largest
-    // term
+    // residual of the equation at the last iterate, before its final correction, relative to its
+    // largest term
     double residual = 0;
 };
 
@@ -134,8 +134,8 @@ struct PowerQuotient {
 // ((1+z)^p - 1)/z and its derivative, z >= -1, with the limits p and p (p-1)/2 at z = 0
 PowerQuotient power_quotient(double p, double z);
 
-// The depth eta with eta + S V'(eta) = zeta: of a contact that a compliance S [m/N] in series holds
-// back. zeta itself where that is negative.
+// Depth eta with eta + S V'(eta) = zeta: for a contact held back by a compliance S [m/N] in series.
+// zeta itself if negative.
 double depth_in_series(const ContactLaw&, double zeta, double S);
 
 inline ContactSolution solve_contact(const ContactLaw& law, double eta, double b, double theta) {

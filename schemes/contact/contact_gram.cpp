@@ -8,7 +8,8 @@ namespace jvari {
 
 namespace {
 constexpr int most_iterations = 100, plain_iterations = 20;
-constexpr double rounding = 2e-15;     // of the terms of one equation: nothing finer can be asked
+// relative to an equation's terms: nothing finer can be reached
+constexpr double rounding = 2e-15;
 constexpr double force_change = 1e-8;  // relative; Newton's next error is about its square
 }  // namespace
 
@@ -156,8 +157,8 @@ const ContactGram::Closed& ContactGram::closed(std::size_t group, std::uint64_t 
     return kept;
 }
 
-// Forces where the contacts of a set stay in contact, another, `one` or -1, does what its own
-// equation says, and the rest stays out. With D = k/2 of the set,
+// Forces if the contacts in a set stay in contact, another, `one` or -1, follows its own equation,
+// and the rest stays out. With D = k/2 for the set,
 //
 //     (1/D + Theta) F = 2 eta + b - Theta_s1 F_1,    b_1' = b_1 - Theta_1s F_0,
 //     Theta_11' = Theta_11 - Theta_1s (1/D + Theta)^-1 Theta_s1
@@ -226,7 +227,7 @@ bool ContactGram::solve_by_set(std::size_t group, const double* eta, const doubl
     const Group& g = groups_[group];
     if (of_the_ends_ || losing_ || g.count > 64) return false;
     std::uint64_t set = 0;
-    int one = -1;  // a contact of another exponent than 1
+    int one = -1;  // a contact with an exponent other than 1
     for (int i = 0; i < g.count; ++i) {
         const int a = order_[g.first + i];
         if (!(eta[a] > 0)) continue;
@@ -265,7 +266,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             f[a] = alone(a, eta[a], rest).force;
         }
 
-    const auto reach = [&](int a) {  // the scale of rounding in r_a's equation
+    const auto reach = [&](int a) {  // scale of rounding in r_a's equation
         double sum = std::abs(b[a]) + std::abs(eta[a]);
         for (int j = 0; j < n; ++j)  // G and kappa r G may nearly cancel
             sum += std::abs(theta_[a * stride + set[j]]) *
@@ -282,7 +283,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             const MeanForce F = force_at(set[i], eta[set[i]], depth_[set[i]]);
             mean_[set[i]] = F.value;
             slope_[set[i]] = F.slope;
-            if (loses(set[i]))  // of whose terms r has the digits of eta
+            if (loses(set[i]))  // r has the digits of eta in these terms
                 spring_[set[i]] = spring_at(set[i], eta[set[i]], depth_[set[i]]).value *
                                   (1 + loss_[set[i]].kappa * std::abs(eta[set[i]]));
         }
@@ -323,7 +324,7 @@ GramSolution ContactGram::solve_group(const Group& group, const double* eta, con
             const double start = merit_slope(0);
             const double end = merit_slope(1),
                          allowed = s.iterations <= plain_iterations ? 0.25 * std::abs(start) : 0;
-            // past the minimum: bisect for a point before it where the slope has fallen by half
+            // past the minimum: bisect for a point before it at which the slope has fallen by half
             if (end > allowed) {
                 double low = 0, high = 1;
                 for (int i = 0; i < 60; ++i) {

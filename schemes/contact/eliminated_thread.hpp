@@ -98,7 +98,7 @@ struct ContactTally {
 struct ContactAndThread {
     bool contact = false, thread = false;
     ContactLaw law;
-    double height = 0, theta = 0;  // of the contact; theta: with a yielding thread (48)
+    double height = 0, theta = 0;  // contact height; theta: with a yielding thread (48)
     EliminatedThreads::One of_thread;
     ContactTally tally;
 

@@ -142,7 +142,7 @@ private:
     double span_, lost_by_rule_ = 0;  // in the last step [J]
     int levels_;
     bool centred_ = false, fused_ = false;
-    ContactAndThread one_;  // its tally covers all contacts
+    ContactAndThread one_;  // the tally covers all contacts
     std::optional<FewContacts> few_;
     std::optional<Residual> series_;
     std::vector<double> eta_, now_, b_, r_, gained_;

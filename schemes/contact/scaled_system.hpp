@@ -28,7 +28,7 @@ public:
         for (int j = 0; j < n; ++j) {
             double* L = column(j);
             if (!(L[j] > 0) || !std::isfinite(L[j])) return false;
-            L[j] = 1 / std::sqrt(L[j]);  // its reciprocal: no division in solve
+            L[j] = 1 / std::sqrt(L[j]);  // reciprocal: no division in solve
             for (int i = j + 1; i < n; ++i) L[i] *= L[j];
             for (int k = j + 1; k < n; ++k)
                 for (int i = k; i < n; ++i) column(k)[i] -= L[k] * L[i];

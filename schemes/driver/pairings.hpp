@@ -22,14 +22,14 @@ constexpr int rules_counted[] = {JVARI_RULES(JVARI_ROW)}, rule_count = std::size
 
 struct StringRow {
     const Descriptor* scheme;  // by the discrete gradient
-    // by each other rule: {JVARI_RULES(JVARI_MAKER)} of a template made<Rule>
+    // by each other rule: {JVARI_RULES(JVARI_MAKER)} for a template made<Rule>
     MakeScheme makers[rule_count];
     struct Known {
         const char* rule;
         const Descriptor* scheme;
         const char* options = "";
     };
-    Known known[rule_count] = {};  // cells that have a name already
+    Known known[rule_count] = {};  // cells that already have a name
 };
 #define JVARI_MAKER(name, Rule, source) make<Rule>,
 #define JVARI_STRING(name) extern const StringRow name;
@@ -37,10 +37,11 @@ struct StringRow {
 #undef JVARI_STRING
 
 struct Pairing {
-    std::string string, rule, scheme, options;  // options: by which the scheme is this pairing
+    // options: the scheme's options that select this pairing
+    std::string string, rule, scheme, options;
 };
 // all cells, row by row, the discrete gradient first
 std::vector<Pairing> pairings();
-const std::vector<Descriptor>& schemes_of_pairings();  // those that are made here
+const std::vector<Descriptor>& schemes_of_pairings();  // the pairings made here
 
 }  // namespace jvari

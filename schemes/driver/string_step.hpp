@@ -34,8 +34,8 @@ struct StringPoints {  // a string in the form that the solver for its points ne
     Contacts contacts;
     // one at most, except for strings on a moving body (schemes/body/instrument.hpp)
     std::vector<Thread> threads;
-    std::vector<Mass> masses;  // on the last contacts (free_masses.hpp)
-    std::vector<Tap> taps;     // if there are masses: all taps in their scene
+    std::vector<Mass> masses;       // on the last contacts (free_masses.hpp)
+    std::vector<Tap> taps;          // all taps in the scene
     std::vector<double> positions;  // x_p for each point [m], contacts first
     // row-major over the points, followed by the moving body if there is one. Units: [m/N] between
     // points, [s^2] with the body, [kg s^2] for the body alone

@@ -1,20 +1,19 @@
-// What the finite difference schemes share: one string on the grid x_l = l dx, l = 0..N, dx = L/N,
-// with simply supported ends.
+// Shared code for the finite difference schemes: one string on the grid x_l = l dx, l = 0..N, dx =
+// L/N, with simply supported ends.
 //
 // Sources: Bilbao, Torin & Chatziioannou 2015 (grid, stability limit, energy), Bilbao 2009 chapter
 // 7 (theta scheme), Chatziioannou & van Walstijn 2015 (two-step midpoint), van Walstijn et al. 2016
 // eqs 5-6 (footprints). D2 is the second difference with u_0 = u_N = 0 and D4 = D2 D2, so that
 // sin(i pi l/N) is an eigenvector of both: D2 -> -lambda_i, lambda_i = 4/dx^2 sin^2(i pi/2N).
 // Footprints are projected on the grid's hat functions; the weights that spread a force also read
-// the displacement, which is what closes the energy balance. A point (width 0) is the hat function
-// itself. Profiles are lumped: a node carries the stiffness density times dx. The loss is 2 sigma0
-// u_t - 2 sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a
-// general one. All three are non-negative: no wavenumber of the grid gains energy.
-// With compliance=matched what the grid takes from the string's compliance stands in series with
-// the points, and profiles are touched at points of their own (option `points`): at its nodes a
-// grid yields more than the true string.
-// Left out: contact loss with compliance=matched, measured modes, polarisation; a moving body by
-// the midpoint scheme.
+// the displacement, which closes the energy balance. A point (width 0) is the hat function itself.
+// Profiles are lumped: a node carries the stiffness density times dx. The loss is 2 sigma0 u_t - 2
+// sigma1 u_xxt + 2 sigma2 u_xxxxt, fitted to the scene's law, since a grid cannot follow a general
+// one. All three are non-negative: no wavenumber of the grid gains energy. With compliance=matched
+// the compliance that the grid takes from the string stands in series with the points, and profiles
+// are touched at separate points (option `points`): at its nodes a grid yields more than the true
+// string. Left out: contact loss with compliance=matched, measured modes, polarisation; a moving
+// body by the midpoint scheme.
 #pragma once
 
 #include <optional>
@@ -52,7 +51,7 @@ struct Grid {
 Stencil footprint_stencil(const Grid&, double position, double width);
 // cubic through four nodes, odd about the ends
 Stencil displacement_stencil(const Grid&, double position);
-// -T y' + EI y''' at L, both of fourth order, odd about L
+// -T y' + EI y''' at L, both fourth order, odd about L
 Stencil nut_force_stencil(const Grid&, const String&);
 
 // ---- Losses.
@@ -63,11 +62,11 @@ struct LossFit {        // sigma(beta) ~ sigma0 + sigma1 beta^2 + sigma2 beta^4
     double sigma2 = 0;  // [m^4/s]
     double misfit = 0;  // worst relative error over the modes below 20 kHz
 
-    // [1/s], of beta^2 [1/m^2]
+    // [1/s], as a function of beta^2 [1/m^2]
     double at(double square) const { return sigma0 + (sigma1 + sigma2 * square) * square; }
 };
-// Least squares of the relative error over the modes below 20 kHz, each octave of them weighing the
-// same; no coefficient negative.
+// Least squares for the relative error over the modes below 20 kHz, each octave with the same
+// weight; no coefficient negative.
 LossFit fit_losses(const String&);
 
 // ---- Stability limits, dt [s], dx [m].
@@ -95,38 +94,39 @@ double spacing_margin(const String&, const Settings&, double spacing_limit);
 // Refusal unless a whole number, 5 or more
 Grid grid_of(const Descriptor&, const String&, double intervals);
 
-// ---- A string of the scene on its grid.
+// ---- A string on its grid.
 
 struct GridTap {
     Quantity quantity;
-    Stencil stencil;  // none of a contact force; else not empty
+    Stencil stencil;  // empty for a contact force, and only then
 };
 struct GridString {
     Grid grid;
-    double mass = 0;            // mu dx, of a node [kg]
+    double mass = 0;            // mu dx, for a node [kg]
     double c2 = 0, kappa2 = 0;  // T/mu [m^2/s^2], EI/mu [m^4/s^2]
     LossFit loss;
     std::vector<double> start, start_velocity;  // u_0..u_N at t = 0 [m], [m/s]
     bool moves = false;                         // at t = 0
     StringPoints points;                        // theta: the scheme's to fill in
-    std::vector<Stencil> stencils;              // where obstacles read and push, of each point
+    // for each point, the nodes at which obstacles read and push
+    std::vector<Stencil> stencils;
     Stencil pluck_stencil;
-    // of the first contact under a steady force, relative to the scene's string; 0 unless it is
-    // lumped
+    // compliance of the first contact under a steady force, relative to the scene's string; 0
+    // unless the contact is lumped
     double compliance = 0;
-    // footprint of the narrowest lumped barrier or thread [cells]; 0 where there is none
+    // footprint of the narrowest lumped barrier or thread [cells]; 0 if there is none
     double narrowest = 0;
     std::vector<GridTap> taps;
-    bool on_body = false;  // that moves
+    bool on_body = false;  // true on a moving body
     Stencil mu;            // and the inertia of a node against its acceleration [kg]
 };
-// Von Neumann relations; m and m4 as in three_point_string.hpp.
+// Von Neumann relations; m and m4 from three_point_string.hpp.
 FreeMode three_point_mode(const GridString&, double dt, double m, double m4, int mode);
 FreeMode midpoint_mode(const GridString&, double dt, int mode);
 
 GridString on_grid(const Descriptor&, const Scene&, const Settings&, const Grid&, const LossFit&);
 
-// What every scheme on a grid represents.
+// Features that every scheme on a grid represents.
 constexpr Features grid_features =
     Feature::bending_stiffness | Feature::damping | Feature::frequency_dependent_damping |
     Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
@@ -143,7 +143,7 @@ public:
     BandedFactor(const Grid&, double a0, double a2, double a4);  // Refusal unless positive definite
     // u_1..u_{N-1} in place, between finite u_0 and u_N
     void solve(double* u) const noexcept;
-    // the response to a stencil, cut where it has fallen below rounding
+    // Response to a stencil, cut below rounding
     Stencil solve(const Stencil&) const;
 
 private:

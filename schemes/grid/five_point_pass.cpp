@@ -32,7 +32,7 @@ void pass(const FivePointWeights& w, int intervals, double* HWY_RESTRICT next,
         }
         hn::StoreU(sum, d, next + l);
     }
-    // clears the end, and the values that the last vector wrote beyond it
+    // clears the end, and the last vector's overhang
     hn::StoreU(hn::Zero(d), d, next + intervals);
 }
 

@@ -24,7 +24,7 @@ public:
         solve_ = GridSolve(g_.grid, 1 + g_.loss.sigma0 * dt, -quarter * g_.c2 - g_.loss.sigma1 * dt,
                            quarter * g_.kappa2 + g_.loss.sigma2 * dt);
         double slope = quarter * g_.c2 / h2, curve = quarter * g_.kappa2 / (h2 * h2);
-        // all multiples of it are doubles up to a0
+        // all multiples of this unit are doubles up to a0
         const double unit = std::ldexp(1.0, std::ilogb(2 * slope + 6 * curve) - 52);
         slope = unit * std::nearbyint(slope / unit);
         curve = unit * std::nearbyint(curve / unit);
@@ -52,7 +52,7 @@ public:
         step_ = 0;
         budget_ = HUGE_VAL;
     }
-    void expect(double energy) noexcept { budget_ = energy; }  // what it has at the start [J]
+    void expect(double energy) noexcept { budget_ = energy; }  // energy at the start [J]
 
     void approach(bool) noexcept {
         const int N = g_.grid.intervals;

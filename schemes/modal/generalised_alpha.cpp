@@ -1,19 +1,19 @@
-// What finite-element programs do by default, on a string in its modes: the generalised-alpha
-// method (Chung & Hulbert 1993) or HHT (Hilber, Hughes & Taylor 1977) with a penalty at the
-// contacts. With x_a = (1 - a) x^{n+1} + a x^n,
+// Default time integrators in finite-element programs, on a string in its modes: the
+// generalised-alpha method (Chung & Hulbert 1993) or HHT (Hilber, Hughes & Taylor 1977) with a
+// penalty at the contacts. With x_a = (1 - a) x^{n+1} + a x^n,
 //
 //     m (v'_{alpha_m} + 2 sigma v_{alpha_f} + omega0^2 q_{alpha_f}) = f_{alpha_f}
 //     q^{n+1} = q + dt v + dt^2 [(1/2 - beta) v' + beta v'^{n+1}],
 //     v^{n+1} = v + dt [(1 - gamma) v' + gamma v'^{n+1}]
 //
-// gamma = 1/2 - alpha_m + alpha_f, beta = (1 - alpha_m + alpha_f)^2/4. rho = rho_inf, what a mode
-// far above the rate keeps in a step, is option `rho`: alpha_m = (2 rho - 1)/(rho + 1), alpha_f =
-// rho/(rho + 1); of HHT alpha_m = 0, alpha_f = (1 - rho)/(1 + rho), rho >= 1/2. f_{alpha_f} is the
-// mean of the forces at both ends (contact/end_forces_rule.hpp), so one scalar equation remains per
-// contact. Frequencies are warped, and for rho < 1 high modes are damped, as such programs do. No
-// energy balance; the stored energy is the true one. Option `compliance` = own (default) | matched:
-// what the cut modes take, in series.
-// Leaves out: contact loss with it; polarisation; the body.
+// gamma = 1/2 - alpha_m + alpha_f, beta = (1 - alpha_m + alpha_f)^2/4. rho = rho_inf, the fraction
+// that a mode far above the rate keeps in a step, is option `rho`: alpha_m = (2 rho - 1)/(rho + 1),
+// alpha_f = rho/(rho + 1); for HHT alpha_m = 0, alpha_f = (1 - rho)/(1 + rho), rho >= 1/2.
+// f_{alpha_f} is the mean between the forces at both ends (contact/end_forces_rule.hpp), so one
+// scalar equation remains per contact. Frequencies are warped, and for rho < 1 high modes are
+// damped, like in such programs. No energy balance; the stored energy is the true one. Option
+// `compliance` = own (default) | matched: puts the compliance of the cut modes in series. Leaves
+// out: contact loss with compliance=matched; polarisation; the body.
 #include "scenes/excitation.hpp"
 #include "schemes/contact/end_forces_rule.hpp"
 #include "schemes/driver/driver.hpp"
@@ -160,7 +160,7 @@ public:
 
 private:
     int count() const { return modes_.count(); }
-    // of a step's displacement [m/N]
+    // displacement in a step per unit force [m/N]
     double gain(int i) const { return dt_ * dt_ * w_.beta() * inverse_[i] / modes_.mass; }
     double moved(int i, double a) const {
         return dt_ * v_[i] + dt_ * dt_ * ((0.5 - w_.beta()) * a_[i] + w_.beta() * a);
@@ -171,12 +171,12 @@ private:
     Modes modes_;
     StringPoints p_;
     std::vector<std::vector<double>> g_;  // the contacts in order, then the thread
-    std::vector<double> g_e_, inverse_;   // inverse_: of what multiplies v'^{n+1}
+    std::vector<double> g_e_, inverse_;   // inverse_: inverse of the factor on v'^{n+1}
     ModalStart start_;
     std::vector<double> q_, v_, a_, next_, push_, older_, free_;
     std::vector<std::pair<Quantity, std::vector<double>>> taps_;
     long step_ = 0;
-    // of the step: the pluck's force [N]; the points' readings added up [m]
+    // in the step: the pluck's force [N]; the points' readings added up [m]
     double F_e_ = 0, sum_ = 0;
 };
 

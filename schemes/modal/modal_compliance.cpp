@@ -1,5 +1,5 @@
 // Source: docs/compliance-matching.md; C_scheme is a sum over modes, since each scheme here steps
-// its modes one by one.
+// modes separately.
 #include "schemes/modal/modal_compliance.hpp"
 
 #include "schemes/modal/modal_string.hpp"

@@ -1,9 +1,9 @@
-// Modal schemes with quadratised (linearly implicit) contact: the strings of two_point_modes.hpp
+// Modal schemes with quadratised (linearly implicit) contact: the strings in two_point_modes.hpp
 // (van Walstijn et al. 2016, eqs 38-52) and three_point_modes.hpp (Issanchou et al. 2016) with
 // quadratised_rule.hpp. Energy columns hold the scheme's own energy, with psi^2/2 for the contact;
-// the facts tell how far that is from the true one. Option `compliance` = own (default) | matched:
-// what cut and step take from the string's compliance stands in series with barrier and thread.
-// Leaves out: contact loss with compliance=matched; polarisation.
+// the facts report its distance from the true energy. Option `compliance` = own (default) |
+// matched: puts the compliance that cut and step take from the string in series with barrier and
+// thread. Leaves out: contact loss with compliance=matched; polarisation.
 #include "schemes/contact/quadratised_rule.hpp"
 #include "schemes/driver/driver.hpp"
 #include "schemes/making.hpp"

@@ -50,7 +50,7 @@ std::vector<double> tap_weights(const Tap&, const Modes&, const String&);
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
 
-// sum w x of padded arrays (kernels/modal_two_point_kernel.cpp)
+// sum w x for padded arrays (kernels/modal_two_point_kernel.cpp)
 double modal_dot(const AlignedVector& w, const AlignedVector& x);
 // the same for unpadded arrays, in order
 inline double modal_dot(const std::vector<double>& w, const std::vector<double>& x) {

@@ -1,10 +1,10 @@
-// The two-moment scheme: modes exact under forces that are lines in the step, docs/two-moments.md.
+// Two-moment scheme: modes exact under forces that are lines in the step, docs/two-moments.md.
 //
 // Contacts by rule D or G (moments/moment_contact.hpp), chosen by their compliances before the run
-// (fact `conserving_contacts`). Option `compliance` as in modal_two_point.cpp; matched, the ladder
-// of the cut modes is exact in the step too. Modes above half the sample rate move as they should,
-// and alias in the rows. Leaves out: a moving body, polarisation, and profiles, whose many points
-// cost more than what a slope of the force gains.
+// (fact `conserving_contacts`). Option `compliance` has the meaning in modal_two_point.cpp;
+// matched, the ladder of the cut modes is exact in the step too. Modes above half the sample rate
+// move correctly, and alias in the rows. Leaves out: a moving body, polarisation, and profiles,
+// whose many points cost more than a linear force gains.
 #include "schemes/driver/driver.hpp"
 #include "schemes/modal/modal_compliance.hpp"
 #include "schemes/modal/two_moment_modes.hpp"

@@ -1,14 +1,14 @@
-// The modal two-point scheme: van Walstijn, Bridges & Mehes 2016, eqs 16-52 (the update in the form
-// of two_point_modes.hpp).
+// Modal two-point scheme: van Walstijn, Bridges & Mehes 2016, eqs 16-52 (the update in the form of
+// two_point_modes.hpp).
 //
-// Exact modal frequencies and decay by the coefficients of eq 33; the thread eliminated by eqs
-// 45-47; one barrier, whose force is the two-point discrete gradient of eq 30. Starts from rest
-// with q = 0 as in the paper: with losses that is not quite the true rest, a freely decaying mode
-// begins with a small phase offset (fact `start_phase_offset`); without losses free motion is exact
-// to rounding. Option `compliance` = own (default, the paper's scheme) | matched: what truncation
-// and step take from the string's compliance stands in series with barrier and thread
-// (contact/compliance.hpp), and its part is added to displacement and nut force.
-// `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i of eq 32 not replaced:
+// Exact modal frequencies and decay by the coefficients in eq 33; the thread eliminated by eqs
+// 45-47; one barrier, whose force is the two-point discrete gradient in eq 30. Starts from rest
+// with q = 0, like the paper. With losses this differs slightly from the true rest: a freely
+// decaying mode begins with a small phase offset (fact `start_phase_offset`). Without losses free
+// motion is exact to rounding. Option `compliance` = own (default, the paper's scheme) | matched:
+// puts the compliance that truncation and step take from the string in series with barrier and
+// thread (contact/compliance.hpp), and adds its part to displacement and nut force.
+// `modal_two_point_trapezoidal` is the same with the coefficients a_i, b_i in eq 32 not replaced:
 // stable, and dispersive. Leaves out: contact loss and a moving body with compliance=matched;
 // polarisation.
 #include "schemes/body/body_modes.hpp"
@@ -21,7 +21,7 @@ namespace jvari {
 
 namespace {
 
-TwoPointCoefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i of (32)
+TwoPointCoefficients trapezoidal(double omega0, double sigma, double dt) {  // a_i, b_i in (32)
     return {0.25 * omega0 * omega0 * dt * dt, sigma * dt};
 }
 

@@ -1,5 +1,5 @@
-// Reads the tables in jvari_scheme.h. It reads no member beyond the size that a structure declares,
-// and no table from another version.
+// Reads the tables in jvari_scheme.h. It reads no member beyond a structure's declared size, and no
+// table from another version.
 #include "schemes/open/open_plugin.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Struct as_far_as_it_goes(const Struct& theirs) {
     return ours;
 }
 
-struct Table : jvari_scheme {  // one scheme, owned by its guest
+struct Table : jvari_scheme {  // a scheme, owned by its guest
     const jvari_scheme* theirs;
     std::deque<std::string> texts;
     std::vector<Option> option_list;

@@ -88,15 +88,15 @@ void lay_bridge(SitarString& s, double plucked) {
     for (int m = 0; m < nodes; ++m)
         if (plucked * initial_shape(s.shape, x[m]) < s.profile[m])
             throw Refusal("the initial shape lies below the bridge");
-    // stiffness and exponent of the contact law play no part
+    // the contact law's stiffness and exponent have no effect
     s.facts.push_back({facts::rigid_barrier, 1});
     s.facts.push_back({facts::bridge_nodes, static_cast<double>(nodes)});
     s.facts.push_back({facts::bridge_length_error, nodes * s.dx - barrier.to});
 }
 
 namespace {
-// How much a Hann window of full width s rounds |u|/2 off, h = (1 + cos(2 pi u/s))/s: its second
-// integral less |u|/2. 0 beyond the window.
+// Amount by which a Hann window of full width s rounds |u|/2 off, h = (1 + cos(2 pi u/s))/s: its
+// second integral minus |u|/2. 0 beyond the window.
 double corner(double u, double s) {
     if (std::abs(u) >= 0.5 * s) return 0;
     return u * u / (2 * s) - s / (4 * pi * pi) * std::cos(2 * pi * u / s) + s / 8 -
@@ -113,7 +113,7 @@ struct ShapeAt {
     double operator()(const TriangleShape& t) const {
         const double x0 = t.position, kink = t.amplitude * L / (x0 * (L - x0));
         const double sharp = t.amplitude * (x < x0 ? x / x0 : (L - x) / (L - x0));
-        // of opposite sign beyond each end
+        // images with opposite sign beyond each end
         const double image = corner(x + x0, t.smoothing) + corner(2 * L - x - x0, t.smoothing);
         return sharp - kink * (corner(x - x0, t.smoothing) - image);
     }

@@ -1,4 +1,4 @@
-// Pass over the modes for modal_two_point_kernel.hpp, with the sums over lanes that end it. Highway
+// Pass over the modes for modal_two_point_kernel.hpp, with the closing sums over lanes. Highway
 // compiles it once per instruction set.
 #if defined(JVARI_MODAL_TWO_POINT_PASS) == defined(HWY_TARGET_TOGGLE)
 #ifdef JVARI_MODAL_TWO_POINT_PASS
@@ -35,7 +35,7 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Col
 struct NewMode {
     V y, u;
 };
-// One vector of modes under the points' forces.
+// Moves a vector of modes under the points' forces.
 HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
     const D d;
     const auto of = [&](Column q) HWY_ATTR __attribute__((always_inline)) {
@@ -50,8 +50,8 @@ HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
     return {y, u};
 }
 
-// One pass: the update and the next dots. The number of points is a template argument, so that an
-// absent point costs nothing. Two accumulators per dot hide the latency of adding.
+// Makes a single pass: the update and the next dots. The number of points is a template argument,
+// so that an absent point costs nothing. Two accumulators per dot hide the latency of adding.
 template <int points, bool dots_of_y>
 HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) {
     const D d;

@@ -20,7 +20,7 @@ namespace {
 using Stream = TwoMomentStream;
 constexpr int any_number = -1;  // points counted at run time
 
-// Sums of on_a a + on_b b, for several weights in one pass.
+// Sums on_a a + on_b b, for several weights in one pass.
 template <int count>
 HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, const Stream& m,
                         double* to) {
@@ -124,7 +124,7 @@ HWY_INLINE void many_points(Stream& m, const double* HWY_RESTRICT phi, bool forc
         V sum = hn::Zero(d);
         for (int k = 0; k < Stream::line; k += N)
             sum = hn::Add(sum, hn::Load(d, sums + p * Stream::line + k));
-        sums[p] = hn::GetLane(hn::SumOfLanes(d, sum));  // behind all that are still to be read
+        sums[p] = hn::GetLane(hn::SumOfLanes(d, sum));  // behind all sums that are still to be read
     }
 }
 

@@ -30,7 +30,7 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x
 }
 
 // Sums over the lanes of four vectors at once: half the shuffles that four separate sums need, each
-// by halving twice.
+// by halving halves.
 HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
     const D d;
 #if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
@@ -49,8 +49,8 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
 #endif
 }
 
-// Keeps v in a register from here on: GCC 12 otherwise reads it from memory at each use, three
-// loads instead of one, and a pass waits for its loads.
+// Keeps v in a register from here on: GCC 12 otherwise reads v from memory at each use, three loads
+// instead of a single one, and a pass waits for its loads.
 HWY_INLINE V in_register(V v) {
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
     asm("" : "+v"(v.raw));
