@@ -24,10 +24,10 @@ struct Partial {
     double phase;  // [rad], at the first row
 };
 
-// The partials with from < f < to [Hz] that stand out of the noise and are at most 140 dB below the
-// signal's largest value, by ascending frequency. There are none if the signal is too short for the
-// band (the filter alone needs about 6.5/(to - from) seconds), not finite, or zero, or if the band
-// is wider than rate/5. Choose one at least twice as wide as the decay rate in Hz (sigma/pi), with
+// Partials with from < f < to [Hz] that stand out of the noise and are at most 140 dB below the
+// signal's largest value, by ascending frequency. The list is empty if the signal is too short for
+// the band, not finite, or zero, or if the band is wider than rate/5. (The filter alone needs about
+// 6.5/(to - from) seconds.) Choose a band at least twice the decay rate in Hz (sigma/pi), with
 // fewer than about 40 partials.
 std::vector<Partial> partials_between(std::span<const double> signal, double rate, double from,
                                       double to);

@@ -1,5 +1,5 @@
-// Reads tables: measured modes, profiles of a bridge, starts and forces of a scene, and strings in
-// the shops' gauges.
+// Reads tables: measured modes, profiles of a bridge, starts and forces of a scene, and strings on
+// sale.
 #pragma once
 
 #include <optional>

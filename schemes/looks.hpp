@@ -16,7 +16,7 @@ constexpr long rows_between_looks = 256;
 
 struct Look {
     bool now;    // at this row
-    long until;  // the first later row with another answer
+    long until;  // first later row for which the answer may differ
 };
 
 class Looks {

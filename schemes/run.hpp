@@ -11,8 +11,8 @@ namespace jvari {
 struct RunOptions {
     bool energy = false;  // keep the energy columns
     int block_rows = 64;  // rows per advance(); the output does not depend on it
-    // evaluates no energy except for the rows that are kept; another run checks that this one stays
-    // within its energy
+    // Evaluates no energy except for the rows that are kept; another run checks that this one stays
+    // within its energy.
     bool timed = false;
     bool state = false;  // keeps the state at the last row
     // one for each string, filled with its contacts; nullptr: not requested

@@ -91,7 +91,7 @@ public:
     virtual ~Scheme() = default;
     virtual void reset() noexcept = 0;  // back to t = 0
     // Starts like reset(), but from the state of another scheme between two blocks: a sounding
-    // string is tuned, damped or plucked again without a cut. `from` is made by the same scheme,
+    // string is tuned, damped or plucked again without a cut. The other object is the same scheme,
     // with equally many modes, barriers and threads. Returns false and changes nothing if the
     // scheme cannot do this. After success there is no start of the scene left for reset() to
     // restore. Allocates nothing.

@@ -62,7 +62,7 @@ public:
         if (singular_ && ends) return;
         const double distance = std::min(since_, leaves - last_);
         if (singular_ && last_ > near * distance) {
-            // from grade_
+            // share of the length from which grade_ is learnt
             const double learnt = last_ / (scale_ * std::pow(distance, by_distance_));
             return learn(edge_,
                          grade_ * std::min(1.0, learnt) *

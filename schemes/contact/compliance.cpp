@@ -149,7 +149,7 @@ struct Answer {
             sum += yield(i) * s * s / (square(i) + s * s);
         return sum;
     }
-    double inertia(double nyquist) const {  // E for the modes below
+    double inertia(double nyquist) const {  // E for the modes below nyquist
         double sum = 0;
         for (int i = modes.count() - 1; i >= kept; --i)
             if (modes.omega0[i] < nyquist) sum += yield(i) / square(i);

@@ -184,8 +184,8 @@ private:
         for (const PegFilter& peg : peg_) sum += peg.slopes(s_.step_loss);
         return sum;
     }
-    // Reflects at both ends, for steps that end at place `to` on the rails, the last step there,
-    // and take the waves from the other end at `from` and the places after it.
+    // Reflects at both ends. The steps end at place `to` on the rails, the last step there. They
+    // take the waves from the other end at `from` and the places after it.
     [[gnu::always_inline]] void reflect(int to, int from, int steps) noexcept {
         const double way = loss_[s_.cells], c = w_.cosine, s = w_.sine;
         double* __restrict R = right(0), * __restrict L = left(0);
