@@ -11,12 +11,12 @@ namespace jvari {
 namespace {
 using Signal = std::span<const double>;
 constexpr long reach = 16;        // rows on either side for interpolation between rows
-constexpr long seek_rows = 8192;  // number of rows on which a whole delay is sought
+constexpr long seek_rows = 8192;  // number of rows for the search of a whole delay
 constexpr std::size_t most_delays = 8;
 constexpr double much_better = 0.25;  // ratio to the remaining square at a smaller delay
 constexpr double furthest_stretch = 0.125;
 
-// Weights for rows -15 ... 16 that give the value at `part` of a row, 0 <= part < 1.
+// Weights for rows -15 ... 16 that give the value at row fraction `part`, 0 <= part < 1.
 std::array<double, 2 * reach> weights_at(double part) {
     std::array<double, 2 * reach> w{};
     if (part == 0) {
@@ -69,7 +69,7 @@ double cubic(Signal r, double at) {
                             f * (3 * (p[0] - p[1]) + p[2] - p[-1])));
 }
 
-// Rows on which a stretch is judged: those whose place in the reference has all neighbours.
+// Rows on which a stretch is judged: rows whose place in the reference has all neighbours.
 struct Judged {
     long from, to;
 };

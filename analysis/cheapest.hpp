@@ -1,5 +1,4 @@
-// Finds the cheapest of several runs with the requested accuracy, and other runs that may be
-// cheapest.
+// Finds the cheapest run with the requested accuracy, and other runs that may be cheapest.
 #pragma once
 
 #include <limits>

@@ -29,7 +29,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Convolves a whole signal; the result has as many rows as the signal.
+// Convolves a whole signal; result and signal have equally many rows.
 std::vector<double> convolved(std::span<const double> signal, std::span<const double> response);
 
 }  // namespace jvari

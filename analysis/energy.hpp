@@ -14,7 +14,7 @@ namespace jvari {
 
 struct EnergyBalance {
     double largest_stored;   // [J]; the residuals are relative to it
-    double smallest_stored;  // [J]; if negative, the scheme's energy is not a norm of its state
+    double smallest_stored;  // [J]; if negative, the scheme's energy is no norm on its state
     // max_n |stored[n] - stored[n-1] - supplied[n] + dissipated[n]| / largest_stored
     double step;
     long step_row;  // the row where the maximum is reached; 0 for a single row
@@ -32,11 +32,11 @@ EnergyBalance energy_balance(std::span<const double> stored, std::span<const dou
                              std::span<const double> dissipated);
 EnergyBalance energy_balance(const Trace&);  // all NaN if the run was not probed
 
-// Energy that a run gained, for schemes whose balance need not close. A loss that feeds energy in
-// counts as no loss.
+// Energy gained in a run, for schemes whose balance need not close. A loss that feeds energy in
+// counts for none.
 struct EnergyGain {
     double budget;  // energy stored at the start plus all supplied energy [J]
-    // largest excess of the stored energy over the balance, relative to the budget at that row
+    // largest excess of the stored energy over the balance, relative to the row's budget
     double largest;
 };
 EnergyGain energy_gain(const Trace&);  // NaN if the run was not probed or its columns are empty

@@ -26,12 +26,12 @@ struct Window {       // the rows with from <= t < to
 double relative_l2(std::span<const double> candidate, std::span<const double> reference,
                    double rate, Window = {});
 
-// The predictability horizon [s] is the first instant t at which the running error
+// Predictability horizon [s]: the first instant t at which the running error
 //     E(t) = ||candidate - reference||_[0,t] / max(||reference||_[0,t], max|reference|)
-// passes `threshold`, or the duration of the reference if it never does. The second part of the
-// maximum, one row as large as the largest, keeps the first rows of a string that starts from rest
-// from deciding: there the running norm is nearly zero. A candidate that stops early or is not
-// finite counts until its last finite row.
+// passes `threshold`, or the reference's duration if this never happens. The second part of the
+// maximum is a single row with the largest value. For a string that starts from rest it keeps the
+// first rows, in which the running norm is nearly zero, from deciding. A candidate that stops early
+// or is not finite counts until its last finite row.
 double horizon(std::span<const double> candidate, std::span<const double> reference, double rate,
                double threshold = 0.1);
 

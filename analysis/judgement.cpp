@@ -32,7 +32,7 @@ double over_bound(const Scene& scene, const Trace& trace, int modes) {
 Figures figures_of(Balance promised, const Scene& scene, int modes, const Run& run) {
     const EnergyBalance balance = energy_balance(run.trace);
     const EnergyGain gain = energy_gain(run.trace);
-    // A scheme that promises no balance may leave its columns empty: a balance of zeros "closes"
+    // A scheme without a promised balance may leave its columns empty: a balance of zeros "closes"
     // without any meaning.
     const bool silent = promised == Balance::none && !(balance.largest_stored > 0);
     Figures f{run.status,

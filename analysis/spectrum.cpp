@@ -44,7 +44,7 @@ private:
 
 double decibel(double power) { return 10 * std::log10(power); }
 
-// 0: compare; otherwise the result that the signals themselves determine (see the top of
+// 0: compare; otherwise the result determined by the signals themselves (see the top of
 // spectrum.hpp).
 double verdict(std::span<const double>& candidate, std::span<const double> reference) {
     const auto finite = [](double v) { return std::isfinite(v); };

@@ -22,14 +22,14 @@ struct PowerSpectrum {
 // any length; empty without rows
 PowerSpectrum power_spectrum(std::span<const double> signal, double rate, Taper = Taper::hann);
 
-// Between two frequencies [Hz]: each bin spreads its power evenly over its own width.
+// Power between two frequencies [Hz]: each bin spreads its power evenly over its own width.
 double power_between(const PowerSpectrum&, double from, double to);
 
 struct Spectrogram {
     int frames = 0, bins = 0;
     double bin_hz = 0;          // [Hz]
     double hop = 0;             // time from one frame to the next [s]
-    double centre = 0;          // instant of the middle of frame 0 [s]
+    double centre = 0;          // middle of frame 0 [s]
     std::vector<double> power;  // frames x bins, row-major
     std::span<const double> frame(int m) const {
         return std::span(power).subspan(static_cast<std::size_t>(m) * bins, bins);
@@ -46,8 +46,8 @@ struct Bands {
     // 10 log10 of the mean square in the band [dB re the unit squared]; -inf for none
     std::vector<double> level;
 };
-// Bands to be compared. Default: all third octaves that lie below half of 44.1 kHz and that one
-// second of signal resolves.
+// Bands to be compared. Default: all third octaves below half of 44.1 kHz that one second of signal
+// resolves.
 struct BandChoice {
     // least and largest centre [Hz], with 2 % of tolerance for nominal names
     double lowest = 50, highest = 16e3;

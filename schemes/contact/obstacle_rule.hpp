@@ -50,7 +50,7 @@ public:
 
     virtual bool iterates() const { return true; }  // true if its iterations are reported
     virtual bool centred() const { return false; }  // how two-point steps fill `now`
-    // true if a contact without loss has the closed form of ContactAndThread (eliminated_thread.hpp)
+    // true if a lossless contact has the closed form of ContactAndThread (eliminated_thread.hpp)
     virtual bool is_discrete_gradient() const { return false; }
     virtual int dofs() const { return 0; }  // number of state variables
     // Sets other compliances with the same coupling pattern. Allocates nothing.
