@@ -140,8 +140,8 @@ TEST(Truth, IsKnownToNoLessThanTheRemedyThatItPrintsChanges) {
     }
 }
 
-// `--modes N` of a comparison in which no cell is within 1 %: with as many modes the error falls, by
-// more than what the reference is uncertain by.
+// `--modes N` of a comparison without a cell within 1 %: with N modes the error falls, by more than
+// the uncertainty of the reference.
 TEST(Cheapest, TheModesThatAreToBeTriedBringTheErrorDown) {
     using namespace bench::compare;
     const Catalogue catalogue;
