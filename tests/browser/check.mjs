@@ -1153,7 +1153,7 @@ try {
   await drag(browser, "guest", join(folders.guest, "report.html"));
   await check(browser, "suite", join(folders.suite, "report.html"), 4);
   await check(browser, "made-up", join(folders["made-up"], "report.html"), 6);
-  if (demo) await check(browser, "demo", join(demo, "report.html"), 4);
+  if (demo) await check(browser, "demo", join(demo, "report.html"), 5);
 } catch (error) {
   expect(false, error.stack);
 } finally {
