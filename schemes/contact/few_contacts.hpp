@@ -23,11 +23,25 @@ public:
     // theta: n x n, row-major [m/N]
     FewContacts(std::span<const ContactLaw> laws, std::span<const double> theta);
 
-    // Takes eta and b [m] and returns the new depths eta - r [m] and the mean forces [N]; n values
-    // each. Returns the number of Newton iterations, or -1 if they did not end.
+    // Takes eta and b [m], gives r [m] and the mean forces [N]; n values each. Returns the number
+    // of Newton iterations, or -1 if they did not end. Both forms give the same bits.
     template <int n>
-    [[gnu::always_inline]] int solve(const double* eta, const double* b, double* depth,
+    [[gnu::always_inline]] int solve(const double* eta, const double* b, double* r,
                                      double* force) const noexcept {
+        double depth[n];
+        const int iterations = depths<n>(eta, b, depth, force);
+        for (int a = 0; a < n; ++a) r[a] = eta[a] - depth[a];
+        return iterations;
+    }
+    int solve(const double* eta, const double* b, double* r, double* force) const noexcept;
+
+private:
+    static constexpr double rounding = 8e-15;  // in the terms of one equation
+    static constexpr int most_steps = 12;
+
+    template <int n>
+    [[gnu::always_inline]] int depths(const double* eta, const double* b, double* depth,
+                                      double* force) const noexcept {
         unsigned set = 0, enter = 0;
         for (int a = 0; a < n; ++a) {
             set |= static_cast<unsigned>(eta[a] > 0) << a;
@@ -55,11 +69,6 @@ public:
         }
         return newton<n>(eta, b, depth, force);
     }
-
-private:
-    static constexpr double rounding = 8e-15;  // in the terms of one equation
-    static constexpr int most_steps = 12;
-
     template <int n>
     [[gnu::always_inline]] bool in_full(unsigned set, const double* eta, const double* b,
                                         double* depth, double* force) const noexcept {
@@ -130,6 +139,7 @@ private:
         return -1;
     }
 
+    int n_;
     double k_[most] = {}, give_[most] = {};  // give_: 2/k
     double theta_[most * most] = {};
     std::vector<double> M_;  // for each set of contacts, n x n; zeros in other rows and columns

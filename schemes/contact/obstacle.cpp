@@ -28,8 +28,9 @@ Obstacle::Obstacle(const Contacts& contacts, std::vector<Thread> threads,
     std::vector<StepLoss> losses;
     for (int a = 0; a < contacts.count(); ++a)
         losses.push_back({contacts.loss[a] / span, contacts.loss_law[a] == LossLaw::clipped});
-    if (std::any_of(losses.begin(), losses.end(), [](const StepLoss& l) { return l.kappa != 0; }))
-        rule_->lose(losses);
+    const bool loses =
+        std::any_of(losses.begin(), losses.end(), [](const StepLoss& l) { return l.kappa != 0; });
+    if (loses) rule_->lose(losses);
     centred_ = rule_->centred();
     one_.contact = contacts.count() == 1;
     one_.thread = threads_.count() == 1;
@@ -44,10 +45,8 @@ Obstacle::Obstacle(const Contacts& contacts, std::vector<Thread> threads,
     one_.of_thread = threads_.one();
     const bool linear = std::all_of(contacts.laws.begin(), contacts.laws.end(),
                                     [](const ContactLaw& l) { return l.alpha == 1 && !l.rigid(); });
-    const bool loses = std::any_of(contacts.loss.begin(), contacts.loss.end(),
-                                   [](double beta) { return beta != 0; });
-    if (contacts.count() > 1 && points() <= FewContacts::most && threads_.count() <= 1 && linear &&
-        !loses && rule_->is_discrete_gradient())
+    if (levels == 1 && contacts.count() > 1 && points() <= FewContacts::most &&
+        threads_.count() <= 1 && linear && !loses && rule_->is_discrete_gradient())
         few_.emplace(contacts.laws, between);
     for (auto* v : {&eta_, &now_, &b_, &r_, &gained_}) v->assign(contacts.count(), 0.0);
     for (auto* v : {&pull_, &from_}) v->assign(threads_.count(), 0.0);
@@ -97,6 +96,16 @@ double Obstacle::centre(int a, const ReadingsBeforeStep& at, double b, double th
     return now - (K + 0.5 * (threads_.coupling(a, 0) - K)) * thread;
 }
 
+GramSolution Obstacle::solve_contacts(const BeforeStep& before, double* force,
+                                      bool at_start) noexcept {
+    if (at_start) return rule_->start(before, r_.data(), force);
+    if (few_)  // to the bits of the kernels' whole steps
+        if (const int iterations = few_->solve(before.older, before.b, r_.data(), force);
+            iterations >= 0)
+            return {iterations, 0, true};
+    return rule_->solve(before, r_.data(), force);
+}
+
 bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at_start,
                             bool in_full) noexcept {
     const int n = contacts(), m = threads_.count();
@@ -112,8 +121,7 @@ bool Obstacle::solve_points(const ReadingsBeforeStep& at, double* force, bool at
     bool converged = true;
     for (int a = 0; in_full && a < n; ++a) gained_[a] = -held_by(a, eta_[a]);
     if (rule_->acts(before)) {
-        const GramSolution s = at_start ? rule_->start(before, r_.data(), force)
-                                        : rule_->solve(before, r_.data(), force);
+        const GramSolution s = solve_contacts(before, force, at_start);
         converged = s.converged;
         for (int a = 0; a < n; ++a) {
             for (int t = 0; t < m; ++t) pull_[t] -= threads_.answer(t, a) * force[a];

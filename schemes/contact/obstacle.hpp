@@ -94,8 +94,8 @@ public:
     const double* forces(int level) const { return series_->force(level); }  // in series [N]
     std::vector<Fact> facts() const;
 
-    // Whether solve_few() has these contacts: linear ones by the discrete gradient without losses,
-    // up to FewContacts::most, or any one without losses; and a thread at most.
+    // Whether solve_few() has these contacts: in two-point steps up to FewContacts::most linear ones
+    // by the discrete gradient without losses, or any one without losses; and a thread at most.
     bool few() const { return fused_ || few_.has_value(); }
     // Solves a step at the readings y, which include the yield of the series compliance, for points
     // that move by u without forces; for string kernels that make whole steps.
@@ -132,6 +132,7 @@ private:
     double held_by(int a, double eta) const {
         return rule_->potential(a, eta) / (rule_->dofs() > 0 ? 1 : levels_);
     }
+    GramSolution solve_contacts(const BeforeStep&, double* force, bool at_start) noexcept;
     bool solve_in_series(const ReadingsBeforeStep&, double* force, bool in_full) noexcept;
 
     Contacts contacts_;
@@ -165,22 +166,22 @@ template <int contacts, bool thread>
         return converged;
     } else {
         const double v = thread ? one_.of_thread.alone(y[n], u[n]) : 0;
-        double eta[n], b[n], depth[n];
+        double eta[n], b[n], r[n];
+        bool touches = false;
         for (int a = 0; a < n; ++a) {
             eta[a] = contacts_.heights[a] - y[a];
             b[a] = -u[a];
             if (thread) b[a] -= threads_.coupling(a, 0) * v;
+            touches = touches || eta[a] > 0 || eta[a] + b[a] > 0;
         }
-        const int iterations = few_->solve<n>(eta, b, depth, force);
+        const int iterations = few_->solve<n>(eta, b, r, force);
         if (iterations < 0) return solve_points({y, y, u}, force, false, false);
         double pull = v;
-        bool pushes = false;
         for (int a = 0; a < n; ++a) {
             if (thread) pull -= threads_.answer(0, a) * force[a];
-            one_.tally.note(force[a], std::max(eta[a], depth[a]));
-            pushes = pushes || force[a] != 0;
+            if (touches) one_.tally.note(force[a], std::max(eta[a], eta[a] - r[a]));
         }
-        if (pushes) one_.tally.note(iterations, 0);
+        if (touches) one_.tally.note(iterations, 0);
         if constexpr (thread) force[n] = pull;
         return true;
     }

@@ -225,9 +225,9 @@ void few_agree_with_bisection() {
         for (ContactLaw& law : p.laws) law.alpha = 1;
         draw.couple(p, draw.power(-6, -2));
         const FewContacts few(p.laws, p.theta);
-        double depth[n];
+        double r[n];
         std::vector<double> f(n);
-        const int iterations = few.solve<n>(p.eta.data(), p.b.data(), depth, f.data());
+        const int iterations = few.solve<n>(p.eta.data(), p.b.data(), r, f.data());
         if (iterations < 0) {
             ++not_ended;
             continue;
@@ -240,8 +240,7 @@ void few_agree_with_bisection() {
             const Real size = reach(p, f, a),
                        scale = std::max(largest, 1e-3L * size / p.theta[a * n + a]);
             if (!(size > 0)) continue;
-            const Real r = p.eta[a] - static_cast<Real>(depth[a]);
-            worst_r = std::max(worst_r, static_cast<double>(std::abs(r - want.r[a]) / size));
+            worst_r = std::max(worst_r, static_cast<double>(std::abs(r[a] - want.r[a]) / size));
             worst_f = std::max(worst_f, static_cast<double>(std::abs(f[a] - want.f[a]) / scale));
         }
     }

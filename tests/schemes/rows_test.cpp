@@ -53,7 +53,14 @@ INSTANTIATE_TEST_SUITE_P(, Rows, testing::ValuesIn(forms_over_c3()), [](const au
 });
 
 TEST(MatchedRows, HaveTheSameBitsWhateverTheBlockAndTheProbe) {
-    const std::vector<Scene> lumped{lasting(c3_release(), 0.02), lasting(c3_pluck(), 0.02)};
+    const auto beside_more = [](Scene scene) {
+        for (const double x : {0.02, 0.03})
+            scene.strings[0].barriers.push_back(LumpedBarrier{x, 2e-3, -1e-6, {4.39e8}, 1, 0});
+        return scene;
+    };
+    const std::vector<Scene> lumped{lasting(c3_release(), 0.02), lasting(c3_pluck(), 0.02),
+                                    beside_more(lasting(c3_release(), 0.02)),
+                                    beside_more(lasting(c3_pluck(), 0.02))};
     Scene profile = lasting(read_scene("sitar_parabola"), 0.02);
     profile.strings[0].thread = Thread{25e-3, 1.2e-3, 1.2e5, 1.2, 0};
     profile.strings[0].start.reset();
