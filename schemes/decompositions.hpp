@@ -20,7 +20,10 @@ struct Eigenpairs {
 };
 Eigenpairs eigenpairs_of(std::span<const long double>, int n);  // stored by columns
 
-std::vector<double> product_of(std::span<const double>, std::span<const double>, int n);  // by rows
+// stored by rows
+std::vector<double> product_of(std::span<const double>, std::span<const double>, int n);
+std::vector<long double> product_of(std::span<const long double>, std::span<const long double>,
+                                    int n);
 
 // stored by rows or by columns, like the matrix
 std::vector<double> inverse_of(std::span<const double>, int n);

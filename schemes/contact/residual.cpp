@@ -5,7 +5,8 @@
 namespace jvari {
 
 namespace {
-// Matrices are rounded once, so that a rounding error would act with one sign in every step.
+// Matrices are computed in long double and rounded once, because the error of an entry acts in
+// every step with the same sign.
 using Real = long double;
 }  // namespace
 
@@ -21,29 +22,22 @@ Residual::Residual(const MissingMatrix& m, double span, int levels)
     const int n = points_;
     for (int k = 0; k < n; ++k)
         masses_.emplace_back(m.ladder.mass[k], m.ladder.resistance[k], span);
-    const auto product = [n](const auto& A, const auto& B) {
-        std::vector<Real> sum(static_cast<std::size_t>(n) * n);
-        for (int a = 0; a < n; ++a)
-            for (int c = 0; c < n; ++c)
-                for (int b = 0; b < n; ++b)
-                    sum[a * n + b] += static_cast<Real>(A[a * n + c]) * B[c * n + b];
-        return sum;
-    };
-    std::vector<Real> branches(V_.size()), R(damper_.begin(), damper_.end());  // V' B
+    const std::vector<Real> C(m.C.begin(), m.C.end()), V(V_.begin(), V_.end());
+    std::vector<Real> branches(V.size()), R(damper_.begin(), damper_.end());  // V' B
     for (int a = 0; a < n; ++a)
-        for (int k = 0; k < n; ++k) branches[a * n + k] = V_[k * n + a] * Real{masses_[k].branch};
-    const std::vector<Real> resisted = product(branches, V_);
+        for (int k = 0; k < n; ++k) branches[a * n + k] = V[k * n + a] * masses_[k].branch;
+    const std::vector<Real> resisted = product_of(branches, V, n);
     for (std::size_t i = 0; i < R.size(); ++i) R[i] += resisted[i];
-    std::vector<Real> W = product(R, m.C);
+    std::vector<Real> W = product_of(R, C, n);
     for (int a = 0; a < n; ++a)
         for (int b = 0; b < n; ++b) W[a * n + b] = W[a * n + b] / span + (a == b ? 0.5 : 0.0);
     W = inverse_of(W, n);  // (3)
-    const std::vector<Real> k = product(m.C, W);
+    const std::vector<Real> k = product_of(C, W, n);
     std::vector<Real> K(k.size());
     for (int a = 0; a < n; ++a)
         for (int b = 0; b < n; ++b) K[a * n + b] = (k[a * n + b] + k[b * n + a]) / 2;
     K_.assign(K.begin(), K.end());
-    const std::vector<Real> VK = product(V_, K), K_branches = product(K, branches);
+    const std::vector<Real> VK = product_of(V, K, n), K_branches = product_of(K, branches, n);
     const auto column = [](std::vector<double>& to, auto&&... rows) {
         (to.push_back(static_cast<double>(rows)), ...);
     };
