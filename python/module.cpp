@@ -8,7 +8,7 @@
 #include "bench/store/machine.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "python/judging.hpp"
-#include "scenes/modes.hpp"
+#include "scenes/pitch.hpp"
 #include "schemes/making.hpp"
 
 namespace py = pybind11;
@@ -79,7 +79,7 @@ void add_scene(py::module_& m) {
             "duration", [](const NamedScene& s) { return s.scene.duration; },
             "How long it lasts [s].")
         .def_property_readonly(
-            "period", [](const NamedScene& s) { return 1 / lowest_frequency(s.scene); },
+            "period", [](const NamedScene& s) { return 1 / lowest_pitch(s.scene); },
             "Of the first mode of the lowest string [s]: run(..., duration=8 * scene.period).")
         .def_property_readonly(
             "taps",

@@ -75,13 +75,6 @@ Modes modes_of(const String& s, int count) {
     return modes;
 }
 
-double lowest_frequency(const Scene& scene) {
-    double lowest = HUGE_VAL;
-    for (const String& s : scene.strings)
-        lowest = std::min(lowest, modes_of(s, 1).omega0[0] / (2 * pi));
-    return lowest;
-}
-
 int modes_below(const String& s, double hertz) {
     const double limit = 2 * pi * hertz;
     // frequencies ascend: mode `low` is below, mode `high` + 1 is not

@@ -29,7 +29,6 @@ std::optional<int> modes_measured(const String&);
 // Number of modes whose undamped frequency is below `hertz`, at most most_modes + 1. Independent of
 // the losses.
 int modes_below(const String&, double hertz);
-double lowest_frequency(const Scene&);  // first mode on the lowest string [Hz]
 
 // omega0^2 - sigma^2 [rad^2/s^2], negative if the mode is overdamped
 double omega_squared_damped(double omega0, double sigma);

@@ -1,6 +1,8 @@
 #include "scenes/pitch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -37,6 +39,12 @@ double pitch_of(const String& s) {
     const auto* measured = std::get_if<TableDamping>(&s.damping);
     return measured && !measured->frequency_hz.empty() ? measured->frequency_hz.front()
                                                        : tuned_pitch(s);
+}
+
+double lowest_pitch(const Scene& scene) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const String& s : scene.strings) lowest = std::min(lowest, pitch_of(s));
+    return lowest;
 }
 
 double tuned_pitch(const String& s) {

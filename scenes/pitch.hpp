@@ -23,6 +23,7 @@ double slack_pitch(const String&);                // for a string without tensio
 // density and bending stiffness; the second uses measured modes if the string has them.
 double tuned_pitch(const String&);
 double pitch_of(const String&);
+double lowest_pitch(const Scene&);  // of all strings [Hz]
 // B = pi^2 EI/(T L^2) in f_n = n f_0 sqrt(1 + B n^2); infinite without tension
 double inharmonicity(const String&);
 // the nearest note and the deviation: "E2", "C3 -14 cents"; "" outside C-1 to B9

@@ -21,6 +21,7 @@
 #include "reference/agreement.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/pitch.hpp"
 #include "schemes/contact/compliance.hpp"
 #include "schemes/making.hpp"
 #include "schemes/run.hpp"
@@ -245,7 +246,7 @@ Advice advice_of(const Scene& whole, const AdviceRequest& r, const Catalogue& ca
     scene.taps = {scene.taps[r.tap.empty() ? study::headline_of(scene).nut : tap]};
     a.tap = scene.taps.front().name;
     const double from = free_from(scene), left = scene.duration - from,
-                 window = r.measure.empty() ? periods / lowest_frequency(scene)
+                 window = r.measure.empty() ? periods / lowest_pitch(scene)
                                             : study::measures()[a.target.measure].window;
     a.periods = r.measure.empty() && window <= left;
     a.window = std::min(window, left);

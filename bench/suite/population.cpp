@@ -74,13 +74,9 @@ CellSet set_of(const Population& p, Scene scene) {
     if (scene.taps.empty())
         throw store::UsageError(scene.name + ": found no tap, expected one to judge by");
     scene.taps = {scene.taps.at(static_cast<std::size_t>(study::headline_of(scene).nut))};
-    double lowest = HUGE_VAL;
     int below = 0;
-    for (const String& s : scene.strings) {
-        lowest = std::min(lowest, pitch_of(s));
-        below = std::max(below, modes_below(s, heard));
-    }
-    scene.duration = free_from(scene) + p.periods / lowest;
+    for (const String& s : scene.strings) below = std::max(below, modes_below(s, heard));
+    scene.duration = free_from(scene) + p.periods / lowest_pitch(scene);
     for (const double multiple : p.multiples)
         set.modes.push_back(
             static_cast<int>(std::lround(std::clamp(multiple * below, 1.0, 1.0 * most_modes))));
