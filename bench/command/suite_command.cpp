@@ -99,8 +99,8 @@ void note_missing_locks(const fs::path& folder, const Console& console) {
 // Reports a population by its strings, not by its cells.
 int end_population(const SuiteRequest& r, const suite::Suite& suite, const study::Plan& plan,
                    const study::Study& run, const Console& console) {
-    const suite::StringTables strings = suite::string_tables(suite, plan, run.records);
     const study::Cells cells = study::cells_of(plan, run.records);
+    const suite::StringTables strings = suite::string_tables(suite, cells, run.records);
     report::ResultsFolder results(r.out, console);
     results.add_tables(cells);
     for (const auto& [name, table] : {std::pair{"strings.csv", &strings.strings},

@@ -86,9 +86,7 @@ std::vector<study::Record> search(const Comparison& c, study::References& refere
     std::vector<study::Record> records =
         study::run(shown, references, nowhere, threads, listener).records;
     const auto nut = static_cast<std::size_t>(c.headline.nut),
-               window = std::size_t{std::isinf(length) ? 2u
-                                    : length >= 50e-3  ? 1u
-                                                       : 0u};
+               window = study::waveform_over(length);
     std::vector<study::Cell> tried;
     std::vector<double> errors;
     for (study::Record& r : records) {
@@ -129,9 +127,10 @@ void run(Comparison& c, study::References& references, std::vector<study::Record
 
 std::optional<Advice> advice_on(const Scene& scene, const CompareRequest& r,
                                 const Catalogue& catalogue, const store::Listener& listener) {
-    const double window = study::headline_window(scene);
+    const std::size_t waveform = study::waveform_over(study::headline_window(scene));
     AdviceRequest asked;
-    asked.measure = std::isinf(window) ? "l2_whole" : window >= 50e-3 ? "l2_50ms" : "l2_10ms";
+    const std::vector<Target> all = targets();
+    asked.measure = std::ranges::find(all, waveform, &Target::measure)->name;
     asked.tap_rate = r.tap_rate;
     for (const std::string& scheme : r.schemes.empty() ? std::vector<std::string>{""} : r.schemes) {
         asked.scheme = scheme;

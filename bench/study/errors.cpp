@@ -136,6 +136,11 @@ double headline_window(const Scene& scene) {
     return duration >= 50e-3 ? 50e-3 : duration >= 10e-3 ? 10e-3 : HUGE_VAL;
 }
 
+std::size_t waveform_over(double window) {
+    return static_cast<std::size_t>(std::ranges::find(measures(), window, &Measure::window) -
+                                    measures().begin());
+}
+
 double horizon_of(const Errors& errors, const Headline& h) {
     return errors.empty() ? nan : errors[h.nut][measure("horizon_s")];
 }

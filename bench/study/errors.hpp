@@ -48,5 +48,6 @@ Headline headline_of(const Scene&);
 double horizon_of(const Errors&, const Headline&);  // [s]
 // length [s] of the window for the nut tap's headline figure, infinite for less than 10 ms
 double headline_window(const Scene&);
+std::size_t waveform_over(double window);  // place of the relative L2 error over that window
 
 }  // namespace jvari::bench::study

@@ -90,7 +90,7 @@ private:
     const double effort_;  // factor on all limits that nobody asked for
     const double end_;     // end of the window to settle [s]
     const double from_ = free_from(scene_);
-    const std::size_t window_ = std::isinf(end_) ? 2 : end_ >= 50e-3 ? 1 : 0;
+    const std::size_t window_ = waveform_over(end_);
     Truth t_;
     ReferenceChoice choice_{};
     Trust solved_;

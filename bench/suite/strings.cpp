@@ -302,9 +302,8 @@ std::string counted(const store::Table& t, const std::string& column, const std:
 }
 }  // namespace
 
-StringTables string_tables(const Suite& suite, const study::Plan& plan,
+StringTables string_tables(const Suite& suite, const study::Cells& cells,
                            const std::vector<study::Record>& records) {
-    const study::Cells cells = study::cells_of(plan, records);
     std::map<std::string, StringOf> of;
     for (const CellSet& set : suite.sets) of[set.drawn->name].set = &set;
     for (std::size_t i = 0; i < cells.size(); ++i) {

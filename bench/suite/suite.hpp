@@ -188,6 +188,6 @@ struct StringTables {
     store::Table strings, outcomes, advice, fronts;
     std::string text;  // for the terminal
 };
-StringTables string_tables(const Suite&, const study::Plan&, const std::vector<study::Record>&);
+StringTables string_tables(const Suite&, const study::Cells&, const std::vector<study::Record>&);
 
 }  // namespace jvari::bench::suite

@@ -114,8 +114,8 @@ TEST(Population, SaysWhatIsWrongOfIt) {
 
 bench::suite::StringTables tables_of(const Suite& suite) {
     const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
-    return string_tables(suite, plan,
-                         bench::study::run(plan, "", false, 2, bench::store::Listener()).records);
+    const auto records = bench::study::run(plan, "", false, 2, bench::store::Listener()).records;
+    return string_tables(suite, bench::study::cells_of(plan, records), records);
 }
 std::string text_of(const bench::suite::StringTables& t) {
     return csv(t.strings) + csv(t.outcomes) + csv(t.advice);
