@@ -95,7 +95,8 @@ public:
     std::vector<Fact> facts() const;
 
     // Tells whether solve_few() takes these contacts, by the discrete gradient without losses: a
-    // single contact, or up to FewContacts::most linear ones in two-point steps. One thread at most.
+    // single contact, or up to FewContacts::most linear ones in two-point steps. There may be one
+    // thread.
     bool few() const { return fused_ || few_.has_value(); }
     // Solves a step at the readings y, which include the yield of the series compliance, for points
     // that move by u without forces; for string kernels that make whole steps.
