@@ -23,8 +23,8 @@ public:
     // theta: n x n, row-major [m/N]
     FewContacts(std::span<const ContactLaw> laws, std::span<const double> theta);
 
-    // Takes eta and b [m] and fills r [m] and the mean forces [N], n values each. Returns the number
-    // of Newton iterations, or -1 if they did not end. Both forms give the same bits.
+    // Takes eta and b [m] and fills r [m] and the mean forces [N], n values each. Returns the
+    // number of Newton iterations, or -1 if they did not end. Both forms give the same bits.
     template <int n>
     [[gnu::always_inline]] int solve(const double* eta, const double* b, double* r,
                                      double* force) const noexcept {
