@@ -297,10 +297,7 @@ Spent TwoMomentModes::pass(const double* force, double, bool probed) noexcept {
             stream_[m_.at(Moments::b, i)] += pluck_.p_0[i] * F_0_;
             stream_[m_.at(Moments::a, i)] += pluck_.p_1[i] * F_1_;
         }
-    bool contacts = false;
-    for (int p = 0; p < m_.points - m_.thread; ++p)
-        contacts = contacts || force[p] != 0 || force[m_.points + p] != 0;
-    pass_(m_, force, contacts);
+    pass_(m_, force);
     return all;
 }
 

@@ -17,10 +17,6 @@ constexpr double stiff = 1e10;              // for a rigid barrier, k T_00
 constexpr double rounding_squared = 1e-22;  // squared rounding error of r, in rule G
 constexpr int most_newton = 100, most_halvings = 25;
 
-MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
-    return {a.m00 * b.m00 + a.m01 * b.m10, a.m00 * b.m01 + a.m01 * b.m11,
-            a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11};
-}
 MomentMatrix inverse(const MomentMatrix& a) {
     const double det = a.m00 * a.m11 - a.m01 * a.m10;
     return {a.m11 / det, -a.m01 / det, -a.m10 / det, a.m00 / det};
@@ -38,15 +34,15 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
       galerkin_(alone && !law.rigid() && 3 * T.m11 < radiates * T.m00),
       linear_(!galerkin_ && beta == 0 && law_.alpha == 1) {}
 
-MomentRule::Powers MomentRule::powers(double eta) const noexcept {
+[[gnu::always_inline]] inline MomentRule::Powers MomentRule::powers(double eta) const noexcept {
     if (!(eta > 0)) return {0, 0, 0};
     const double by = law_.alpha == 1 ? law_.k : law_.k * power(eta, law_.alpha - 1),
                  force = by * eta;
     return {force * eta * share_, force, law_.alpha * by};
 }
 
-MomentRule::Quotient MomentRule::quotient(double from, double to, const Powers& a,
-                                          const Powers& b) const noexcept {
+[[gnu::always_inline]] inline MomentRule::Quotient MomentRule::quotient(
+    double from, double to, const Powers& a, const Powers& b) const noexcept {
     if (from <= 0 && to <= 0) return {0, 0, 0};
     if (law_.alpha == 1 && from > 0 && to > 0)
         return {0.5 * (a.force + b.force), 0.5 * law_.k, 0.5 * law_.k};
@@ -79,13 +75,14 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
     if (E_0 <= 0 && E_1 <= 0) return put(0, 0, E_0, E_1);
     {  // full
         const double a = c_ + T.m00, b = c_ + T.m01, d = c_ - T.m10, e = -c_ - T.m11,
-                     det = a * e - b * d, phi_0 = (e * E_1 - b * E_0) / det,
-                     phi_1 = (a * E_0 - d * E_1) / det;
-        if (phi_0 > std::abs(phi_1))
+                     det = a * e - b * d, first = e * E_1 - b * E_0, second = a * E_0 - d * E_1;
+        if (std::copysign(first, first * det) > std::abs(second)) {
+            const double phi_0 = first / det, phi_1 = second / det;
             return put(phi_0, phi_1, c_ * (phi_0 - phi_1), c_ * (phi_0 + phi_1));
+        }
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11;
-    if (E_1 > 0) {  // enters: no sum below has terms with both signs
+    if (E_1 > 0 && !(E_0 > 0 && A_1 >= 0)) {  // enters: no sum below has terms with both signs
         const double rise = E_1 - E_0,
                      square = c_ * c_ * rise * rise - 2 * c_ * E_1 * (A_0 * E_0 + A_1 * E_1);
         if (square >= 0) {
@@ -478,13 +475,13 @@ void MomentRule::by_rule_d(const MomentMatrix& T, double eta, double b_0, double
                              : law_.potential(eta) - from.V - from.force * (eta - s.from);
 }
 
-MomentContact MomentRule::solve(const MomentMatrix& T, double eta, double b_0,
-                                double b_1) const noexcept {
-    MomentContact s;
-    if (galerkin_) by_galerkin(T, eta, b_0, b_1, s);
+void MomentRule::solve(const MomentMatrix& T, double eta, double b_0, double b_1,
+                       MomentContact& s) const noexcept {
+    s = {};
+    if (linear_ && by_lines(T, eta + b_1, eta - b_0, s)) s.lost = lost_linear(eta, s.from);
+    else if (galerkin_) by_galerkin(T, eta, b_0, b_1, s);
     else by_rule_d(T, eta, b_0, b_1, s);
     s.touches = s.to > 0;
-    return s;
 }
 
 MomentMatrix MomentRule::answer(const MomentMatrix& T, const MomentContact& s) const noexcept {

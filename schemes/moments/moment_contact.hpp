@@ -29,6 +29,10 @@ namespace jvari {
 struct MomentMatrix {  // rows r_0, r_1; columns phi_0, phi_1
     double m00 = 0, m01 = 0, m10 = 0, m11 = 0;
 };
+inline MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
+    return {a.m00 * b.m00 + a.m01 * b.m10, a.m00 * b.m01 + a.m01 * b.m11,
+            a.m10 * b.m00 + a.m11 * b.m10, a.m10 * b.m01 + a.m11 * b.m11};
+}
 
 struct MomentContact {            // over a step
     double phi_0 = 0, phi_1 = 0;  // force on the string [N]
@@ -59,7 +63,8 @@ public:
     // stays out, without forces
     bool stays_out(double eta, double b_0, double b_1) const;
     // One step from eta. T: the compliances, own or with others eliminated.
-    MomentContact solve(const MomentMatrix& T, double eta, double b_0, double b_1) const noexcept;
+    void solve(const MomentMatrix& T, double eta, double b_0, double b_1,
+               MomentContact&) const noexcept;
     // d phi/d b = slope (1 - T slope)^-1 for a step solved with these T
     MomentMatrix answer(const MomentMatrix& T, const MomentContact&) const noexcept;
 

@@ -68,6 +68,7 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
         gram_ = ContactGram(laws, means);
     }
     found_.resize(n);
+    answers_.resize(n);
     pairs_.assign(static_cast<std::size_t>(14) * n, 0.0);
     active_.resize(n);
     for (auto* v : {&moved_, &spring_, &ends_, &trial_, &step_, &last_}) v->assign(D, 0.0);
@@ -76,7 +77,11 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
     matrix_.assign(static_cast<std::size_t>(2 * n) * (4 * n + 1), 0.0);
     sets_.resize(n > 1 ? kept_sets : 1);
     for (Kept& s : sets_) s.inverse.assign(static_cast<std::size_t>(4) * n * n, 0.0);
-    if (n == 1 && linear_) std::copy_n(kept(1).inverse.begin(), 4, inverse_);
+    inverses_.assign(static_cast<std::size_t>(4) * n, 0.0);
+    for (int a = 0; a < n; ++a)
+        for (int k = 0; linear_ >> a & 1 && k < 4; ++k)
+            inverses_[4 * a + k] =
+                kept(std::uint64_t{1} << a).inverse[(k / 2 * n + a) * 2 * n + k % 2 * n + a];
 }
 
 // The matrices of a step. F = free + G x, G the ladder's own motion; pull = K_f F_c + K_s Y_c.
@@ -228,7 +233,8 @@ bool MomentObstacle::alone(const double* b, double* force) noexcept {
         take_out(0, b[0]);
         return true;
     }
-    const MomentContact s = rules_[0].solve(own(0), at_[0].eta, b[0], b[points_]);
+    MomentContact& s = found_[0];
+    rules_[0].solve(own(0), at_[0].eta, b[0], b[points_], s);
     if (!s.converged) return by_constant_forces(b, force);
     force[0] = s.phi_0, force[points_] = s.phi_1;
     take(0, s);
@@ -317,7 +323,8 @@ bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b, cons
             less.m10 += t_1 * by[k], less.m11 += t_1 * by[D + k];
         }
     }
-    const MomentContact own = rules_[a].solve(less, at_[a].eta, b_0, b_1);
+    MomentContact& own = found_[a];
+    rules_[a].solve(less, at_[a].eta, b_0, b_1, own);
     if (!own.converged) return false;
     for (int k = 0; k < D; ++k) phi[k] += by[k] * own.phi_0 + by[D + k] * own.phi_1;
     phi[a] = own.phi_0, phi[n + a] = own.phi_1;
@@ -342,7 +349,8 @@ MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) 
     for (int a = 0; a < n_; ++a) {
         double b_0, b_1;
         moved_by_others(a, b, force, b_0, b_1);
-        const MomentContact& s = found_[a] = rules_[a].solve(own(a), at_[a].eta, b_0, b_1);
+        MomentContact& s = found_[a];
+        rules_[a].solve(own(a), at_[a].eta, b_0, b_1, s);
         const double d_0 = s.phi_0 - force[a], d_1 = s.phi_1 - force[points_ + a];
         rest.squares += d_0 * d_0 + d_1 * d_1;
         rest.relative = std::max({rest.relative, std::abs(d_0), std::abs(d_1)});
@@ -360,21 +368,49 @@ bool MomentObstacle::newton_step(const double* force) noexcept {
         step_[a] = found_[a].phi_0 - force[a], step_[P + a] = found_[a].phi_1 - force[P + a];
         if (found_[a].phi_0 != 0 || found_[a].phi_1 != 0) active_[active++] = a;
     }
+    for (int i = 0; i < active; ++i) {
+        const int a = active_[i];
+        const MomentMatrix& S = answers_[i] = rules_[a].answer(own(a), found_[a]);
+        for (int c = 0; c < n_; ++c) {  // contacts that let go
+            if (force[c] == 0 || found_[c].phi_0 != 0) continue;
+            const MomentMatrix by = times(S, between(a, c));
+            step_[a] += by.m00 * step_[c] + by.m01 * step_[P + c];
+            step_[P + a] += by.m10 * step_[c] + by.m11 * step_[P + c];
+        }
+    }
+    if (active == 2) return newton_step_of_two(active_[0], active_[1]);
     const int size = 2 * active, columns = size + 1;
     for (int i = 0; i < active; ++i) {
         const int a = active_[i];
-        const MomentMatrix S = rules_[a].answer(own(a), found_[a]);
         double *first = matrix_.data() + 2 * i * columns, *second = first + columns;
-        for (int k = 0; k < size; ++k) {
-            const int c = active_[k / 2], j = k % 2;
-            const double t_0 = c == a ? 0 : T(0, a, j, c), t_1 = c == a ? 0 : T(1, a, j, c);
-            first[k] = (k == 2 * i) - (S.m00 * t_0 + S.m01 * t_1);
-            second[k] = (k == 2 * i + 1) - (S.m10 * t_0 + S.m11 * t_1);
+        for (int j = 0; j < active; ++j) {
+            const bool same = i == j;
+            const MomentMatrix by =
+                same ? MomentMatrix{} : times(answers_[i], between(a, active_[j]));
+            first[2 * j] = same - by.m00, first[2 * j + 1] = -by.m01;
+            second[2 * j] = -by.m10, second[2 * j + 1] = same - by.m11;
         }
         first[size] = step_[a], second[size] = step_[P + a];
     }
     if (!eliminate(matrix_.data(), size, columns)) return false;
     for (int i = 0; i < size; ++i) step_[i % 2 * P + active_[i / 2]] = matrix_[i * columns + size];
+    return true;
+}
+
+// newton_step() with two active contacts, by blocks: (1 - A B) step_a = rest_a + A rest_b, step_b =
+// rest_b + B step_a.
+bool MomentObstacle::newton_step_of_two(int a, int b) noexcept {
+    const int P = points_;
+    const MomentMatrix A = times(answers_[0], between(a, b)), B = times(answers_[1], between(b, a)),
+                       both = times(A, B), one{1 - both.m00, -both.m01, -both.m10, 1 - both.m11};
+    const double det = one.m00 * one.m11 - one.m01 * one.m10,
+                 s_0 = step_[a] + A.m00 * step_[b] + A.m01 * step_[P + b],
+                 s_1 = step_[P + a] + A.m10 * step_[b] + A.m11 * step_[P + b];
+    if (!(std::abs(det) > 0)) return false;
+    step_[a] = (one.m11 * s_0 - one.m01 * s_1) / det;
+    step_[P + a] = (one.m00 * s_1 - one.m10 * s_0) / det;
+    step_[b] += B.m00 * step_[a] + B.m01 * step_[P + a];
+    step_[P + b] += B.m10 * step_[a] + B.m11 * step_[P + a];
     return true;
 }
 
@@ -404,7 +440,8 @@ bool MomentObstacle::by_newton(const double* b, double* force) noexcept {
         for (int a = 0; a < n_; ++a) {
             double b_0, b_1;
             moved_by_others(a, b, force, b_0, b_1);
-            const MomentContact s = rules_[a].solve(own(a), at_[a].eta, b_0, b_1);
+            MomentContact& s = found_[a];
+            rules_[a].solve(own(a), at_[a].eta, b_0, b_1, s);
             force[a] += 0.5 * (s.phi_0 - force[a]);
             force[points_ + a] += 0.5 * (s.phi_1 - force[points_ + a]);
         }

@@ -10,10 +10,11 @@
 // matrices make phi_c and the next x.
 //
 // Several contacts (docs/two-moments.md, section 7):
-//   1. the contacts that touched after the last step are in full contact, the others out: one
+//   1. one contact alone reaches its barrier in free motion: its own equation, the others out;
+//   2. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
-//   2. if one contact contradicts this, its own equation with the others eliminated;
-//   3. otherwise Newton's steps on all contacts, each contact solved for itself.
+//   3. if one contact contradicts this, its own equation with the others eliminated;
+//   4. otherwise Newton's steps on all contacts, each contact solved for itself.
 // If no solution is found, even for one contact alone, forces are constant in the step
 // (contact_gram.hpp).
 #pragma once
@@ -73,11 +74,6 @@ public:
     }
     std::vector<Fact> facts() const;
     bool has_series() const { return ladder_.has_value(); }
-    bool any_force(const double* force) const noexcept {
-        for (int a = 0; a < contacts(); ++a)
-            if (force[a] != 0 || force[points_ + a] != 0) return true;
-        return false;
-    }
 
 private:
     struct Point {              // a contact
@@ -96,9 +92,10 @@ private:
     double T(int i, int a, int j, int b) const {  // between contacts, the thread eliminated
         return T_[(j * n_ + b) * 2 * n_ + i * n_ + a];
     }
-    MomentMatrix own(int a) const {
-        return {T(0, a, 0, a), T(0, a, 1, a), T(1, a, 0, a), T(1, a, 1, a)};
+    MomentMatrix between(int a, int b) const {
+        return {T(0, a, 0, b), T(0, a, 1, b), T(1, a, 0, b), T(1, a, 1, b)};
     }
+    MomentMatrix own(int a) const { return between(a, a); }
     template <int few>
     [[gnu::always_inline]] bool one(const double* b, double* force) noexcept;
     bool alone(const double* b, double* force) noexcept;
@@ -110,6 +107,9 @@ private:
         return s;
     }
     void keep(std::uint64_t set, Kept&) noexcept;
+    template <int few>
+    [[gnu::always_inline]] bool only(int a, const double* b, const double* ends, double* r,
+                                     double* force) noexcept;
     // to = M x, with two numbers for each contact
     template <int few>
     [[gnu::always_inline]] void product_of_pairs(const double* M, const double* x,
@@ -135,6 +135,7 @@ private:
     };
     Rest look(const double* b, const double* force) noexcept;
     bool newton_step(const double* force) noexcept;
+    bool newton_step_of_two(int a, int b) noexcept;
     bool by_newton(const double* b, double* force) noexcept;
     bool by_constant_forces(const double* b, double* force) noexcept;
     void moved_by_others(int a, const double* b, const double* force, double& b_0,
@@ -169,13 +170,14 @@ private:
     // By columns: b for the contacts and the thread's pull, from x, then from free; the next x,
     // from x, then from phi.
     std::vector<double> points_by_, state_by_;
-    std::vector<double> pull_by_;  // phi_c from the contacts' phi, 2 x 2n
-    std::vector<double> last_;     // phi in the last step
-    double inverse_[4] = {};       // Kept's inverse for one linear contact
+    std::vector<double> pull_by_;   // phi_c from the contacts' phi, 2 x 2n
+    std::vector<double> last_;      // phi in the last step
+    std::vector<double> inverses_;  // Kept's, for each linear contact alone; zeros for others
     ContactTally tally_;
     std::vector<double> b_, next_, moved_, spring_;  // workspaces; r_0; C^-1 D
     std::vector<double> pairs_, ends_, trial_, step_, matrix_;
     std::vector<MomentContact> found_;
+    std::vector<MomentMatrix> answers_;  // of active contacts
     ContactGram gram_;
     long constant_ = 0;  // steps with constant forces
     std::vector<int> active_;
@@ -235,8 +237,8 @@ template <int few>
             at = {E_1, at.eta, E_0, true, 0};
             return true;
         }
-        const double phi_0 = inverse_[0] * E_1 + inverse_[2] * E_0,
-                     phi_1 = inverse_[1] * E_1 + inverse_[3] * E_0;
+        const double phi_0 = inverses_[0] * E_1 + inverses_[2] * E_0,
+                     phi_1 = inverses_[1] * E_1 + inverses_[3] * E_0;
         if (phi_0 > std::abs(phi_1)) {
             force[0] = phi_0, force[P] = phi_1;
             const double c = rules_[0].c(), to = c * (phi_0 + phi_1);
@@ -256,25 +258,67 @@ template <int few>
     const int n = few > 0 ? few : n_, P = points_;
     double local[few > 0 ? 6 * few : 1];
     double *ends = few > 0 ? local : pairs_.data(), *phi = ends + 2 * n, *r = phi + 2 * n;
+    std::uint64_t touch = 0;
     for (int a = 0; a < n; ++a) {
         ends[a] = at_[a].eta - b[a], ends[n + a] = at_[a].eta + b[P + a];
+        touch |= std::uint64_t{ends[a] > 0 || ends[n + a] > 0} << a;
     }
+    if (touch == 0) {
+        for (int a = 0; a < n; ++a) force[a] = force[P + a] = 0, take_out(a, b[a]);
+        set_ = 0;
+        return true;
+    }
+    if (std::has_single_bit(touch) && only<few>(std::countr_zero(touch), b, ends, r, force))
+        return true;
     const std::uint64_t set = set_;
-    if (set != 0) {
-        product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
-        product_of_pairs<few>(T_.data(), phi, r);
-        for (int a = 0; a < n; ++a) r[a] += b[a], r[n + a] += b[P + a];
-    } else {
-        for (int a = 0; a < n; ++a) {
-            phi[a] = phi[n + a] = 0;
-            r[a] = b[a], r[n + a] = b[P + a];
-        }
-    }
+    product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
+    product_of_pairs<few>(T_.data(), phi, r);
+    for (int a = 0; a < n; ++a) r[a] += b[a], r[n + a] += b[P + a];
     std::uint64_t misfits = 0;
     for (int a = 0; a < n; ++a) misfits |= std::uint64_t{!fits(a, set >> a & 1, phi, r)} << a;
     if (misfits != 0) return with_change(misfits, b, ends, phi, force);
     for (int a = 0; a < n; ++a) take_as(a, set >> a & 1, phi, r, force);
-    if (set) tally_.note(0, 0);
+    tally_.note(0, 0);
+    return true;
+}
+
+// Solves contact a by its own equation, the others out. False if they do not stay out.
+template <int few>
+[[gnu::always_inline]] inline bool MomentObstacle::only(int a, const double* b, const double* ends,
+                                                        double* r, double* force) noexcept {
+    const int n = few > 0 ? few : n_, P = points_;
+    const double* I = inverses_.data() + 4 * a;
+    MomentContact& own_step = found_[a];
+    double phi_0 = I[0] * ends[a] + I[2] * ends[n + a], phi_1 = I[1] * ends[a] + I[3] * ends[n + a];
+    const bool full = phi_0 > std::abs(phi_1);
+    if (!full) {
+        rules_[a].solve(own(a), at_[a].eta, b[a], b[P + a], own_step);
+        if (!own_step.converged) return false;
+        phi_0 = own_step.phi_0, phi_1 = own_step.phi_1;
+    }
+    const double *by_0 = T_.data() + a * 2 * n, *by_1 = T_.data() + (n + a) * 2 * n;
+    bool out = true;
+    for (int c = 0; c < n; ++c) {  // stores to places known when compiled
+        const double r_0 = b[c] + (by_0[c] * phi_0 + by_1[c] * phi_1),
+                     r_1 = b[P + c] + (by_0[n + c] * phi_0 + by_1[n + c] * phi_1);
+        r[c] = r_0;
+        out = out && (c == a || (at_[c].eta - r_0 <= 0 && at_[c].eta + r_1 <= 0));
+        force[c] = c == a ? phi_0 : 0;
+        force[P + c] = c == a ? phi_1 : 0;
+    }
+    if (!out) return false;
+    for (int c = 0; c < n; ++c)
+        if (c != a) take_out(c, r[c]);
+    set_ = 0;
+    if (full) {
+        const double c = rules_[a].c();
+        take_linear(a, phi_0, c * (phi_0 - phi_1), c * (phi_0 + phi_1));
+        set_ = std::uint64_t{1} << a;
+        tally_.note(0, 0);
+    } else {
+        take(a, own_step);
+        tally_.note(own_step.iterations, own_step.residual);
+    }
     return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "schemes/moments/exact_ladder.hpp"
 #include "schemes/moments/moment_contact.hpp"
+#include "schemes/moments/moment_obstacle.hpp"
 #include "tests/c3.hpp"
 #include "tests/claims.hpp"
 
@@ -47,7 +48,8 @@ TEST(MomentContacts, SolveEachOfAMillionStepsByRuleD) {
         const double eta = draw.small(6), b_0 = draw.unit(), b_1 = draw.small(2);
         const MomentRule rule(law, 0, LossLaw::hunt_crossley, T, 1);
         ASSERT_FALSE(rule.conserves());
-        const MomentContact s = rule.solve(T, eta, b_0, b_1);
+        MomentContact s;
+        rule.solve(T, eta, b_0, b_1, s);
         const double r_0 = b_0 + T.m00 * s.phi_0 + T.m01 * s.phi_1,
                      r_1 = b_1 + T.m10 * s.phi_0 + T.m11 * s.phi_1,
                      reach = std::abs(eta) + std::abs(b_0) + std::abs(b_1) +
@@ -102,7 +104,8 @@ TEST(MomentContacts, OfPowerLawsEndWhereTheirForcesAreThoseOfTheirEnds) {
             const MomentMatrix T = draw.compliance();
             const double eta = draw.small(6), b_0 = draw.unit(), b_1 = draw.small(2);
             const MomentRule rule(law, 0, LossLaw::hunt_crossley, T, 1);
-            const MomentContact s = rule.solve(T, eta, b_0, b_1);
+            MomentContact s;
+            rule.solve(T, eta, b_0, b_1, s);
             ASSERT_TRUE(s.converged) << exponent << " " << n;
             const double reach = std::abs(eta) + std::abs(b_0) + std::abs(b_1) +
                                  T.m00 * (std::abs(s.phi_0) + std::abs(s.phi_1)),
@@ -128,7 +131,8 @@ TEST(MomentContacts, ThatLoseArePassive) {
                 const double eta = draw.small(3), b_0 = draw.unit(), b_1 = draw.small(2);
                 const MomentRule rule(law, draw.decades(1.5), loss, T, 1);
                 ASSERT_EQ(rule.conserves(), light);
-                const MomentContact s = rule.solve(T, eta, b_0, b_1);
+                MomentContact s;
+                rule.solve(T, eta, b_0, b_1, s);
                 const double r_0 = b_0 + T.m00 * s.phi_0 + T.m01 * s.phi_1,
                              r_1 = b_1 + T.m10 * s.phi_0 + T.m11 * s.phi_1,
                              work = s.phi_0 * r_0 + s.phi_1 * r_1,
@@ -149,6 +153,67 @@ TEST(MomentContacts, ThatLoseArePassive) {
 }
 
 // By the Runge-Kutta method in 20 000 steps: R (d' - v) = M v' = u - d/c.
+// Theta of `points` points on a string with random modes, means first: (2) of docs/two-moments.md.
+std::vector<double> compliances(Draw& draw, int points) {
+    const int D = 2 * points;
+    std::vector<double> theta(static_cast<std::size_t>(D) * D), g(points);
+    for (int mode = 1; mode <= 30; ++mode) {
+        const double z = 0.5 * std::numbers::pi * (1 + draw.unit()), S_0 = 2 * std::sin(z),
+                     S_1 = 2 * (std::sin(z) / z - std::cos(z));
+        for (double& x : g) x = draw.unit() / mode;
+        for (int p = 0; p < points; ++p)
+            for (int q = 0; q < points; ++q) {
+                const double both = g[p] * g[q];
+                theta[p * D + q] += 0.5 * S_0 * S_0 * both;
+                theta[(points + p) * D + points + q] += 0.5 * S_1 * S_1 * both;
+                theta[p * D + points + q] -= std::cos(z) * S_1 * both;
+                theta[(points + p) * D + q] += std::cos(z) * S_1 * both;
+            }
+    }
+    return theta;
+}
+
+// Each contact's forces are those of the ends of its line, whichever contacts reach their barriers.
+TEST(MomentContacts, OfSeveralPointsSolveEveryPointsEquation) {
+    Draw draw;
+    for (int n = 2; n <= 5; ++n)
+        for (int trial = 0; trial < 1500; ++trial) {
+            const std::vector<double> theta = compliances(draw, n);
+            Contacts contacts;
+            std::vector<double> eta(n), reading(n), free(2 * n), force(2 * n);
+            for (int a = 0; a < n; ++a) {
+                contacts.add({draw.decades(5) / theta[a * 2 * n + a], 1}, 0, 0);
+                eta[a] = -std::abs(draw.small(3));
+                reading[a] = -eta[a];
+            }
+            MomentObstacle obstacle(contacts, {}, theta, 1, nullptr);
+            obstacle.begin(reading.data(), nullptr, force.data());
+            for (int step = 0; step < 8; ++step) {
+                for (int a = 0; a < n; ++a) free[a] = draw.unit(), free[n + a] = draw.small(2);
+                ASSERT_TRUE((obstacle.step<0, false, false>(free.data(), force.data())));
+                double largest = 0, reach = 0;
+                for (int a = 0; a < n; ++a) {
+                    largest = std::max(largest, std::abs(force[a]) + std::abs(force[n + a]));
+                    reach = std::max(reach, std::abs(eta[a]) + std::abs(free[a]));
+                }
+                for (int a = 0; a < n; ++a) {
+                    MomentContact s;
+                    s.phi_0 = force[a], s.phi_1 = force[n + a];
+                    s.to = eta[a] - free[a], s.from = eta[a] + free[n + a];
+                    for (int k = 0; k < 2 * n; ++k) {
+                        s.to -= theta[a * 2 * n + k] * force[k];
+                        s.from += theta[(n + a) * 2 * n + k] * force[k];
+                    }
+                    const ContactLaw& law = contacts.laws[a];
+                    ASSERT_LE(misfit(law, s), 1e-9 * largest + 1e-13 * law.k * reach)
+                        << n << " " << trial << " " << step << " " << a;
+                    eta[a] -= obstacle.moved()[a];
+                    ASSERT_NEAR(eta[a], s.to, 1e-12 * reach);
+                }
+            }
+        }
+}
+
 TEST(ExactLadders, MoveAndLoseAsSmallStepsSay) {
     MissingMatrix m;
     m.contacts = 1;

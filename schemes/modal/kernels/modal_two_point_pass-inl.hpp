@@ -19,6 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Column = TwoPointColumn;
 constexpr int any_number = -1;  // points counted at run time
+constexpr int by_index = -1;
 
 // dot() with a column in the modes.
 HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Column x) {
@@ -52,14 +53,15 @@ HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
 
 // Makes a single pass: the update and the next dots. The number of points is a template argument,
 // so that an absent point costs nothing. Two accumulators per dot hide the latency of adding.
-template <int points, bool dots_of_y>
-HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) {
+// pushing: the points with a force, a bit for each, or by_index: point `one`.
+template <int points, bool dots_of_y, int pushing>
+HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force, int one = 0) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     constexpr int some = points > 0 ? points : 1, columns = static_cast<int>(Column::g) + points;
     V F[some], y[some][2], u[some][2];
     for (int p = 0; p < some; ++p) {
-        F[p] = hn::Set(d, points > 0 ? force[p] : 0);
+        F[p] = hn::Set(d, points > 0 ? force[pushing == by_index ? one : p] : 0);
         for (int k = 0; k < 2; ++k) y[p][k] = u[p][k] = hn::Zero(d);
     }
     double* HWY_RESTRICT stream = m.stream;
@@ -67,10 +69,13 @@ HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force) 
         double* HWY_RESTRICT line =
             stream + (N == TwoPointStream::line ? j * columns : m.at(Column::y, j));
         V g[some], forced = hn::Zero(d);
+        const auto weight = [&](int p) HWY_ATTR __attribute__((always_inline)) {
+            return hn::Load(d, line + (static_cast<int>(Column::g) + p) * TwoPointStream::line);
+        };
+        if constexpr (pushing == by_index) forced = hn::Mul(weight(one), F[0]);
         for (int p = points - 1; p >= 0; --p) {
-            g[p] = in_register(
-                hn::Load(d, line + (static_cast<int>(Column::g) + p) * TwoPointStream::line));
-            forced = p == points - 1 ? hn::Mul(g[p], F[p]) : hn::MulAdd(g[p], F[p], forced);
+            g[p] = in_register(weight(p));
+            if (pushing > 0 && pushing >> p & 1) forced = hn::MulAdd(g[p], F[p], forced);
         }
         const NewMode next = step_of(line, forced);
         for (int p = 0; p < points; ++p) {
@@ -135,8 +140,20 @@ HWY_INLINE void many_points(TwoPointStream& m, const double* HWY_RESTRICT force)
 
 template <int points, bool dots_of_y>
 HWY_INLINE void pass(TwoPointStream& m, const double* force) {
-    if constexpr (points == any_number) many_points<dots_of_y>(m, force);
-    else few_points<points, dots_of_y>(m, force);
+    if constexpr (points == any_number) {
+        many_points<dots_of_y>(m, force);
+    } else {
+        constexpr int all = (1 << points) - 1;
+        int count = 0, last = 0;
+        for (int p = 0; p < points; ++p)
+            if (force[p] != 0) ++count, last = p;
+        if (count == 0) few_points<points, dots_of_y, 0>(m, force);
+        else if (points == 2 && count == 1)
+            last == 0 ? few_points<points, dots_of_y, 1>(m, force)
+                      : few_points<points, dots_of_y, 2>(m, force);
+        else if (points > 2 && count == 1) few_points<points, dots_of_y, by_index>(m, force, last);
+        else few_points<points, dots_of_y, all>(m, force);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

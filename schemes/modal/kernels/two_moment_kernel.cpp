@@ -42,14 +42,19 @@ HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, co
         to[t] = hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a[t], of_b[t])));
 }
 
-// forced: whether contacts push; a thread always does.
-template <int points, bool thread, bool forced>
-HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi) {
+constexpr int by_index = -1;
+
+// pushing: the contacts that push, a bit for each, or by_index: contact `one`. A thread always
+// pulls.
+template <int points, bool thread, int pushing>
+HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, int one = 0) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     constexpr int columns = Stream::weights + 2 * points, some = points > 0 ? points : 1,
-                  from = forced ? 0 : points - (thread ? 1 : 0);
+                  pull = (pushing == by_index ? 0 : pushing) | (thread ? 1 << (points - 1) : 0);
     V force_0[some], force_1[some], sum_0[some], sum_1[some];
+    const V one_0 = hn::Set(d, pushing == by_index ? phi[one] : 0),
+            one_1 = hn::Set(d, pushing == by_index ? phi[points + one] : 0);
     for (int p = 0; p < points; ++p) {
         force_0[p] = hn::Set(d, phi[p]), force_1[p] = hn::Set(d, phi[points + p]);
         sum_0[p] = sum_1[p] = hn::Zero(d);
@@ -62,10 +67,14 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi) {
                 return hn::Load(d, q + column * Stream::line);
             };
             V a = load(Stream::a), b = load(Stream::b), p_0[some], p_1[some];
+            if constexpr (pushing == by_index) {
+                b = hn::MulAdd(load(Stream::weights + one), one_0, b);
+                a = hn::MulAdd(load(Stream::weights + points + one), one_1, a);
+            }
             for (int p = 0; p < points; ++p) {
                 p_0[p] = in_register(load(Stream::weights + p));
                 p_1[p] = in_register(load(Stream::weights + points + p));
-                if (p < from) continue;
+                if (!(pull >> p & 1)) continue;
                 b = hn::MulAdd(p_0[p], force_0[p], b);  // (2)
                 a = hn::MulAdd(p_1[p], force_1[p], a);
             }
@@ -129,19 +138,25 @@ HWY_INLINE void many_points(Stream& m, const double* HWY_RESTRICT phi, bool forc
 }
 
 template <int points, bool thread>
-HWY_INLINE void pass(Stream& m, const double* phi, bool contacts) {
+HWY_INLINE void pass(Stream& m, const double* phi) {
+    int count = 0, last = 0;
+    for (int a = 0; a < m.points - m.thread; ++a)
+        if (phi[a] != 0 || phi[m.points + a] != 0) ++count, last = a;
     if constexpr (points == any_number) {
-        many_points(m, phi, contacts);
-    } else if constexpr (points > (thread ? 1 : 0)) {
-        if (contacts) few_points<points, thread, true>(m, phi);
-        else few_points<points, thread, false>(m, phi);
+        many_points(m, phi, count > 0);
     } else {
-        few_points<points, thread, true>(m, phi);
+        constexpr int contacts = points - thread, all = (1 << contacts) - 1;
+        if (count == 0) few_points<points, thread, 0>(m, phi);
+        else if (contacts == 2 && count == 1)
+            last == 0 ? few_points<points, thread, 1>(m, phi)
+                      : few_points<points, thread, 2>(m, phi);
+        else if (contacts > 2 && count == 1) few_points<points, thread, by_index>(m, phi, last);
+        else few_points<points, thread, all>(m, phi);
     }
 }
 template <int points, bool thread>
-void pass_of(Stream& m, const double* phi, bool contacts) {
-    pass<points, thread>(m, phi, contacts);
+void pass_of(Stream& m, const double* phi) {
+    pass<points, thread>(m, phi);
 }
 
 // Taps that read modes, two at a time in one pass: a tap and the next such tap.
@@ -178,7 +193,7 @@ bool rows_of(Stream& m, MomentObstacle& at, const Block& out, RowsInHand& r) {
         m.points, r.force, out, r, [&](int k) HWY_ATTR { return taps.read(k); },
         [&] { return at.forces(0); },
         [&](double* force) HWY_ATTR { return at.step<points, thread, series>(m.free, force); },
-        [&](const double* force) HWY_ATTR { pass<points, thread>(m, force, at.any_force(force)); });
+        [&](const double* force) HWY_ATTR { pass<points, thread>(m, force); });
 }
 template <int points, bool thread>
 bool rows_without(Stream& m, MomentObstacle& at, const Block& out, RowsInHand& r) {

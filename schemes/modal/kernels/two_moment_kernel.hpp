@@ -31,7 +31,7 @@ struct TwoMomentStream {
 };
 
 // Makes a step of the modes; phi: means for all points, then first moments.
-using TwoMomentPass = void (*)(TwoMomentStream&, const double* phi, bool contacts);
+using TwoMomentPass = void (*)(TwoMomentStream&, const double* phi);
 TwoMomentPass two_moment_pass(int points, bool thread);
 
 // False: the caller wants no more.
