@@ -706,6 +706,31 @@ test("maps hold their boundaries and theory, and their tiles meet half-way", () 
     assert.ok(tiles.get(places[0]).left < places[0]);
   }
 });
+test("a step of a population's curve has the string that a click opens", () => {
+  const strings =
+      "string,window_s,uncertainty,outcome\nlow,0.1,0.001,decided within 1 %\nhigh,0.1,0.2,undecided\n",
+    fronts =
+      "string,scheme,options,rate,modes,error,cost_s_per_s\n" +
+      "low,one,,44100,20,0.05,0.001\nlow,one,,88200,40,0.005,0.004\nhigh,two,,44100,20,0.3,0.002\n";
+  const of = on(
+    report(folder_of(["manifest.json"], {"strings.csv": strings, "fronts.csv": fronts})),
+  );
+  const values = spec =>
+    JSON.stringify(spec)
+      .match(/"string":"[a-z]+"/g)
+      ?.map(text => text.slice(10, -1));
+  const steps = print => values(of(`share_spec({within_field: 0.01}, ${print}).spec`));
+  assert.deepEqual([...new Set(steps(false))], ["low"]);
+  assert.equal(steps(false).length, steps(true).length + 1); // the mark to click
+  const rows = of('string_spec({scene: "low"}, false).spec.data.values');
+  assert.deepEqual(
+    rows.map(row => [row.series, row.x, row.y]),
+    [
+      ["one", 0.001, 0.05],
+      ["one", 0.004, 0.005],
+    ],
+  );
+});
 test("steps to a trimmed scene have the look of their schemes", () => {
   const path =
     "step,change,scheme,options,modes,rate,error,certificate,within,cost_s_per_s,measure,target\n" +

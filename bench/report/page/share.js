@@ -4,7 +4,7 @@ const strings_in = () => records("strings");
 const schemes_in = rows => in_order(rows.map(row => row.scheme));
 const all_schemes = "best of all";
 
-// Of a tolerance: the cheapest cost of each string by scheme, and the strings that can be decided.
+// Cheapest cost of each string by scheme, and the number of strings that can be decided.
 function solved_within(within) {
   const cheapest = new Map([[all_schemes, new Map()]]);
   for (const f of records("fronts")) {
@@ -22,24 +22,30 @@ function solved_within(within) {
 const within_text = within => `within ${percent(within)}`;
 
 // One panel: a curve per scheme, and grey where nothing can be decided.
-function share_panel(within, names, domain, first, width) {
+function share_panel(within, names, domain, first, width, print) {
   const {cheapest, decided} = solved_within(within),
     count = strings_in().length,
     steps = [...cheapest].flatMap(([series, of]) => {
-      const costs = [...of.values()].sort((a, b) => a - b),
-        row = (x, k) => ({
+      const costs = [...of].sort(([, a], [, b]) => a - b),
+        row = (x, k, string) => ({
           series,
           x,
           y: k / count,
+          string,
           last: k === costs.length && x < domain[1],
           tooltip: tooltip([
             ["scheme", series],
             ["cost", cost_text(x, "cost_s_per_s")],
             ["solved", `${k} of ${count} strings`],
+            ...(string ? [["string", `${string}, which a click opens`]] : []),
           ]),
         });
       return costs.length
-        ? [row(costs[0], 0), ...costs.map((x, k) => row(x, k + 1)), row(domain[1], costs.length)]
+        ? [
+            row(costs[0][1], 0),
+            ...costs.map(([string, x], k) => row(x, k + 1, string)),
+            row(domain[1], costs.length),
+          ]
         : [];
     });
   const {color, shape} = encodings_of(names),
@@ -89,6 +95,15 @@ function share_panel(within, names, domain, first, width) {
         data: {values: steps.filter(s => s.last && s.series !== all_schemes)},
         ...points({color, shape, opacity: brought_out}, {size: 40}),
       },
+      ...(print
+        ? []
+        : [
+            {
+              data: {values: steps.filter(s => s.string && s.series !== all_schemes)},
+              mark: {type: "point", filled: true, size: 60, opacity: 0, cursor: "pointer"},
+              encoding: hover,
+            },
+          ]),
       once({
         type: "text",
         x: 6,
@@ -109,12 +124,12 @@ function share_spec(choice, print) {
     one = choice.within_field > 0,
     width = one ? (print ? print_width() : "container") : (print_width() - 60) / 3;
   const panels = one
-    ? share_panel(choice.within_field, names, domain, null, width)
+    ? share_panel(choice.within_field, names, domain, null, width, print)
     : {
         width: undefined,
         spacing: 20,
         hconcat: share_tolerances.map((within, k) =>
-          share_panel(within, names, domain, k === 0, width),
+          share_panel(within, names, domain, k === 0, width, print),
         ),
       };
   return {
@@ -129,6 +144,57 @@ function share_spec(choice, print) {
           "missing below it was refused, failed, or needs other settings",
         names,
       },
+      print,
+    ),
+  };
+}
+
+// ---- One string: the front of each scheme
+const opens_strings = ({view: drawn}) =>
+  drawn.addEventListener("click", (event, item) => {
+    const select = document.getElementById("scene"),
+      string = item?.datum?.string;
+    if (!string || !select) return;
+    select.value = string;
+    document
+      .querySelector(`[aria-label="chart: ${string_chart}"]`)
+      .scrollIntoView({block: "center"});
+    return select.onchange();
+  });
+const string_chart = "error against cost of one string";
+function string_spec({scene}, print) {
+  const name_of = f => [f.scheme, f.options].filter(Boolean).join(" "),
+    fronts = records("fronts").filter(f => f.string === scene),
+    names = in_order(fronts.map(name_of)),
+    {color, shape, strokeDash} = encodings_of(names),
+    rows = fronts.map(f => ({
+      series: name_of(f),
+      x: number(f.cost_s_per_s),
+      y: number(f.error),
+      tooltip: tooltip([
+        ["settings", `${spoken(name_of(f))}, ${f.modes} modes, ${f.rate} Hz`],
+        ["error", percent(number(f.error))],
+        ["cost", cost_text(number(f.cost_s_per_s), "cost_s_per_s")],
+      ]),
+    })),
+    string = strings_in().find(s => s.string === scene) ?? {};
+  return {
+    legend: names,
+    spec: framed(
+      {
+        height: 320,
+        data: {values: rows},
+        encoding: {
+          x: quantity("x", {title: "processor time for one second of sound [s]"}, log(4)),
+          y: quantity("y", error_axis("error_l2_whole"), log(4)),
+        },
+        layer: [
+          {mark: {type: "line"}, encoding: {color, strokeDash, opacity: brought_out}},
+          points({color, shape, opacity: brought_out}),
+          above(`${scene}: ${string.outcome}`),
+        ],
+      },
+      {title: `${page.title}: ${scene}`, subtitle: string.outcome, names},
       print,
     ),
   };
@@ -228,7 +294,15 @@ function share_section() {
       menus: () => [within],
       scrolls: true,
       spec: share_spec,
+      seen: opens_strings,
       twins: [{file: "share.svg", choice: {within_field: 0}}],
+    },
+    string = {
+      name: string_chart,
+      scenes: distinct(records("fronts").map(f => f.string)),
+      menus: () => [],
+      spec: string_spec,
+      twins: [],
     },
     advice = {
       name: "estimated against true error of each advice",
@@ -243,7 +317,7 @@ function share_section() {
       "A string counts as solved where the error, the uncertainty of the reference added, is within " +
         "the tolerance. Costs are processor time of one thread.",
     ],
-    charts: [...(timed ? [share] : []), ...(advised ? [advice] : [])],
+    charts: [...(timed ? [share, string] : []), ...(advised ? [advice] : [])],
     table: without(table("strings"), ["problem", "series"]),
   };
 }
