@@ -1,8 +1,9 @@
 #!/bin/sh
 # elsewhere.sh SYSTEM PREFIX BUILD: jvari::scenes and jvari::schemes, built for another system by a
-# cross compiler of Debian 12, play what those that are installed in PREFIX play. SYSTEM is arm64,
-# run by qemu, or windows, run by wine; without wine it is built and not run. In PREFIX/bin
-# tests/elsewhere has been built. What is built here stays in BUILD.
+# compiler of Debian 12, play what those that are installed in PREFIX play. SYSTEM is arm64, run by
+# qemu, windows, run by wine, or libcxx: clang with its own C++ library, as on macOS. Without wine
+# the program for Windows is built and not run. In PREFIX/bin tests/elsewhere has been built. BUILD
+# keeps what is built here.
 set -eu
 system=$1 native=$2 build=$3
 tree=$(cd "$(dirname "$0")/.." && pwd)
@@ -10,6 +11,13 @@ skip() { echo "skipped: $*"; exit 77; }
 fail() { echo "elsewhere.sh $system: $*" >&2; exit 1; }
 needs() { command -v "$1" > /dev/null || skip "no $1: $2"; }
 mkdir -p "$build"
+headers_alone() {  # headers_alone PACKAGE FOLDER: a library as headers, out of sight of others
+    mkdir -p "$build/include"
+    [ -d "/usr/include/$2" ] || skip "no headers of $2"
+    ln -sfn "/usr/include/$2" "$build/include/$2"
+    printf '%s\n' "Name: $1" "Description: headers" "Version: $(pkg-config --modversion "$1")" \
+        "Cflags: -I$build/include -DTOML_HEADER_ONLY=1" > "$build/$1.pc"
+}
 case $system in
     arm64)
         why="dpkg --add-architecture arm64 && apt-get update && apt-get install"
@@ -25,22 +33,22 @@ case $system in
     windows)
         needs x86_64-w64-mingw32-g++-posix "apt-get install g++-mingw-w64-x86-64-posix"
         tools=x86_64-w64-mingw32 exe=.exe
-        # Both libraries as headers, out of sight of the C library beside them.
-        mkdir -p "$build/include"
-        for name in hwy toml++; do
-            [ -d "/usr/include/$name" ] || skip "no headers of $name"
-            ln -sfn "/usr/include/$name" "$build/include/$name"
-        done
-        for package in libhwy tomlplusplus; do
-            version=$(pkg-config --modversion "$package")
-            printf '%s\n' "Name: $package" "Description: headers" "Version: $version" \
-                "Cflags: -I$build/include -DTOML_HEADER_ONLY=1" > "$build/$package.pc"
-        done
+        headers_alone libhwy hwy
+        headers_alone tomlplusplus toml++
         export PKG_CONFIG_LIBDIR="$build"
         emulator=$(command -v wine64 || command -v /usr/lib/wine/wine64 || true)
         export WINEPREFIX="$build/wine" WINEDEBUG=-all
         ;;
-    *) fail "expected arm64 or windows" ;;
+    libcxx)
+        needs clang++ "apt-get install clang libc++-dev libc++abi-dev"
+        echo '#include <version>' | clang++ -stdlib=libc++ -x c++ -fsyntax-only - 2> "$build/log" ||
+            skip "no libc++: apt-get install libc++-dev libc++abi-dev"
+        tools=clang-libcxx exe='' emulator=env
+        headers_alone tomlplusplus toml++
+        cp "$(pkg-config --variable=pcfiledir libhwy)/libhwy.pc" "$build"
+        export PKG_CONFIG_LIBDIR="$build"
+        ;;
+    *) fail "expected arm64, windows or libcxx" ;;
 esac
 prefix=$build/prefix
 rm -rf "$prefix"

@@ -153,7 +153,7 @@ set_tests_properties(Installed.TheSchemesAloneNeedNoLibraryUnderTheGpl PROPERTIE
 jvari_out_of_tree(elsewhere ${without})
 set_tests_properties(elsewhere.configure PROPERTIES ENVIRONMENT
     PKG_CONFIG_LIBDIR=${CMAKE_CURRENT_BINARY_DIR}/needed)
-foreach(system arm64 windows)
+foreach(system arm64 windows libcxx)
     jvari_gate(Elsewhere.TheSchemesPlayTheSameOn.${system} elsewhere.sh ${system} ${prefix}
         ${CMAKE_BINARY_DIR}/elsewhere.${system})
     set_tests_properties(Elsewhere.TheSchemesPlayTheSameOn.${system} PROPERTIES COST 200
