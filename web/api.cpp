@@ -1,6 +1,6 @@
 // The core behind plain C calls, for a page's worker: texts and numbers in, a run's handle or 0
-// out. After a 0 `jv_said` holds the sentence of the refusal, which is that of the program; after a
-// call that returns a text, the text stays valid until the next call.
+// out. After a 0 `jv_said` holds the program's sentence of refusal. A returned text stays valid
+// until the next call.
 #include <emscripten.h>
 
 #include <cmath>
@@ -75,8 +75,8 @@ Settings settings_of(const Descriptor& d, double rate, double tap_rate, int mode
     return s;
 }
 
-// Displacements of the first string at these parts of its length, a line each: what a picture of it
-// is drawn from.
+// Adds taps for drawing: displacements of the first string at these fractions of the length, one a
+// line.
 void add_shape(Scene& scene, const char* places) {
     for (const std::string& place : lines_of(places))
         scene.taps.push_back({"at_" + place, Quantity::displacement, 0,
@@ -109,7 +109,7 @@ JV const char* jv_said() { return last_text.c_str(); }
 
 JV const char* jv_list() { return (last_text = list_text()).c_str(); }
 
-// What the scene says once it is read, for those who draw it; nullptr: refused.
+// Scene as JSON, for drawing; nullptr: refused.
 JV const char* jv_scene(const char* text, const char* overrides) {
     const bool done = tried([&] {
         return !(last_text = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty();
@@ -130,9 +130,9 @@ JV const char* jv_problem(const char* text, const char* overrides, double rate, 
     return done ? last_text.c_str() : nullptr;
 }
 
-// `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line NAME=VALUE each.
-// `shape`: places of the first string, as parts of its length, a line each, whose displacement is
-// read beside the scene's taps and after them.
+// Runs a scene. `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line
+// NAME=VALUE each. `shape`: places on the first string, as fractions of the length, a line each;
+// their displacements follow the scene's taps.
 JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, double rate,
                 double tap_rate, int modes, const char* options, double duration, const char* shape,
                 int energy) {
@@ -167,9 +167,9 @@ JV const double* jv_energy(const Kept* k, int column) {  // stored, supplied, di
 }
 JV void jv_free(Kept* k) { delete k; }
 
-// How far two runs of one scene are apart on a tap after its last pluck: ||a - b||/||b||, for how
-// long the two agree within 10 %, in third octaves within `range` [dB] of the loudest [dB], and how
-// much louder a is above a frequency [dB].
+// Differences between two runs of one scene on a tap after the last pluck: ||a - b||/||b||, the
+// time of agreement within 10 %, third octaves within `range` [dB] of the loudest [dB], and the
+// loudness of a over b above a frequency [dB].
 JV double jv_error(const Kept* a, const Kept* b, int tap) {
     return relative_l2(a->free(tap), b->free(tap), b->run.trace.tap_rate,
                        {0, b->scene.duration - free_from(b->scene)});
@@ -189,8 +189,8 @@ JV double jv_left_after(double last, double before, int matched) {
     return left_after(std::span(changes).last(std::isnan(before) ? 1 : 2), matched != 0);
 }
 
-// Of runs by these schemes, a line each: `figures` holds error, its uncertainty, the cost and its
-// quartiles of each.
+// Choice among runs by these schemes, a line each; `figures`: error, uncertainty, cost and two
+// quartiles per run.
 JV const char* jv_cheapest(const char* schemes, const double* figures, double accuracy) {
     std::vector<Offer> offers;
     for (const std::string& name : lines_of(schemes)) {

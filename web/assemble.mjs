@@ -1,5 +1,5 @@
-// assemble.mjs BUILD SOURCES: play.html in BUILD, one file with the module, the worker and
-// the scenes of the library in it.
+// assemble.mjs BUILD SOURCES: writes BUILD/play.html, one file with the module, the worker and the
+// scenes of the library.
 import {readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join, resolve} from "node:path";
 import {gzipSync} from "node:zlib";

@@ -1,5 +1,5 @@
-// Error against cost, recomputed for the string as it stands: a line for each scheme, a point for
-// each sample rate. Costs are of this browser.
+// Error against cost, recomputed for the current string: a line for each scheme, a point for each
+// sample rate. Costs are measured in this browser.
 const chart = {points: [], own: [], cells: 0, whole: false, why: ""};
 const chart_schemes = [
   ["modal_two_moment", "matched"],
@@ -29,7 +29,7 @@ const first_able = () =>
     name => shown.scene.able.includes(name) && !descriptor(name).control,
   );
 
-// As in the program's tables (bench/compare/bound.hpp).
+// Text of an error, as in the program's tables (bench/compare/bound.hpp).
 function error_text({error, uncertainty}) {
   if (uncertainty <= 0.1 * error) return percent(error);
   if (!Number.isFinite(uncertainty)) return `${percent(error)}?`;
@@ -50,8 +50,8 @@ const time_text = s =>
       ? `${two_digits(1e3 * s)} ms`
       : `${two_digits(1e6 * s)} µs`;
 
-// The cheapest within an accuracy, by the rules of `jvari compare` (analysis/cheapest.hpp). Costs
-// are of this browser, and its clock is coarse.
+// Cheapest scheme within an accuracy, by the rules in `jvari compare` (analysis/cheapest.hpp).
+// Costs are measured in this browser, with a coarse clock.
 async function verdict(points, accuracy) {
   const all = points.filter(
       p => p.scheme !== "mine" && !descriptor(p.scheme)?.control && sound_point(p),
@@ -94,7 +94,7 @@ async function draw_answers() {
         : await Promise.all(accuracies.map(accuracy => verdict(points, accuracy))).catch(error => {
             if (!(error instanceof Stale_question)) throw error;
           });
-  // the worker was replaced, or there are newer points
+  // Returns if the worker was replaced, or if newer points came.
   if (!told || asked !== draw_answers.count) return;
   document.getElementById("answers").replaceChildren(
     ...(chart.why ? [] : told).map((v, k) => {

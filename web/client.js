@@ -1,5 +1,5 @@
-// The worker as the page sees it. The newest state wins: a worker that is still busy with an older
-// one after `patience` is replaced.
+// The worker, seen from the page. The newest state wins: a worker still busy with an older state
+// after `patience` is replaced.
 const client = {
   worker: null,
   module: null,
@@ -9,7 +9,7 @@ const client = {
   ready: null,
   list: null,
   since: 0,
-  told: new Set(), // what the worker has said of the newest state
+  told: new Set(), // kinds of messages received for the newest state
 };
 const patience = 1500, // [ms]
   late_seconds = 8; // for a verdict
@@ -97,7 +97,7 @@ const options_of = (name, compliance) =>
 const descriptor = name =>
   [...client.list.schemes, ...client.list.references].find(d => d.name === name);
 
-// A single question; it waits for what the worker has in hand.
+// Asks a single question; the worker answers after the present piece of work.
 function ask(question, more = {}) {
   const id = `q${++ask.count}`;
   return new Promise((resolve, reject) => {

@@ -1,7 +1,7 @@
-// The module's C calls as functions: texts and numbers in, objects and views of its memory out. A
-// refusal is thrown with the program's sentence.
+// The module's C calls as functions: texts and numbers in, objects and views of the module's memory
+// out. A refusal is thrown with the program's sentence.
 function jvari_core(module) {
-  // texts go by the heap: a scene may be larger than the stack
+  // Passes texts by the heap: a scene may be larger than the stack.
   const call = (name, type, ...values) => {
     const texts = [],
       given = values.map(v => {
@@ -35,8 +35,8 @@ function jvari_core(module) {
     scene: (text, overrides = []) => told(call("jv_scene", "string", text, overrides.join("\n"))),
     problem: (text, overrides, rate, modes, duration) =>
       told(call("jv_problem", "string", text, overrides.join("\n"), rate, modes, duration)),
-    // {scene, overrides, scheme, rate, tap_rate, modes, options, duration, shape, energy}: the
-    // last five may be absent
+    // Runs {scene, overrides, scheme, rate, tap_rate, modes, options, duration, shape, energy}; the
+    // last five may be absent.
     run(a) {
       const handle = call(
         "jv_run",
@@ -72,7 +72,7 @@ function jvari_core(module) {
     third_octaves: (a, b, tap, range) =>
       call("jv_third_octaves", "number", a.handle, b.handle, tap, range),
     louder: (a, b, tap, hertz) => call("jv_louder", "number", a.handle, b.handle, tap, hertz),
-    // their places: of the best (null: none), of ties, of those that are perhaps cheaper
+    // Indices into `points`: the best (null: none), the ties, the perhaps cheaper.
     cheapest(points, accuracy) {
       const at = module._malloc(40 * points.length);
       new Float64Array(module.HEAPF64.buffer, at, 5 * points.length).set(

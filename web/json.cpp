@@ -20,7 +20,7 @@
 namespace jvari::web {
 
 namespace {
-std::string text_of(double x) {  // JSON has no infinity: a number too large to be one reads as such
+std::string text_of(double x) {  // JSON lacks infinity: a number out of range reads so
     return std::isnan(x) ? "null" : std::isinf(x) ? (x < 0 ? "-1e999" : "1e999") : number_text(x);
 }
 std::string text_of(const std::string& s) { return quote(s); }
@@ -114,7 +114,7 @@ std::string start_text(const TriangleShape& t) {
         .text();
 }
 
-std::string start_text(const auto&) { return "{}"; }  // of a file, or at rest
+std::string start_text(const auto&) { return "{}"; }  // from a file, or at rest
 
 std::string string_text(const String& s) {
     Object o;
@@ -177,8 +177,8 @@ std::string scene_text(const Scene& scene) {
         .text();
 }
 
-// The string as arrays, for a scheme typed into the page: the members that every reader of arrays
-// gets.
+// The string as arrays, for a scheme typed into the page: the same members as for other readers of
+// arrays.
 std::string problem_text(const Scene& scene, const Settings& settings) {
     refuse_beyond_arrays(scene);
     Object o;

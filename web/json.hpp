@@ -1,4 +1,4 @@
-// What the page is told, as JSON.
+// JSON texts for the page.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace jvari::web {
 
 // schemes and references with their options
 std::string list_text();
-// what is drawn and moved of it
+// parts of the scene to draw and to move
 std::string scene_text(const Scene&);
-// its modes, contacts, thread, pluck and taps as arrays
+// modes, contacts, thread, pluck and taps as arrays
 std::string problem_text(const Scene&, const Settings&);
-// how it ended and is judged, its cost here, its facts
+// outcome, judgement, cost on this machine, facts
 std::string run_text(const Run&, const Scene&, int modes, Balance promised);
 std::string choice_text(const Choice&);  // by places
 

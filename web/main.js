@@ -1,4 +1,4 @@
-// The page put together: controls, what the worker answers, keys.
+// Puts the page together: controls, answers from the worker, keys.
 function element(name, properties = {}, ...inside) {
   const made = Object.assign(document.createElement(name), properties);
   if (properties.scope) made.setAttribute("scope", properties.scope);
@@ -44,7 +44,7 @@ function fill_schemes() {
   by_id("compliance").disabled = options_of(state.scheme, "own").length === 0;
 }
 
-// of the scene as it is in the library: ranges of the handles are taken from it
+// Scene and string without changes by the user: the handles take their ranges from the string.
 let base = {scene: null, string: null};
 async function fill_handles() {
   const key = state.text ?? state.scene;
@@ -113,7 +113,7 @@ function show_controls() {
   if (client.list && shown.scene) fill_schemes();
 }
 
-// Another string, by the scheme that is shown first where that takes it (`shows.scene`).
+// Changes the string and returns to the first scheme, if able to run the scene (`shows.scene`).
 function choose_scene({target}) {
   state.tour = "";
   take_step();
@@ -127,7 +127,7 @@ function choose(more) {
 }
 let frame = 0;
 function changed() {
-  // of many in one frame, the last
+  // Shows only the last of many changes in one frame.
   if (by_id("auto_sound").checked) sound.wanted = "scheme";
   if (state.tour)
     (++take_step.count,
@@ -157,7 +157,7 @@ function show_state() {
   send_state();
 }
 
-// No number of another state stays on the page.
+// Removes all numbers, which belong to the old state.
 function clear_answers(title, why = "") {
   const string = JSON.stringify([scene_text(), state.set]);
   if (why || string !== chart.string) Object.assign(chart, {points: [], own: [], whole: false});
@@ -171,7 +171,7 @@ function clear_answers(title, why = "") {
   if (why) settle();
 }
 
-// ---- What the worker answers.
+// ---- Answers from the worker.
 
 const shows = {
   scene({scene, cells, kept}) {
@@ -186,7 +186,7 @@ const shows = {
     chart.cells = cells;
     if (!kept) Object.assign(chart, {points: [], whole: false});
     draw_chart();
-    // another scheme where the chosen one does not take the string
+    // Takes another scheme if the chosen scheme cannot run the string.
     const able = first_able();
     if (!scene.able.includes(state.scheme) && able) {
       Object.assign(state, {scheme: able, compliance: "own", modes: 0});

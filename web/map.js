@@ -1,5 +1,5 @@
-// Where a scheme fails: its outcome over the stiffness of the obstacle and the sample rate, filled
-// column by column while you watch.
+// Map of a scheme's failures: the outcome over the stiffness of the obstacle and the sample rate,
+// filled column by column while you watch.
 const map = {number: 0, columns: [], stiffness: [], rates: [], running: false};
 const map_size = {columns: 28, rows: 13},
   map_seconds = 0.02;
@@ -30,14 +30,14 @@ async function fill_map() {
       map.columns.push(column);
       draw_map();
     } catch {
-      return; // the worker was replaced, and the map is asked for anew
+      return; // the worker was replaced, and another request fills the map
     }
   }
   map.running = false;
   draw_map();
 }
 
-// The outcomes of the program's maps (analysis/judgement.hpp), each with its colour.
+// Colours by outcome; the outcomes are the program's (analysis/judgement.hpp).
 const kinds = {
   sound: "sound",
   flagged: "flagged",

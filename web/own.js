@@ -1,5 +1,5 @@
-// A scheme typed into the page. It runs in a worker of its own: no page, no network (the page's
-// policy forbids it), and no longer than two seconds.
+// A scheme typed into the page. A separate worker runs the text: no access to the page, no network
+// (the page's policy), and at most two seconds.
 const own_limit = 2000; // [ms]
 // p holds the string as arrays; return one array of p.rows numbers for each tap.
 const own_example = `
@@ -47,8 +47,8 @@ for (let row = 0; row < p.rows; ++row) {
 return taps;
 `;
 
-// The text as a worker's own script; what it says comes back as a message, what it throws as an
-// error.
+// Wraps the text into a worker's script. The script sends the result as a message and throws
+// errors.
 const own_prelude = 10; // lines of the script above the text
 function own_worker(text) {
   const script = `"use strict"; onmessage = ({data: p}) => {

@@ -1,11 +1,11 @@
-// The string over its bridge, slowed down: the scheme's in colour, the exact solution in black; and
-// the force, the energy and the error of that moment.
+// Slow motion of the string over the bridge: the scheme in colour, the exact solution in black; and
+// the force, the energy and the error at that moment.
 const shown = {scene: null, motion: null, reference: null, verdict: null};
 const film = {at: 0, paused: false, slowed: 200, last: 0, zoomed: false, dragged: null};
 const colour = name =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-// A canvas at the screen's own resolution, cleared; its size in CSS pixels.
+// Clears a canvas at the screen's resolution, and returns the size in CSS pixels.
 function canvas_of(id) {
   const canvas = document.getElementById(id),
     pen = canvas.getContext("2d"),
@@ -19,8 +19,8 @@ function canvas_of(id) {
   return {pen, width, height};
 }
 
-// ---- The view: metres to pixels. The deflection is drawn larger than it is, by the factor that
-// the picture names.
+// ---- The view: metres to pixels. The deflection is exaggerated by a factor, which the picture
+// names.
 
 function view_of(width, height) {
   const s = shown.scene.string[0],
@@ -56,7 +56,7 @@ function largest_deflection({shape}) {
   return most;
 }
 
-// ---- What stands still.
+// ---- The parts at rest.
 
 function draw_obstacles(pen, v) {
   const s = shown.scene.string[0],
@@ -88,14 +88,14 @@ function draw_obstacles(pen, v) {
     pen.stroke();
   }
   pen.fillStyle = colour("ink");
-  // masses where they are at t = 0
+  // Masses at t = 0.
   for (const m of s.mass)
     (pen.beginPath(), pen.arc(v.x(m.position), v.y(m.height) + 7, 7, 0, 7), pen.fill());
   for (const x of [0, s.length])
     if (x <= v.length) (pen.beginPath(), pen.arc(v.x(x), v.y(0), 4, 0, 7), pen.fill());
 }
 
-// The motion on row `row`, a fraction of which is drawn between its neighbours.
+// Draws the motion at row `row`; a fraction interpolates between two rows.
 function draw_string(pen, v, picture, row, stroke, dash) {
   const n = Math.min(Math.floor(row), picture.rows - 1),
     next = Math.min(n + 1, picture.rows - 1),
@@ -120,7 +120,7 @@ function draw_string(pen, v, picture, row, stroke, dash) {
 }
 
 function draw_force(pen, v, picture, row) {
-  // of the first barrier, as an arrow
+  // Arrow for the force on the first barrier.
   const b = shown.scene.string[0].barrier[0],
     n = Math.min(Math.round(row), picture.rows - 1),
     force = picture.force?.[n];
@@ -134,10 +134,10 @@ function draw_force(pen, v, picture, row) {
   pen.fillText(`${digits(force)} N`, x + 8, y - length + 4);
 }
 
-// ---- Handles that are dragged on the picture: each moves a slider in x and another in y. A thread
-// is held below the string, beside the bridge's own.
+// ---- Handles to drag on the picture: each moves a slider in x and another in y. The thread's
+// handle is below the string, beside the bridge's.
 
-// as the scene's tap of its force calls it: bridge, fret, bolt
+// Name of an obstacle by the tap on the force there: bridge, fret, bolt.
 const called = (quantity, otherwise) =>
   shown.scene.tap.find(t => t.quantity === quantity)?.name ?? otherwise;
 function grips(v) {
@@ -201,7 +201,7 @@ function draw_picture() {
   draw_graphs();
 }
 
-// ---- Three curves over the window, with a line at the moment that is drawn.
+// ---- Three curves over the window, with a line at the drawn moment.
 
 function draw_graphs() {
   const {pen, width, height} = canvas_of("graphs"),
@@ -274,7 +274,7 @@ function film_frame(now) {
 }
 
 function new_pictures() {
-  // what the scales are taken from
+  // Picture for the scales.
   const picture = shown.reference ?? shown.motion;
   film.most = largest_deflection(picture);
   film.most_force = picture.force?.reduce((most, x) => Math.max(most, x), 1e-9) ?? 1e-9;

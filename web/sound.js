@@ -1,11 +1,11 @@
-// What is heard: the force on the nut, the scheme's and the exact one, each at its own peak. Both
-// run at once and over again, one of them muted: a press goes over to the other in mid-sound, and
-// both end some seconds after the last press.
+// Sounds: the force on the nut from the scheme and from the exact solution, each scaled to the same
+// peak. Both play in a loop together, with one muted: a press changes over in mid-sound, and both
+// end some seconds after the last press.
 const sound = {context: null, buffers: {}, parts: {}, playing: "", wanted: "", started: null};
 const rounds_heard = 4,
   fade = 0.01; // [s]
 
-// null where the run failed before its first sample
+// Buffer with the samples; null if the run failed before the first sample.
 function buffer_of({rate, sound: samples}) {
   if (samples.length === 0) return null;
   const loudest = samples.reduce((most, x) => Math.max(most, Math.abs(x)), 1e-12),
@@ -29,7 +29,7 @@ function stop_sound(wanted = "") {
 async function play_sound(which) {
   sound.wanted = which;
   if (which === "reference" && !sound.buffers.reference) fetch_reference_sound();
-  if (!sound.buffers[which]) return mark_sound(); // it plays when it comes
+  if (!sound.buffers[which]) return mark_sound(); // plays on arrival
   const context = (sound.context ??= new AudioContext());
   await context.resume();
   if (!sound.playing) sound.began = context.currentTime;
@@ -38,7 +38,7 @@ async function play_sound(which) {
     const gain = new GainNode(context, {gain: 0}),
       source = new AudioBufferSourceNode(context, {buffer, loop: true});
     source.connect(gain).connect(context.destination);
-    source.onended = () => stop_sound(sound.wanted); // which may be on its way
+    source.onended = () => stop_sound(sound.wanted); // may still be on the way
     source.start(0, (context.currentTime - sound.began) % buffer.duration);
     sound.parts[name] = {source, gain};
   }
@@ -53,7 +53,7 @@ async function play_sound(which) {
   mark_sound();
 }
 
-// The second of the exact solution, asked for once, at the first press.
+// Fetches one second of the exact solution, once, at the first press.
 async function fetch_reference_sound() {
   const of = shown.verdict;
   if (!of || sound.buffers.reference || sound.fetching === of) return;

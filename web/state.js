@@ -1,5 +1,5 @@
-// What the page shows, as one value that also stands in the address: the scene, what was changed of
-// it, the scheme, the tour.
+// State of the page, also kept in the address: the scene, the changes to the scene, the scheme, the
+// tour.
 const state = {
   scene: "tanpura_c3_release",
   text: null,
@@ -11,7 +11,7 @@ const state = {
   tour: "",
   step: 0,
 };
-// Those that stand before the list of all.
+// Instruments at the head of the list of scenes.
 const instruments = {
   Tanpura: "tanpura_c3_release",
   Sitar: "sitar_c5",
@@ -22,9 +22,9 @@ const instruments = {
 const window_seconds = 0.05,
   heard_seconds = 1,
   rates = [1, 2, 4, 8, 16].map(k => 44100 * k);
-// What is run and judged: so long after the pluck.
+// Length of a judged run: the pluck, and this window after the pluck [s].
 const run_seconds = () => (shown.scene?.free_from ?? 0) + window_seconds;
-// Where the string is drawn, as parts of its length: closer towards x = 0, where the bridges are.
+// Points for drawing, as fractions of the length: denser towards x = 0, the end with the bridges.
 const shape_points = Array.from({length: 95}, (_, k) => ((k + 1) / 96) ** 1.5);
 
 const scene_text = () => state.text ?? library[state.scene];
@@ -34,7 +34,7 @@ const overrides_of = set => Object.entries(set).map(([key, value]) => `${key}=${
 
 const texts = {scene: String, scheme: String, compliance: String, tour: String},
   plain = {...texts, rate: Number, modes: Number, step: Number};
-const longest_address = 20000; // a scene's text that is longer stays out of it
+const longest_address = 20000; // [characters]; a longer scene stays out of the address
 
 function address() {
   const words = new URLSearchParams();
@@ -44,7 +44,8 @@ function address() {
   return `#${words}`;
 }
 
-// What does not fit a 32-bit integer would wrap round in the core, which refuses the largest one.
+// Clamps to 32-bit integers: larger numbers would wrap round in the core. The core refuses the
+// largest integer.
 const whole_modes = modes => Math.max(0, Math.min(Math.round(Number(modes) || 0), 2 ** 31 - 1));
 
 function read_address(hash) {
@@ -66,8 +67,8 @@ function read_address(hash) {
   );
 }
 
-// ---- Handles: a name, the key of the scene, a unit, the value in what the scene says (undefined:
-// it has none), a range, and whether that is logarithmic.
+// ---- Handles: a name, the key in the scene, a unit, the value in the scene (undefined: none), a
+// range, and whether the range is logarithmic.
 
 const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined),
   pulled = s => (s.start?.shape === "triangle" ? s.start.position : undefined),

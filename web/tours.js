@@ -1,5 +1,5 @@
-// Guided tours: five steps each. A step may change the state of the page, and computes the number
-// that it promises.
+// Guided tours with five steps each. A step may change the state of the page, and computes the
+// promised number.
 const with_scheme = (scheme, rate = 44100, compliance = "own") => ({
   scheme,
   rate,
@@ -15,8 +15,8 @@ const exact = () => ({
 const fact_of = (run, name) => run.facts.find(f => f.name === name)?.value ?? NaN;
 const signed = x => (x < 0 ? "\u2212" : "+") + Math.abs(x).toFixed(1);
 
-// The chosen scheme beside the exact solution over `duration`; over the window of the page both are
-// there.
+// Compares the chosen scheme with the exact solution over `duration`. The page already has both
+// over the window.
 const beside_exact = duration => ask("pair", {run: run_of({duration}), beside: exact()});
 async function brightness() {
   return (
@@ -29,8 +29,8 @@ const energy_and_error = () =>
   `energy not accounted for: ${shown.motion.residual.toExponential(1)} of what there is; ` +
   `error: ${percent(shown.verdict.error)}`;
 
-// The stiffness from which on a scheme fails, halved down between one that runs and one that does
-// not.
+// Whether a scheme runs at a stiffness; `boundary` bisects for the largest stiffness without a
+// failure.
 const runs_at = async (stiffness, rate) => {
   const [verdict] = await ask("outcomes", {
     runs: [
@@ -57,7 +57,7 @@ async function boundary(rate) {
   return low;
 }
 
-// How few modes will do: third octaves of the force on the nut against those of all modes.
+// Third-octave difference in the force on the nut between a run with few modes and with all modes.
 async function octaves_of(modes) {
   const {octaves} = await ask("pair", {
     run: run_of({modes, duration: 0.4}),
@@ -279,7 +279,7 @@ const tours = {
   },
 };
 async function twice_exact(duration) {
-  // the second starts 1e-12 higher
+  // Starts the second run higher by 1e-12 relative.
   const amplitude = shown.scene.string[0].start.amplitude,
     higher = overrides_of({
       ...state.set,
@@ -319,7 +319,7 @@ async function take_step() {
   set("tour_end", {hidden: !walks});
   if (!walks) return;
   told.textContent = "…";
-  // also where the address begins in the middle
+  // Applies all steps so far: the address may begin in mid-tour.
   for (const before of tour.steps.slice(0, state.step + 1))
     Object.assign(state, structuredClone(before.set ?? {}));
   state.text = null;

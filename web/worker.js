@@ -1,5 +1,5 @@
-// In the worker: answers what the page asks, in pieces, so that the newest state of the page wins.
-// Each answer carries the number of its question.
+// The worker: answers questions from the page, in pieces, so that the newest state of the page
+// wins. Each answer carries the number of the question.
 let jvari,
   newest = 0,
   started;
@@ -27,27 +27,27 @@ const asked_of = (state, more) => ({
   ...more,
 });
 const options_of = (name, compliance) => {
-  // of the schemes that know it
+  // Only some schemes know the option.
   const knows = jvari.known[name]?.options.some(o => o.name === "compliance");
   return knows && compliance ? [`compliance=${compliance}`] : [];
 };
-// as in the tables of `jvari compare`: the first nut force, else the first driving force, else the
-// first tap
+// Taps for the headline and the picture: the first nut force, or the first tap (0) without one; the
+// first bridge force, or -1.
 function headline_of(scene) {
   const first = quantity => scene.tap.findIndex(t => t.quantity === quantity);
   const nut = Math.max(0, first("nut_force"));
   return {nut, force: first("bridge_force")};
 }
 
-// Its stored energy as a curve, and the energy that it gained or lost unaccounted for, over the
-// largest that it had.
+// Energy of a run: the stored energy as a curve, and the energy gained or lost without account,
+// relative to the largest stored energy.
 const balance_of = run => {
   const ledger = run.ledger();
   return ledger ? {stored: Float64Array.from(ledger[0]), residual: run.residual ?? NaN} : {};
 };
 
 function pictured(run, scene, points) {
-  // what the page draws of a run
+  // Data of a run for the picture.
   const {nut, force} = headline_of(scene),
     count = scene.tap.length,
     shape = new Float32Array(run.rows * points);
@@ -71,16 +71,16 @@ function pictured(run, scene, points) {
   };
 }
 
-// ---- The reference solution, kept until the string changes. Its uncertainty is what further
-// doublings of its modes would change.
+// ---- The reference solution, kept until the string changes. The uncertainty is the estimated
+// change by further doublings of the modes.
 
 let reference = null;
 function forget() {
   reference?.runs.forEach(run => run.free());
   reference = null;
 }
-// Whose exact solution takes seconds: many points, a power law, or a pluck in the closed form of
-// many digits. Its modes are not doubled.
+// Scenes with an exact solution that takes seconds: masses, many contacts, a power law, or a pluck
+// in the closed form with many digits. The modes are not doubled for these.
 const dear = scene =>
   scene.string.some(
     s =>
@@ -96,10 +96,10 @@ async function reference_of(state, scene, go_on) {
   const {nut} = headline_of(scene),
     profile = scene.string.some(s => s.barrier.some(b => b.shape === "profile")),
     runs = [];
-  // matched where the program takes it so and the reference does not refuse
+  // Matched compliance if the program uses it here and the reference does not refuse.
   let options = options_of(scene.reference, scene.matched ? "matched" : "");
-  // its energy costs eight times as much as its motion, and half of the modes hold all of it but
-  // 0.2 %
+  // Only the run with half the modes probes the energy: energy costs eight times as much as motion,
+  // and half the modes hold all but 0.2 %.
   const run = (modes, more = {}, points = []) => {
     const made = jvari.run({
       scene: state.text,
@@ -123,12 +123,12 @@ async function reference_of(state, scene, go_on) {
       options = [];
       base = run(0, {shape: state.shape});
     }
-    // a rigid barrier is matched unasked
+    // Rigid barriers are matched without the option.
     const rigid = scene.string.some(s => s.barrier.some(b => b.stiffness === Infinity)),
       matched = rigid || options.length > 0,
       modes = (base.dofs / 2) | 0;
     await go_on();
-    // half of its modes, and of the points that stand for a profile
+    // Half the modes, and half the points along a profile.
     const half = run(Math.max(1, modes >> 1), {energy: !dear(scene)}, profile ? ["nodes=16"] : []);
     await go_on();
     let best = base,
@@ -153,7 +153,7 @@ async function reference_of(state, scene, go_on) {
   }
 }
 
-// How wrong a run is on the tap of the headline, and for how long it agrees within 10 %.
+// Verdict on a run at the headline's tap: the error, and the time of agreement within 10 %.
 function judged(run, scene, state) {
   const {nut} = headline_of(scene);
   return {
@@ -166,10 +166,9 @@ function judged(run, scene, state) {
   };
 }
 
-// ---- The chart: schemes at several rates, each with its error and its cost [s per second of
-// sound].
+// ---- The chart: schemes at several rates, each with error and cost [s per second of sound].
 
-// The mean time of as many runs as fill a sample: a browser's clock is coarse.
+// Mean time of enough runs to fill a sample: a browser's clock is coarse.
 const sample_seconds = 4e-3,
   rounds = 9;
 function sampled(asked, keep = () => ({})) {
@@ -195,7 +194,8 @@ function quartiles(costs) {
   return {lower: at(0.25), cost: at(0.5), upper: at(0.75)};
 }
 
-// Twenty cells: five lines that the scene allows, the chosen scheme among them, at four rates.
+// Cells of the chart, twenty: five schemes able to run the scene, among them the chosen scheme, at
+// four rates.
 const chart_lines = 5;
 function cells_of({scheme, compliance, lines, rates}, scene) {
   const told = ([name, of]) => JSON.stringify([name, options_of(name, of)]),
@@ -205,10 +205,10 @@ function cells_of({scheme, compliance, lines, rates}, scene) {
     able.splice(Math.min(able.length, chart_lines - 1), 1, chosen);
   return able.flatMap(([scheme, compliance]) => rates.map(rate => ({scheme, compliance, rate})));
 }
-let charted = ""; // the last whole chart, which need not be computed again
+let charted = ""; // key of the last whole chart, kept to save computing it again
 
-// Each cell once for its error; then rounds through all cells for their costs, as the program times
-// them: a browser compiles anew what it runs often.
+// Runs each cell once for the error, then in rounds for the costs, in turn, like the program: a
+// browser recompiles frequent code while it runs.
 async function chart(state, scene, chosen, post, go_on) {
   const cells = [];
   for (const {scheme, compliance, rate} of chosen) {
@@ -257,7 +257,7 @@ async function show(asked, post, go_on) {
     ...asked.overrides.filter(o => !o.startsWith("duration=")),
     `duration=${asked.window}`,
   ]);
-  // errors are of what follows the pluck
+  // Errors count after the pluck.
   const state = {...asked, window: scene.free_from + asked.window};
   const cells = cells_of(state, scene),
     key = JSON.stringify([state.text, state.overrides, cells]),
@@ -292,11 +292,11 @@ async function show(asked, post, go_on) {
   charted = key;
 }
 
-// ---- Single questions, answered in their turn: of the player, the map and the tours.
+// ---- Single questions from the player, the map and the tours, answered in turn.
 
 const questions = {
-  // One run, and with `beside` another of the same scene: how far apart, by third octaves within
-  // 60 dB of the loudest and in loudness above 2 kHz too, and for how long they agree.
+  // One run, and with `beside` another of the same scene: the error, the difference in third
+  // octaves within 60 dB of the loudest and in loudness above 2 kHz, and the time of agreement.
   pair({run: first, beside}) {
     const a = jvari.run(first),
       scene = jvari.scene(first.scene, first.overrides),
@@ -329,7 +329,7 @@ const questions = {
     return answer;
   },
   outcomes({runs}) {
-    // of a column of the map
+    // Outcomes for a column of the map.
     return runs.map(asked => {
       try {
         const run = jvari.run({...asked, energy: true});

@@ -1,15 +1,15 @@
-// Errors along something: the rate, with the observed order; what a suite sweeps.
+// Errors against the sample rate, with the observed order, and against a key that a suite sweeps.
 
 // ---- Error against rate
-// No order where its interval is wider than the order itself, or where two rates leave no interval:
-// then nothing is known of it.
+// Text of an observed order with its interval; "" if the interval is wider than the order, or if
+// two rates leave no interval: then the order is unknown.
 function order_text(order, half_width) {
   return Number.isFinite(order) && 2 * half_width <= Math.abs(order)
     ? `${order.toFixed(2)} \u00b1 ${digits(half_width, 2)}`
     : "";
 }
-// Of "scene|series|error" the order as text: as measured for convergence.csv where it was, else of
-// the cells.
+// Texts of the orders by "scene|series|error": from convergence.csv if measured there, otherwise
+// from the cells.
 function orders() {
   const all = new Map(
     records("orders").map(o => [
@@ -184,9 +184,9 @@ function convergence_section() {
   };
 }
 
-// ---- Error along what is swept: a line per scheme, one rate at a time. What else is swept tells
-// lines apart. Numbers of modes are such a key for schemes that have several at one rate: a grid
-// takes another with each rate.
+// ---- Error against a swept key: a line per scheme, one rate at a time. Other swept keys tell
+// lines apart. The number of modes is a swept key for schemes with several numbers at one rate; a
+// grid has another number at each rate, and is left out.
 const swept_keys = () => {
   const columns = table("cells").columns,
     from = columns.indexOf("scene"),
@@ -194,7 +194,7 @@ const swept_keys = () => {
   return from < 0 || to <= from ? [] : columns.slice(from + 1, to);
 };
 const variant = c => c.scheme + (c.options ? " " + c.options : "");
-// those that have a number there; modes no longer tell series apart where they are the key
+// Cells with a number in column `key`. If `key` is the modes, modes do not tell series apart.
 function cells_along(key, keys) {
   const rows = cells().filter(
     c =>

@@ -1,5 +1,5 @@
-// The first screen: a sentence with two handles, the measure and the tolerance; what follows from
-// it; the chart with its line to drag; the ranking; the commands that give the answer.
+// The first screen: a sentence with two handles (measure and tolerance), the consequences, the
+// chart with a line to drag, the ranking, and the commands for the cheapest run.
 const answer = {}; // {scene, error, within, found}
 
 const bold = text => text.split("*").map((part, k) => (k % 2 ? element("strong", {}, part) : part));
@@ -44,13 +44,13 @@ function ranking_of({ranking, unpriced, error, within}) {
   ];
 }
 
-// A word as a shell reads it back, and a text as C++ and Python do: what a record holds is somebody
-// else's, and is pasted.
+// Quotes a word for a shell, and a text for C++ and Python: the texts come from a record that
+// somebody else wrote, and readers paste the commands.
 const shell_word = text =>
   /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 const literal = text => JSON.stringify(text);
 
-// What gives the answer: {shell, "C++", Python}.
+// Commands that repeat the cheapest run: {shell, "C++", Python}.
 function commands(c) {
   const {asked_as = c.scene ?? page.title, set = []} = page.manifest?.scene ?? {},
     changed = [...set, ...swept_keys().flatMap(key => (c[key] ? [`${key}=${c[key]}`] : []))],
@@ -105,7 +105,7 @@ function take_it() {
   return section;
 }
 
-// The parts of the first screen. `section`: of the chart, `heard`: cards of the sounds
+// Builds the first screen. `section`: the chart's section, `heard`: cards with sounds.
 function answer_of(section, heard) {
   const sub = element("p", {className: "sub"}),
     measure = element("select", {ariaLabel: "what is to be kept"}),
@@ -115,7 +115,7 @@ function answer_of(section, heard) {
     tag = element("span", {className: "tag", ariaHidden: "true"}),
     lists = element("div"),
     ranking = card("ranking", "The cheapest run of each scheme", lists);
-  let drawn = null, // {view, frame, names, label} of the chart
+  let drawn = null, // the drawn chart: {view, frame, names, label}
     later = 0,
     errors = [],
     rows = [],
@@ -161,7 +161,7 @@ function answer_of(section, heard) {
     later = setTimeout(() => choose("within", told), 200);
     show();
   }
-  // by the pointer; `value`: of where it is, and of where it was taken
+  // Drags a handle by the pointer. `value(move, from)`: tolerance for a move from a start.
   function draggable(handle, value) {
     handle.onpointerdown = event => {
       const from = {x: event.clientX, at: at(answer.within)};
@@ -184,7 +184,7 @@ function answer_of(section, heard) {
   function fill(scene) {
     answer.scene = report.judged.includes(scene) ? scene : report.judged[0];
     rows = of_scene(cells(), answer.scene);
-    const value = (c, column) => c.errors[column]?.value; // the headline's tap has its own
+    const value = (c, column) => c.errors[column]?.value; // lists a tap equal to the headline once
     errors = errors_in(rows).filter(
       e => !e.tap || !rows.every(c => value(c, e.column) === value(c, e.measure)),
     );

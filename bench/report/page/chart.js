@@ -1,6 +1,6 @@
-// A chart of the page: its menus choose what its specification is made of, its colours follow the
-// page's, its scene is the page's. Its legend shows line and marker of what is drawn, and brings
-// out what is clicked; the first chart has its names in the ranking beside it.
+// A chart on the page. Menus choose the arguments for the specification; colours and scene follow
+// the page. The legend shows line and marker for each drawn series, and a click brings a series
+// out. The ranking beside the first chart has the names as well.
 const dark = matchMedia("(prefers-color-scheme: dark)"),
   narrow = matchMedia("(max-width: 720px)");
 
@@ -25,8 +25,8 @@ function page_config() {
     },
   };
 }
-// A scheme keeps its hue on a dark page, and the front and a difference their tone, in the shade
-// that can be seen there.
+// Shade for a dark page: schemes keep their hue, the front and differences their tone, and both
+// stay visible.
 const shade = colour => (dark.matches && dark_of[colour]) || colour;
 function coloured(part) {
   if (!dark.matches) return part;
@@ -40,7 +40,7 @@ const svg_element = (name, attributes) => {
   for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
   return e;
 };
-// A line with its dash and its marker, as the chart has them.
+// Sample for the legend: line, dash and marker, equal to the chart's.
 function sample_of(look) {
   const sample = svg_element("svg", {
       width: 40,
@@ -94,7 +94,7 @@ function chart_of(chart, section) {
     ),
   });
 
-  // The menus of the scene; what is chosen stays where the scene has it.
+  // Fills the menus for the scene; a choice is kept if the scene has it.
   function fill_menus() {
     selects = new Map(
       chart
@@ -147,7 +147,7 @@ function chart_of(chart, section) {
       }),
     );
   }
-  // one after the other: a scene may be chosen while another is drawn
+  // Draws in turn: a scene may be chosen while another is being drawn.
   const draw = () => (drawing = drawing.then(draw_now));
   async function draw_now() {
     frame.setAttribute("data-drawn", "false");
@@ -167,8 +167,8 @@ function chart_of(chart, section) {
     const label = () => labels && vega_view.data("labels", labels(vega_view));
     label();
     await vega_view.runAsync();
-    // what has no name is no picture to a reader's ear; the chart as a whole has one, and the
-    // tables its numbers
+    // Removes the role "picture" from parts without a name: a screen reader would announce them
+    // for nothing. The whole chart has a name, and the tables have the numbers.
     for (const part of frame.querySelectorAll("svg [role]:not([aria-label])")) {
       part.removeAttribute("role");
       part.removeAttribute("aria-roledescription");
@@ -189,7 +189,7 @@ function chart_of(chart, section) {
   fill_menus();
   let next = 0;
   const draw_again = () => {
-    // once where both change
+    // Draws once if width and colours change together.
     frame.setAttribute("data-drawn", "false");
     cancelAnimationFrame(next);
     next = requestAnimationFrame(draw);

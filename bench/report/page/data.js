@@ -1,8 +1,7 @@
-// What the report is drawn from: the folder's CSV tables as text, read once, and what is looked up
-// in them. `page` holds them; report.cpp puts it together. The page and draw.js, which makes the
-// SVG files, run the same code.
-// {columns, rows}: fields as text. An apostrophe in front keeps a spreadsheet from taking a text
-// for a formula
+// Data for the report: the folder's CSV tables, read once, with look-ups. `page` holds the tables
+// and is written by report.cpp. The page and draw.js, which makes the SVG files, run the same code.
+// Reads CSV into {columns, rows}, fields as text. A leading apostrophe, which keeps a spreadsheet
+// from reading a formula, is removed.
 function read_csv(text) {
   const rows = [],
     plain = /[^,\n]*/y;
@@ -42,7 +41,7 @@ const percent = x => `${digits(100 * x, 2)}\u00a0%`;
 const decibels = x => `${digits(x, 2)}\u00a0dB`;
 const kilohertz = hz => (Number.isNaN(hz) ? "" : `${digits(hz / 1000, 5)} kHz`);
 
-const tables = {}; // name: {columns, rows, records}; a record has its row's number as `n`
+const tables = {}; // name: {columns, rows, records}; `n` in a record is the row number
 function table(name) {
   return (tables[name] ??= with_records(read_csv(page.tables[name] ?? "")));
 }
@@ -53,7 +52,7 @@ function with_records(t) {
   return t;
 }
 const records = name => table(name).records;
-// A table without columns of the report's own, which stand for others that are there.
+// Table without the named columns, which the report adds and which repeat other columns.
 function without(t, names) {
   const kept = t.columns
     .map((column, k) => [column, k])
@@ -64,10 +63,10 @@ function without(t, names) {
   };
 }
 
-// Cells with what the program says of each: `trusted`, `may_win`, `run` (its name in a sentence),
-// `line` (the series that it stands in beside the front; none where another number of modes is
-// better), and its errors by name.
-const error_name = ({measure, tap}) => measure + (tap && "_" + tap); // tap "": the headline's
+// Cells with the program's judgement: `trusted`, `may_win`, `run` (name in a sentence), `line`
+// (series in the chart with the front; none if another number of modes is better), and errors by
+// name.
+const error_name = ({measure, tap}) => measure + (tap && "_" + tap); // tap "": headline
 let joined = null;
 function cells() {
   if (joined) return joined;
@@ -77,13 +76,13 @@ function cells() {
   for (const e of records("errors")) joined[e.row].errors[error_name(e)] = e;
   return joined;
 }
-// `what`: value, floor, certificate; of an error that is a bound: shown, text
+// Figure `what` for an error: value, floor, certificate; for a bound also shown, text.
 const figure_of = (cell, error, what) => number(cell.errors[error]?.[what]);
 const is_bounded = (cell, error) => Boolean(cell.errors[error]?.text);
 const error_of = (cell, error) =>
   figure_of(cell, error, is_bounded(cell, error) ? "shown" : "value");
-// What an error may be at most and is at least: bench/compare/bound.hpp, in which spectral measures
-// count as measured. NaN where the uncertainty of the reference is unknown.
+// Upper and lower bound for an error, by the rule in bench/compare/bound.hpp: spectral measures
+// count as measured. NaN if the uncertainty of the reference is unknown.
 function bound_of(cell, error) {
   const value = figure_of(cell, error, "value"),
     certificate = is_percent(error) ? figure_of(cell, error, "certificate") : 0;
@@ -95,10 +94,9 @@ function bound_of(cell, error) {
 const of_scene = (rows, scene) => rows.filter(row => row.problem === scene);
 const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row[column])));
 
-// where the windows of these rows' errors begin
+// Start of the error windows in these rows, for a title.
 const after_pluck = rows => (number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "");
-// The errors of a scene that a reader can choose, its headline first: {column, title, measure,
-// tap}.
+// Errors for the menus of a scene, headline first: {column, title, measure, tap}.
 let taps = null;
 function errors_in(rows) {
   taps ??= distinct(["", ...records("errors").map(e => e.tap)]);
@@ -115,7 +113,7 @@ function errors_in(rows) {
   const headline = records("scenes").find(s => s.problem === rows[0]?.problem)?.headline;
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
 }
-// An error as a sentence has it: "the force on the nut, first 50 ms".
+// Name of an error in a sentence: "the force on the nut, first 50 ms".
 function spoken_error({measure, tap, title}, [row = {}]) {
   const octaves = measure === "third_octave_db",
     name = tap || row[octaves ? "headline_bridge" : "headline_nut"],
@@ -136,7 +134,7 @@ function spoken_error({measure, tap, title}, [row = {}]) {
         : `${whole} of ${signal}`) + after_pluck([row])
   );
 }
-// The menus of an error: its measure and its tap.
+// Menus for an error: measure and tap.
 function error_menus(rows) {
   const errors = errors_in(rows),
     measures = new Map(errors.map(e => [e.measure, e.title.replace(/, tap .*/, "")]));
@@ -150,7 +148,7 @@ function error_menus(rows) {
   ];
 }
 function chosen_error(rows, choice) {
-  // the scene's first where it lacks the one that is chosen
+  // Falls back to the first error if the scene lacks the chosen one.
   const errors = errors_in(rows);
   return (
     errors.find(e => e.measure === choice.measure_field && e.tap === choice.tap_field) ?? errors[0]
@@ -164,7 +162,7 @@ const plain_part = text =>
     .replace(/^-/, "")
     .replace(/-$/, "")
     .slice(0, longest_part);
-// `text` fit to stand in a file's name, which is that of no other of `all`.
+// Part of a file name for `text`, different from the part for any other text in `all`.
 function file_part(text, all) {
   const part = plain_part(text),
     others = all.filter(other => plain_part(other) === part);
@@ -196,13 +194,13 @@ const units = {
   sigma0: "1/s",
 };
 function with_unit(key) {
-  // "barrier 0 stiffness [N/m^exponent]" of "string.0.barrier.0.stiffness"
+  // "string.0.barrier.0.stiffness" becomes "barrier 0 stiffness [N/m^exponent]"
   const unit = units[key.split(".").at(-1)];
   return key.replace(/^string\.0\./, "").replaceAll(".", " ") + (unit ? ` [${unit}]` : "");
 }
 const unit_of = quantity => ({displacement: "m", velocity: "m/s"})[quantity] ?? "N";
 function integers(base64) {
-  // little-endian, of two bytes each
+  // little-endian, two bytes each
   const text = atob(base64);
   return Array.from(
     {length: text.length / 2},

@@ -1,7 +1,7 @@
-// Under node, after the other files: node draw.js makes of page.json beside it every picture of the
-// charts. drawn.json lists what was written, and what could not be drawn with the reason.
-// A picture as wide as it was asked for, to the point: what stands beside the plot makes it a
-// little wider or narrower than planned.
+// Draws every picture of the charts from page.json in the same folder, under node, after the other
+// files: `node draw.js`. drawn.json lists the files written, and each failure with a reason.
+// Scales a picture to the requested width exactly: axes beside the plot make the width differ a
+// little from the plan.
 function sized(svg) {
   const [whole, before, width, height] =
       svg.match(/^<svg([^>]*?) width="([\d.]+)" height="([\d.]+)"/) ?? [],

@@ -1,12 +1,12 @@
-// One look for a scheme in every chart, picture and suite: the hue says its family, the marker
-// which of the family it is, the dash what options it was given. Controls are thin and grey. Names
-// that are no scheme of the program (plugins) take what is left, in the order of the alphabet.
+// Looks of schemes, the same in every chart, picture and suite: the hue tells the family, the
+// marker the scheme within the family, the dash the options. Controls are thin and grey. Names
+// unknown to the program (plugins) take the remaining looks in alphabetical order.
 //
-// Colours: found by a search for the largest least distance in CIELAB between families, as seen
-// with normal sight and without one kind of cones (Machado, Oliveira & Fernandes 2009), at a
-// contrast of 3 or more to the page. tests/browser/page.mjs measures both.
-// name, how its schemes' names begin, colour on a light page and on a dark one; in the order of
-// legends
+// Colours: a search maximised the smallest distance in CIELAB between families, with normal sight
+// and without one kind of cones (Machado, Oliveira & Fernandes 2009), at a contrast of 3 or more
+// to the page. tests/browser/page.mjs measures both.
+// Families in the order of legends: name, prefix for names of schemes, colours on a light and on a
+// dark page.
 const families = [
   ["two-moment and two-point", "modal_two_", "#0d44e1", "#3799e1"],
   ["quadratised", "modal_quadratised", "#480588", "#9a38f7"],
@@ -31,7 +31,7 @@ const shapes = [
   "arrow",
   "M0,-.5L.12,-.16L.48,-.16L.19,.06L.3,.4L0,.2L-.3,.4L-.19,.06L-.48,-.16L-.12,-.16Z",
 ]; // a star
-// A difference is in ink, what is asked for in the page's own blue.
+// Ink for a difference, the page's blue for the tolerance.
 const ink = ["#1d2329", "#e6eaee"],
   key = ["#0072b2", "#56b4e9"],
   paper = ["#ffffff", "#14181c"];
@@ -42,7 +42,7 @@ const dark_of = Object.fromEntries([
   paper,
 ]);
 
-let known_schemes = null; // name: its family and its place there
+let known_schemes = null; // name: {family, place in the family, control}
 function known() {
   if (known_schemes) return known_schemes;
   const count = families.map(() => 0);
@@ -57,7 +57,7 @@ function known() {
 }
 const scheme_in = name => name.split(/[ ,:]/)[0];
 
-// Matched is dashed and as published dotted, whatever else was asked: that adds a dot.
+// Dash for options: matched is dashed, as published dotted; further options add a dot.
 function dash_of(variant) {
   if (variant === "") return [1, 0];
   for (const [form, ...dash] of [
@@ -74,7 +74,7 @@ function dash_of(variant) {
   ][hash % 3];
 }
 
-// Of each name, "modal_two_point compliance=matched" or "modal_two_point, 40 modes": {family,
+// Looks by name ("modal_two_point compliance=matched" or "modal_two_point, 40 modes"): {family,
 // control, colour, shape, dash}.
 function looks_of(names) {
   const unknown = distinct(names.filter(name => !known().has(scheme_in(name)))).sort();
@@ -91,14 +91,14 @@ function looks_of(names) {
             dash: dash_of(name.slice(scheme_in(name).length)),
           },
         ];
-      // a pairing is of its string's family
+      // A pairing belongs to the string's family,
       const place = unknown.indexOf(name),
         begins = families.findIndex(([, prefix]) => prefix !== null && name.startsWith(prefix));
       const of =
         begins < 0 && [...known().keys()].some(string => name.startsWith(string + "_"))
           ? other_family
           : begins;
-      // else the families' hues with other markers
+      // other names take the families' hues with other markers.
       const hue = of >= 0 ? of : place === 0 ? other_family : (place - 1) % control_family;
       return [
         name,
@@ -114,7 +114,7 @@ function looks_of(names) {
   );
 }
 function in_order(names) {
-  // as a legend has them: family by family, controls last
+  // The order of a legend: family by family, controls last.
   const key = name => {
     const {family, place} = known().get(scheme_in(name)) ?? {
       ...looks_of([name]).get(name),
@@ -125,11 +125,11 @@ function in_order(names) {
   return distinct(names).sort((a, b) => key(a) - key(b));
 }
 
-// How a scheme is called in a sentence; tables have its options as they are given.
+// Name of a scheme in a sentence; tables keep the options in their own form.
 const spoken = name =>
   name.replace(" compliance=matched", ", matched").replace(" compliance=own", ", as published");
 
-// Vega-Lite encodings of the series: {color, shape, strokeDash}. The legend is drawn apart, with
+// Vega-Lite encodings for the series: {color, shape, strokeDash}. The legend is drawn apart, with
 // line and marker together.
 function encodings_of(names, field = "series") {
   const looks = looks_of(names),
@@ -144,7 +144,7 @@ function encodings_of(names, field = "series") {
 
 const vega_lite = "https://vega.github.io/schema/vega-lite/v5.json",
   font = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif";
-// [px] of a picture's plot; beside it stands an axis
+// Width of the plot in a picture [px]; the axis takes the rest.
 const print_width = () => (page.width ? page.width - 76 : 760);
 const chart_config = {
   font,
@@ -152,8 +152,8 @@ const chart_config = {
   axis: {gridOpacity: 0.45, domainOpacity: 0.6, labelFontSize: 11},
   title: {fontSize: 16, subtitleFontSize: 12},
 };
-// Text is wrapped: without a screen Vega takes a letter for 0.8 of the font's size and makes the
-// picture as wide as its longest line.
+// Wraps text: without a screen Vega counts 0.8 of the font size per letter, and makes the picture
+// as wide as the longest line.
 function wrapped(text, length) {
   const lines = [""];
   for (const word of text.split(" "))
@@ -176,14 +176,14 @@ function title_of(text, subtitle) {
   };
 }
 
-// A chart as the page has it, as wide as its place and in its colours, or as a picture: on white
-// with a title and a legend.
+// Chart for the page, with the width and the colours of the page, or for a picture: on white with a
+// title and a legend.
 function framed(spec, {title, subtitle = "", names = []}, print) {
   const own = {width: print ? print_width() : "container", ...spec};
-  // names brought out in the legend; none: all
+  // `picked`: names brought out in the legend; none means all.
   const params = [{name: "picked", value: []}, ...(spec.params ?? [])];
   delete own.params;
-  if (own.width === undefined) delete own.width; // its parts have widths of their own
+  if (own.width === undefined) delete own.width; // the parts have their own widths
   if (!print) return {$schema: vega_lite, padding: 12, params, ...own, config: chart_config};
   const legend =
     names.length < 2
@@ -206,7 +206,7 @@ function framed(spec, {title, subtitle = "", names = []}, print) {
   };
 }
 function legend_layers(names, top) {
-  // each name with its line and its marker
+  // Draws each name with line and marker.
   const across = print_width() > 500 ? 2 : 1,
     at = text => ({expr: text}),
     y = at(`${top} + datum.down`),
@@ -243,14 +243,14 @@ function legend_layers(names, top) {
   ];
 }
 
-// ---- Parts that many charts have
-// a mark without rows
+// ---- Parts for many charts
+// Mark without rows.
 const once = mark => ({
   data: {values: [{}]},
   mark: {tooltip: null, clip: false, ...mark},
   encoding: {x: null, y: null},
 });
-// an axis' name, upright
+// Name of an axis, upright.
 const above = text =>
   once({type: "text", x: 0, y: -10, align: "left", fontSize: 12, fontWeight: "bold", text});
 const quantity = (field, axis = {}, scale = {}) => ({
@@ -267,8 +267,8 @@ const error_text = (x, error) =>
     : error.includes("_hz")
       ? `${digits(x, 2)}\u00a0Hz`
       : decibels(x);
-// Decades are labelled; on an axis of less than three decades 2 and 5 as well. `text`: how a
-// labelled value is written.
+// Labels decades; on an axis below three decades 2 and 5 as well. `text`: expression for a
+// label.
 function decades(channel, text) {
   const digit = "round(pow(10, log(datum.value)/LN10 - floor(log(datum.value)/LN10 + 1e-9)))",
     shown =
@@ -292,14 +292,14 @@ const brought_out = {
   condition: {test: "!length(picked) || indexof(picked, datum.series) >= 0", value: 1},
   value: 0.1,
 };
-// What hovering shows: what has a value, each under its name.
+// Tooltip: pairs of name and value, without empty values.
 const tooltip = pairs =>
   Object.fromEntries(
     pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined),
   );
 const hover = {tooltip: {field: "tooltip", type: "nominal"}};
-// By wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set the
-// signals zoom_FIELD.
+// Zooms by wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set
+// the signals zoom_FIELD.
 const zoomed = (...channels) => ({
   params: [
     {

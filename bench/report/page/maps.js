@@ -1,6 +1,6 @@
-// What becomes of each scheme over a plane of two keys (maps.csv): a tile per run, from half-way to
-// its neighbour on the left to half-way to that on the right; with the refined boundaries and
-// theory's (boundaries.csv). And what a trimmed scene needs (path.csv, needs.csv).
+// Maps: outcomes of each scheme over a plane of two keys (maps.csv), with the refined and the
+// theoretical boundaries (boundaries.csv). A tile per run reaches half-way to both neighbours.
+// Trimmed scenes: the path and the needs (path.csv, needs.csv).
 const outcomes = {
   sound: ["#009e73", "circle"],
   unjudged: ["#882255", "wedge"],
@@ -14,7 +14,7 @@ const outcomes = {
   error: ["#000000", "stroke"],
 };
 
-// An axis of a map: of numbers where all are some, and logarithmic where all are positive and span
+// Axis of a map: numeric if all values are numbers, and logarithmic if all are positive and span
 // more than five to one.
 function map_axis(rows, which) {
   const numbers = rows.every(r => !Number.isNaN(number(r[which]))),
@@ -28,7 +28,7 @@ function map_axis(rows, which) {
   const on = logarithmic ? Math.log : x => x,
     back = logarithmic ? Math.exp : x => x;
   const around = x => {
-    // the edges of the tile
+    // Edges of a tile.
     const k = places.indexOf(x),
       step = i => on(places[i + 1]) - on(places[i]),
       last = places.length - 1;
@@ -171,7 +171,7 @@ function map_spec(name, choice, print) {
       ),
     };
   }
-  // for papers: every scheme side by side
+  // For papers: all schemes side by side.
   const facet = {
     field: "series",
     type: "nominal",
@@ -206,7 +206,7 @@ function map_section() {
         records("maps")
           .filter(r => r.map === name)
           .map(r => r.series),
-      ).sort((a, b) => ours(a) - ours(b)), // one's own scheme first
+      ).sort((a, b) => ours(a) - ours(b)), // the reader's own scheme first
       menus = () => [
         {label: name + ": scheme", key: "series_field", choices: series.map(s => [s, spoken(s)])},
       ];
@@ -233,8 +233,7 @@ function map_section() {
   };
 }
 
-// Of each scheme on each map the sound runs among those that were run: [{series, map, sound,
-// runs}].
+// Counts runs and sound runs of each scheme on each map: [{series, map, sound, runs}].
 function shares() {
   const count = new Map();
   for (const r of records("maps")) {
@@ -259,7 +258,7 @@ function overview_spec(choice, print) {
       ["sound runs", `${s.sound} of ${s.runs}`],
     ]),
   }));
-  // on the page all rows stand above the fold
+  // All rows fit above the fold on the page.
   const step = print
     ? 20
     : Math.min(20, Math.max(11, 400 / distinct(values.map(s => s.series)).length));
@@ -350,8 +349,8 @@ function finding_of_maps() {
   return worst ? `of ${names.length} schemes ${most}, ${worst} ${words(worst)}` : most;
 }
 
-// ---- A trimmed scene: the path from the whole one to it, a step leaving out one thing more, and
-// what each part is needed for
+// ---- A trimmed scene: the path from the whole scene, one thing less at each step, and the need
+// for each part.
 function path_spec(choice, print) {
   const steps = records("path").map((r, k, all) => ({
     label: `${r.step}. ${r.change}`,
@@ -374,8 +373,7 @@ function path_spec(choice, print) {
   const names = in_order(steps.map(s => s.series)),
     {color, shape, strokeDash} = encodings_of(names),
     waveform = records("path")[0].measure.includes("error");
-  // Where it is narrow the two stand one above the other, and their lines have the numbers that the
-  // table has.
+  // A narrow page has the two charts below each other, and numbers for the lines as in the table.
   const small = choice.narrow || (print && print_width() < 500),
     width = choice.narrow
       ? Math.max(200, innerWidth - 120)

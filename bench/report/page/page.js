@@ -1,9 +1,8 @@
-// The page from its data: sections in the order in which they came, what it was measured with at
-// the foot.
+// Builds the page from the data: sections in the given order, and the machine at the foot.
 const drawings = [];
-const report = {}; // what is made of the tables: {sections, scenes, judged: scenes with an answer}
+const report = {}; // from the tables: {sections, scenes, judged: scenes with an answer}
 
-// What stands in a section below its heading.
+// Parts of a section below the heading.
 function parts_of(s) {
   const parts = s.notes.map(note);
   for (const chart of s.charts) {
@@ -16,8 +15,8 @@ function parts_of(s) {
   return parts;
 }
 
-// A section that a click opens. Its charts are drawn when it is first seen: a page of twenty charts
-// opens as fast as one of one.
+// Section opened by a click. Charts are drawn when first seen: a page with twenty charts opens as
+// fast as a page with one.
 function section_of(s) {
   const section = element(
     "details",
@@ -78,7 +77,7 @@ function how_to_read() {
   );
 }
 
-// Nested names are written with dots.
+// Entries of a value; nested names are joined by dots.
 function entries_of(value, name = "") {
   if (value === null || value === "") return [];
   if (typeof value !== "object")
@@ -92,7 +91,7 @@ function entries_of(value, name = "") {
     ];
   if (Array.isArray(value) && value.every(x => typeof x !== "object"))
     return value.length ? [[name, value.join(", ")]] : [];
-  // it stands above
+  // The page shows the scene's text above.
   const scene_text = key =>
     (name === "scene" && key === "text") || (name === "" && key === "scenes");
   return Object.entries(value)

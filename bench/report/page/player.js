@@ -1,10 +1,10 @@
-// Hear it: two sounds of a scene run side by side from one clock and one of them is heard, so that
-// the other takes over in the middle of the sound. X is one of the two by lot; guesses are counted.
-// Space plays and stops, the keys a, b and x choose.
+// "Hear it": two sounds of a scene run side by side from one clock, and a switch changes between
+// them in mid-sound. X is drawn by lot from the two; guesses are counted. Space plays and stops,
+// the keys a, b and x choose.
 const player = {pair: [], hidden: 0, heard: 0, right: 0, guesses: 0, playing: null, context: null};
 
-// For ears: the mean taken away, the ends faded over 5 ms, all sounds at one root mean square, the
-// loudest that leaves every peak within 0.9.
+// Prepares a sound for listening: mean removed, ends faded over 5 ms, the same root mean square for
+// all sounds, as loud as peaks below 0.9 allow.
 function shape_of(sound) {
   if (sound.shape) return sound.shape;
   const {samples} = wave_of(sound),
@@ -59,7 +59,7 @@ async function play() {
   player.mark();
 }
 function hear(which) {
-  // what sounds already is stopped
+  // Stops the sound if it plays already.
   if (player.playing && player.heard === which) return stop();
   player.heard = which;
   player.playing?.forEach(({gain}, k) => {
@@ -69,7 +69,7 @@ function hear(which) {
   if (!player.playing) play();
 }
 
-// Of a scene's sounds A is the reference and B the answer's; `prefer` tells which that is.
+// Player for a scene: A is the reference, B the sound chosen by `prefer`, the answer's.
 function hear_it() {
   const score = element("output", {className: "soft"}),
     names = ["A", "B", "X"],
@@ -149,7 +149,7 @@ function hear_it() {
   );
   return section;
 }
-// See it: the trace of what is heard over its reference's.
+// "See it": the played trace over the reference's.
 function see_it(section) {
   const [chart] = section.charts;
   if (!chart) return "";

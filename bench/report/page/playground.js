@@ -1,5 +1,5 @@
-// With `report --playground`: the page that ./play builds, in a frame that is filled when it is
-// opened, on the scene that the report shows.
+// Frame for `report --playground`: holds the page built by ./play, with the scene of the report,
+// and is filled when opened.
 document.getElementById("playground").ontoggle = event => {
   if (!event.target.open || document.querySelector("#playground iframe")) return;
   const name = scene_shown() || page.manifest?.scene?.name || "",

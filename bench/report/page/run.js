@@ -1,6 +1,6 @@
-// One run, one picture: its taps over time, spectrum and spectrogram of the first of them, the
-// energy ledger where it was probed, and when the string touched. The program has made the tables:
-// a value per stretch of time, a level per band.
+// Picture of one run: taps over time, spectrum and spectrogram of the first tap, the energy ledger
+// if probed, and the times of contact. The program makes the tables: a value per stretch of time, a
+// level per band.
 function run_spec(choice, print) {
   const {scheme, taps, heard, contact, ledger_open} = page.run,
     hue = looks_of([scheme]).get(scheme).colour,

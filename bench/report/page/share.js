@@ -1,10 +1,10 @@
-// A population: which share of its strings each scheme solves for what cost, and how far the
-// estimate of an advice is from the true error.
+// Population of strings: the share solved by each scheme against cost, and the estimate of an
+// advice against the true error.
 const strings_in = () => records("strings");
 const schemes_in = rows => in_order(rows.map(row => row.scheme));
 const all_schemes = "best of all";
 
-// Cheapest cost of each string by scheme, and the number of strings that can be decided.
+// Cheapest costs within a tolerance by scheme and string, and the strings with a known answer.
 function solved_within(within) {
   const cheapest = new Map([[all_schemes, new Map()]]);
   for (const f of records("fronts")) {
@@ -21,7 +21,7 @@ function solved_within(within) {
 }
 const within_text = within => `within ${percent(within)}`;
 
-// One panel: a curve per scheme, and grey where nothing can be decided.
+// One panel: a curve per scheme; grey marks the share of strings without a known answer.
 function share_panel(within, names, domain, first, width, print) {
   const {cheapest, decided} = solved_within(within),
     count = strings_in().length,
@@ -200,7 +200,7 @@ function string_spec({scene}, print) {
   };
 }
 
-// ---- The estimate of an advice against its true error
+// ---- The estimate of an advice against the true error
 function advice_spec(choice, print) {
   const names = share_tolerances.map(within_text),
     given = records("advice")

@@ -1,9 +1,9 @@
-// What sounds look like: a scheme's trace over its reference's with the difference, 50 ms sample by
-// sample from where the reference is liveliest, or the whole as its least and greatest value in
-// each of 800 stretches; and spectrograms side by side on one scale.
+// Pictures of sounds: a scheme's trace over the reference's with the difference, either 50 ms
+// sample by sample from the liveliest moment of the reference, or the whole as minimum and maximum
+// in each of 800 stretches; and spectrograms side by side on one scale.
 const beginning = 0.05,
-  stretches = 800; // [s]; of the whole
-// sounds: {samples, rate, scale}; scale: what a sample is in the tap's unit
+  stretches = 800; // [s]; for the whole sound
+// {samples, rate, scale} by sound; scale: the tap's unit per sample value
 const waves = new Map();
 function wave_of(sound) {
   if (!waves.has(sound))
@@ -14,8 +14,8 @@ function wave_of(sound) {
     });
   return waves.get(sound);
 }
-// The sounds that stand in the page, with their rows of sounds.csv. Their rate is that of the
-// samples, not of the scheme.
+// Sounds in the page with their rows in sounds.csv. `rate` belongs to the samples, `hertz` to the
+// scheme.
 let all_sounds = null;
 function sounds() {
   if (all_sounds) return all_sounds;
@@ -40,8 +40,8 @@ const reference_name = problem =>
   cells().find(c => c.problem === problem && c.reference)?.reference ??
   "";
 
-// Where something happens [s]: the first stretch of 10 ms in which the sound changes from sample to
-// sample at least half as much as in its liveliest. The slow pull of a finger is left out by it.
+// Start of the lively part [s]: the first stretch of 10 ms with changes from sample to sample at
+// least half as large as in the liveliest stretch. This skips the slow pull of a finger.
 function lively_from({samples, rate}) {
   const length = Math.floor(0.01 * rate),
     changes = [];
@@ -169,9 +169,9 @@ function waveform_section() {
   };
 }
 
-// ---- Spectrograms: 0-8 kHz, in decibels below their common maximum, as rectangles. Equal
-// neighbours in time are one, what lies 80 dB below the maximum is background, and the steps of
-// level, time and frequency grow until they fit.
+// ---- Spectrograms: 0-8 kHz, in decibels below the common maximum, as rectangles. Equal neighbours
+// in time are merged, levels 80 dB below the maximum are background, and the steps in level, time
+// and frequency grow until the rectangles fit.
 const silent = -4000,
   level_range = 800; // [0.1 dB]
 const levels = new Map();
@@ -179,7 +179,7 @@ function levels_of(kept) {
   if (!levels.has(kept)) levels.set(kept, {...kept, level: integers(kept.level)});
   return levels.get(kept);
 }
-// the strongest of the merged cells, in steps of level; -level_range for background
+// Strongest level among merged cells, in steps of level; -level_range for background.
 function stepped(l, frame, row, step, top) {
   let strongest = silent;
   for (let m = frame; m < Math.min(frame + step.frames, l.frames); ++m)
@@ -220,8 +220,8 @@ function tiles_of(panel, top, step, difference) {
   }
   return tiles;
 }
-// Panels {title, levels, against?, status} with their tiles, at most `most` in all, and the frame
-// that they share.
+// Tiles for the panels {title, levels, against?, status}, at most `most` in all, and their common
+// frame.
 function tiled(panels, most, difference = false) {
   const heard = panels.filter(p => p.levels),
     top = Math.max(
@@ -308,8 +308,8 @@ const on_one_grid = (a, b) =>
     key => Math.abs(a[key] - b[key]) <= 1e-6 * Math.abs(a[key]) + 1e-9,
   );
 const spectrograms_across = 4;
-// A cell's spectrograms: {levels, status, problem, name, against: those of its reference, where
-// they lie on one grid}.
+// Spectrograms of the cells: {levels, status, problem, series, rate, reference, against: the
+// reference's levels if both have the same grid}.
 function heard_cells() {
   const several = distinct(cells().map(c => c.rate)).length > 1,
     references = new Map(
@@ -335,12 +335,12 @@ function heard_cells() {
 function spectrogram_spec(choice, print) {
   const all = heard_cells();
   if (print) {
-    // problems down, schemes across
+    // Problems go down, schemes across.
     const across = distinct(all.map(p => p.series + p.rate)),
       down = distinct(all.map(p => p.problem)),
       frame = tiled(all, 14000);
     if (page.width) {
-      // in a column of a paper: one after the other, two across
+      // A column of a paper has two panels across, in turn.
       const size = {width: (print_width() - 60) / 2, height: 90},
         title = p =>
           [...(down.length > 1 ? [p.problem] : []), p.series, p.rate.trim()].filter(Boolean);

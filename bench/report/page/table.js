@@ -1,12 +1,12 @@
-// Tables that sort and can be filtered: {columns, rows, first}; a button in each heading, its state
-// in aria-sort. On a phone a row is a card.
+// Tables to sort and filter: {columns, rows, first}; a button in each heading, with the state in
+// aria-sort. On a phone a row is a card.
 const element = (name, properties = {}, ...children) => {
   const e = Object.assign(document.createElement(name), properties);
   e.append(...children);
   return e;
 };
 
-// With the apostrophe of the program's own files, so that no spreadsheet takes a text for a formula.
+// Field with the apostrophe of the program's files: no spreadsheet reads a formula in a text.
 function csv_field(plain) {
   const text = /^[=+@'\t-]/.test(plain) && Number.isNaN(number(plain)) ? "'" + plain : plain;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
@@ -32,7 +32,7 @@ function table_of(table, caption) {
     whole = false;
 
   const place = new Map(table.rows.map((row, k) => [row, k]));
-  // a bound, in place of what was measured
+  // Bound shown instead of the measured value.
   const shown = (row, name) => table.shown?.[name]?.[place.get(row)];
   function written(row, name) {
     const text = row[at[name]];
@@ -53,7 +53,7 @@ function table_of(table, caption) {
     if (texts.has(sorted)) return sign * x.localeCompare(y);
     const p = number(x),
       q = number(y);
-    // nothing goes last
+    // Empty values go last.
     return Number.isNaN(p)
       ? Number.isNaN(q)
         ? 0

@@ -1,13 +1,13 @@
-// What the folder says of each of its scenes: the cheapest scheme within any tolerance, and what is
-// known of it. The rule is the program's (analysis/cheapest.hpp), so that a tolerance can be
-// dragged; what is known of each cell the program has said.
+// Verdict on each scene: the cheapest scheme within any tolerance, with the uncertainties. The rule
+// repeats analysis/cheapest.hpp, because readers drag the tolerance; facts about each cell come
+// from the program.
 const scheme_words = name => spoken(name).replaceAll("_", " ");
-// ": 133 modes at 88.2 kHz", " at 88.2 kHz"
+// Modes and rate: ": 133 modes at 88.2 kHz", " at 88.2 kHz".
 const place_words = c =>
   c.run.slice(variant(c).length).replace(/^,/, ":").replace(" kHz", "\u00a0kHz");
 const run_words = c => scheme_words(variant(c)) + place_words(c);
 const times_words = x => `${digits(x, 2)}\u00a0\u00d7`;
-// "at most 0.57 %", "0.49 %", "0.49 % as measured"; "not known"
+// Error in words: "at most 0.57 %", "0.49 %", "0.49 % as measured"; "not known".
 function quoted(c, error) {
   const text = error_text(error_of(c, error), error),
     says = c.errors[error]?.text ?? "";
@@ -16,14 +16,14 @@ function quoted(c, error) {
   return Number.isNaN(bound_of(c, error).most) ? text + " as measured" : text;
 }
 
-// offers: [{scheme, most, least, cost, lower, upper}]
+// Cheapest offer, ties and possible winners. offers: [{scheme, most, least, cost, lower, upper}]
 function cheapest_within(within, offers) {
   const least = (all, of) => all.reduce((a, b) => (a && of(a) <= of(b) ? a : b), null),
     met = o => o.most <= within,
     best = least(offers.filter(met), o => o.cost),
     tied = o => met(o) && o.lower <= best.upper && o.cost < 1.2 * best.cost;
   const others = which => {
-    const found = new Map(); // of each other scheme the cheapest
+    const found = new Map(); // other schemes, each with the cheapest offer
     for (const o of offers.filter(which))
       if (o.scheme !== best?.scheme && !(found.get(o.scheme)?.cost <= o.cost))
         found.set(o.scheme, o);
@@ -38,7 +38,7 @@ function cheapest_within(within, offers) {
   return {best, ties: [finest, ...others(tied)].filter(o => o && o !== best), perhaps};
 }
 const has_cost = c => number(c.cost_s_per_s) > 0;
-// schemes that were run and have no cost anywhere, where others have
+// Schemes run without any measured cost, if others have costs.
 function unpriced_in(rows) {
   const priced = new Set(rows.filter(has_cost).map(c => c.scheme));
   return new Set(
@@ -47,8 +47,8 @@ function unpriced_in(rows) {
       .map(c => c.scheme),
   );
 }
-// {error, within, best, ties, perhaps, published: the cheapest without matched compliance,
-// ranking: of each scheme {scheme, best, nearest}, unpriced: likewise}
+// Answer: {error, within, best, ties, perhaps, published: the cheapest without matched compliance,
+// ranking: {scheme, best, nearest} for each scheme, unpriced: likewise}
 function answer_at(rows, error, within) {
   const offers = rows
       .filter(c => c.may_win && Number.isFinite(figure_of(c, error, "value")))
@@ -92,7 +92,7 @@ function answer_at(rows, error, within) {
     unpriced: rank(offers.filter(o => guests.has(o.scheme))),
   };
 }
-// The end of "To keep ... within 1 %"
+// Ends the sentence "To keep ... within 1 %".
 function finding_of({error, best, perhaps, nearest, unpriced}) {
   const guests = unpriced
     .map(
@@ -106,7 +106,7 @@ function finding_of({error, best, perhaps, nearest, unpriced}) {
   if (perhaps.length) return `: cannot be decided.${guests}`;
   return `${nearest ? " is more than any run here does" : ": no trusted run has a cost"}.${guests}`;
 }
-// What stands below it, each a sentence; *what matters*.
+// Sentences below the finding; asterisks mark the *important* part.
 function consequences({error, within, best, ties, perhaps, published, nearest}, rows) {
   const all = list =>
     list
@@ -138,7 +138,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
         : [];
   }
   const {c, cost} = best,
-    // of modes that were measured
+    // Warning about the modes of a measured table.
     [beyond] = /what lies above .*? is not in your table/.exec(c.reference_doubling ?? "") ?? [],
     worst = number(c.worst_block_of_deadline),
     whole = error.replace(/error_l2_(10|50)ms/, "error_l2_whole"),
@@ -167,8 +167,8 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
   ].filter(Boolean);
 }
 const scene_facts = rows => records("scenes").find(s => s.problem === rows[0]?.problem) ?? {};
-// How far a line can be dragged, and where it stands at first: at 1 % or 1 dB where a run is known
-// to be so near, else at the next that a run is.
+// Range of the tolerance, and the first value: 1 % or 1 dB if a run is known to be so accurate,
+// otherwise the next usual tolerance that a run keeps.
 function tolerances(rows, error) {
   const usual = is_percent(error) ? [0.01, 0.1] : [1, 3],
     first = usual.find(t => answer_at(rows, error, t).best) ?? usual[0],
@@ -180,7 +180,7 @@ function tolerances(rows, error) {
     to: Number((1.5 * Math.max(usual[1], ...least)).toPrecision(1)),
   };
 }
-// By chance alone so many guesses or more are right: one side of the binomial test.
+// Probability of so many right guesses or more by chance: one side of the binomial test.
 function chance(right, guesses) {
   let p = 0;
   for (let k = 0, ways = 1; k <= guesses; ways *= (guesses - k) / (k + 1), ++k)
@@ -246,7 +246,7 @@ function cell_section() {
     },
   };
 }
-// All that stands on the page, in this order; a section without data does not appear.
+// Sections of the page in order; a section without data does not appear.
 function sections_of() {
   const drawn = [
     run_section(),

@@ -1,8 +1,8 @@
-// What of the page is chosen: one scene for all of it, and each chart's menus. It stands in the
-// address behind #, so that a view can be linked to:
+// Choices on the page: one scene for the whole page, and the menus of each chart. The address keeps
+// them behind #, so a link can point to a view:
 // #at=convergence&scene=free_string&work-precision.cost_field=rate
 const view = new Map(new URLSearchParams(location.hash.slice(1)));
-const on_scene = []; // what follows the scene: called with its name
+const on_scene = []; // functions called with the name of a new scene
 
 function choose(key, value) {
   if (value === null) view.delete(key);

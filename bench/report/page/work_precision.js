@@ -1,5 +1,5 @@
-// The first chart: cost against error, scene by scene, layer upon layer: bands of what cannot be
-// known, real time, what is asked for, front, lines, points, failures.
+// The first chart, cost against error for one scene, in layers: bands of uncertainty, real time,
+// the tolerance, front, lines, points, failures.
 const costs = [
   ["cost_s_per_s", "computing time for one second of sound, one core"],
   ["rate", "sample rate [kHz]"],
@@ -13,13 +13,13 @@ const cost_text = (x, cost) =>
     : `${time_text(x)} per second (${digits(x < 1 ? 1 / x : x, 2)} \u00d7 ` +
       `${x < 1 ? "faster" : "slower"} than real time)`;
 
-// Where on its line: at which rate, and with how many modes where they differ along it or there is
-// no rate.
+// Label of a point on a line: the rate, and the number of modes if different along the line or if
+// there is no rate.
 function place_label(rate, modes, modes_differ) {
   const text = Number.isNaN(modes) || !(modes_differ || Number.isNaN(rate)) ? "" : `${modes} modes`;
   return Number.isNaN(rate) ? text : `${text}${text && ", "}${digits(rate / 1000, 4)} kHz`;
 }
-// series of schemes with numbers of modes to choose, that have several
+// Series with several numbers of modes, among schemes with a choice of modes.
 function of_several_modes(rows) {
   const modes = new Map();
   for (const c of rows)
@@ -28,7 +28,7 @@ function of_several_modes(rows) {
   return new Set([...modes].filter(([, all]) => all.size > 1).map(([series]) => series));
 }
 
-// Cells as points of a chart: {series, x, y, ...}. `series` names the column that a line is of.
+// Points of a chart from cells: {series, x, y, ...}. `series`: column that names the line.
 function points_of(rows, error, cost, series = "series") {
   const named = rows
       .filter(c => c.status !== "refused" && c[series])
@@ -80,8 +80,8 @@ function points_of(rows, error, cost, series = "series") {
 }
 const is_sound = p => p.status === "ok" && p.x > 0 && p.y > 0;
 
-// Of many schemes the lines that a reader looks for first: of the answer, of it as published, of
-// what ranks next, and of each hue the first in rank.
+// Main lines among many schemes: the answer, the cheapest as published, the next in rank, and the
+// first in rank of each hue.
 function main_series(rows, error, within) {
   const {ranking, published} = answer_at(rows, error, within),
     lines = ranking.map(r => (r.best ?? r.nearest).c.line),
@@ -89,8 +89,8 @@ function main_series(rows, error, within) {
   return [published?.c.line, ...lines.filter((_, k) => k < 5 || hues.indexOf(hues[k]) === k)];
 }
 
-// What an error of a scene is known to: the noise floor, and the certificate of the reference where
-// all points were measured against one.
+// Limits to the knowledge of an error: the noise floor, and the certificate of the reference if
+// common to all points.
 function bands_of(rows, error) {
   const given = page.manifest?.noise_floor?.[error],
     floor = given ?? rows.map(c => figure_of(c, error, "floor")).find(Number.isFinite);
@@ -103,12 +103,12 @@ function bands_of(rows, error) {
   return {floor: known(floor), certificate: least === most ? known(most) : null};
 }
 
-// Across the plot from one height to another, where a scale or a signal may put it.
+// Rectangle across the plot between two heights, given by expressions of scales or signals.
 const across = (from, to, style) =>
   once({type: "rect", x: 0, x2: {expr: "width"}, y: {expr: from}, y2: {expr: to}, ...style});
 const small_text = more => once({type: "text", fontSize: 11, ...more});
 const height_of = y => `clamp(scale('y', ${y}), 0, height)`;
-// From the level of what limits the error down to the lower edge.
+// Band from a limit of the error down to the lower edge.
 const band = (level, name) =>
   level === null
     ? []
@@ -122,7 +122,7 @@ const band = (level, name) =>
         }),
       ];
 function real_time() {
-  // where a scheme takes a second for a second
+  // Line at one second of computing per second of sound.
   const at = "scale('x', 1)",
     there = value => ({expr: `${at} > 0 && ${at} < width ? ${value}`});
   return [
@@ -138,8 +138,8 @@ function real_time() {
   ];
 }
 
-// What is asked for is a line that can be dragged (signals `within`, `best` and `winner`). What is
-// surely within it is filled, the answer has a ring, and what has no cost stands at the right edge.
+// Chart with the tolerance as a line to drag (signals `within`, `best` and `winner`). Points surely
+// within are filled, the answer has a ring, and points without a cost stand at the right edge.
 function work_precision_spec(choice, print) {
   const rows = of_scene(cells(), choice.scene),
     {column: error, title} = chosen_error(rows, choice),
@@ -273,8 +273,8 @@ function work_precision_spec(choice, print) {
   };
 }
 
-// Names beside the ends of lines, where the page has found room for them; what they lie on ends
-// beside them. Their fields have names of their own: they are no part of the scales.
+// Names beside the ends of lines, in the free places found by the page, with a halo over the plot.
+// The fields have separate names, so labels do not enter the scales.
 function line_labels_layers() {
   const layer = more => ({
     data: {name: "labels", values: []},
@@ -291,8 +291,8 @@ function line_labels_layers() {
   });
   return [layer({stroke: paper[0], strokeWidth: 5, strokeJoin: "round"}), layer({})];
 }
-// A name beside the most accurate points of each line, where it covers neither a point, a line, nor
-// what is asked for, nor another name; that of the answer before the others.
+// Places a name beside the most accurate points of each line, clear of points, lines, the tolerance
+// and other names; the answer's name comes first.
 function line_labels(names, points, view) {
   const [x, y] = [view.scale("x"), view.scale("y")],
     [width, height] = [view.width(), view.height()],
@@ -369,7 +369,7 @@ function work_precision_section() {
     ],
   };
 }
-const most_twins = 12; // pictures of one chart
+const most_twins = 12; // pictures per chart
 const first_choice = (menus, scene) =>
   Object.fromEntries([
     ["scene", scene],
