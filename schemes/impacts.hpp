@@ -43,7 +43,7 @@ public:
     void step(const BarrierOf& of, int a, const Step&);
 
     const std::vector<Impact>& all() const { return all_; }
-    bool told = false;  // true after a scheme has reported its contacts
+    bool reported = false;  // true after a scheme has reported its contacts
 
 private:
     struct Point {

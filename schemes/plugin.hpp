@@ -43,30 +43,31 @@ struct State {
     std::string failure;
 };
 
-inline void tell(jvari_made& made, const std::string& why, bool failed) {
-    why.copy(made.why, sizeof made.why - 1);
-    made.failed = failed;
+inline void tell(jvari_made& result, const std::string& why, bool failed) {
+    why.copy(result.why, sizeof result.why - 1);
+    result.failed = failed;
 }
-inline void* make(const jvari_scheme* table, const jvari_problem* problem, jvari_made* made) {
+inline void* make(const jvari_scheme* table, const jvari_problem* problem, jvari_made* result) {
     try {
         auto state = std::make_unique<State>();
         const auto& d = *static_cast<const Descriptor*>(table->own);
         state->scheme = d.make(d, scene_of(*problem), settings_of(*problem));
         if (!state->scheme)
-            return tell(*made,
+            return tell(*result,
                         std::string(d.name) + " makes no scheme, and does not refuse it either",
                         true),
                    nullptr;
         for (const FreeMode& m : state->scheme->free_modes())
             state->omega.push_back(m.omega), state->decay.push_back(m.sigma);
-        made->dofs = state->scheme->dofs();
-        made->free_modes = static_cast<std::int64_t>(state->omega.size());
-        made->omega = state->omega.data(), made->decay = state->decay.data();
+        result->dofs = state->scheme->dofs();
+        result->free_modes = static_cast<std::int64_t>(state->omega.size());
+        result->omega = state->omega.data(), result->decay = state->decay.data();
         return state.release();
-    } catch (const Refusal& e) { tell(*made, e.what(), false); } catch (const BadScene& e) {
-        tell(*made, e.what(), false);
-    } catch (const std::exception& e) { tell(*made, e.what(), true); } catch (...) {
-        tell(*made, "the scheme throws something that is no std::exception while it is made", true);
+    } catch (const Refusal& e) { tell(*result, e.what(), false); } catch (const BadScene& e) {
+        tell(*result, e.what(), false);
+    } catch (const std::exception& e) { tell(*result, e.what(), true); } catch (...) {
+        tell(*result, "the scheme throws something that is no std::exception while it is made",
+             true);
     }
     return nullptr;
 }

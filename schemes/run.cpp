@@ -139,9 +139,9 @@ public:
         return block_at(row, std::min(row + rows, look_.until), look_.now);
     }
     Status advance(const Block& block) {
-        Block told = block;
-        told.impacts = options_.impacts;
-        return advance(told, trace_.rows);
+        Block with_impacts = block;
+        with_impacts.impacts = options_.impacts;
+        return advance(with_impacts, trace_.rows);
     }
 
     // Returns the end of the sound rows up to `end`, after a block was made. If a row seems

@@ -71,8 +71,8 @@ const Descriptor makeless[] = {{"bad_makeless", "a test", all, Balance::none, st
 }  // namespace
 
 JVARI_EXPORT const jvari_plugin* jvari_schemes(void) {
-    const char* asked = std::getenv("JVARI_BAD_TABLE");
-    const int kind = asked ? std::atoi(asked) : 0;
+    const char* variable = std::getenv("JVARI_BAD_TABLE");
+    const int kind = variable ? std::atoi(variable) : 0;
     static const jvari_plugin none = {
         sizeof none, JVARI_SCHEME_VERSION, nullptr, kind == 1 ? 3 : -1, "none", "none", 1};
     if (kind == 1 || kind == 2) return &none;

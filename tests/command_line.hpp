@@ -51,10 +51,10 @@ struct Ended {
 };
 
 // a failure says it on standard error
-inline testing::AssertionResult ends(const Ended& of, int code, const std::string& said) {
+inline testing::AssertionResult ends(const Ended& of, int code, const std::string& message) {
     if (of.code != code)
         return testing::AssertionFailure() << "ends with " << of.code << ":\n" << of.out << of.err;
-    return says(code ? of.err : of.out, said);
+    return says(code ? of.err : of.out, message);
 }
 
 inline Ended jvari(const Scratch& scratch, const std::string& arguments,

@@ -16,7 +16,7 @@ namespace {
 
 class Kept : public testing::Test {
 public:
-    Kept(const Promise& promise, Case asked) : promise_(promise), case_(std::move(asked)) {}
+    Kept(const Promise& promise, Case instance) : promise_(promise), case_(std::move(instance)) {}
     void TestBody() override {
         const Verdict v = verdict_on(promise_, case_);
         EXPECT_FALSE(v.broken()) << case_.scheme.name << ": " << v.why;

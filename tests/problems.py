@@ -23,10 +23,10 @@ assert len(scenes) == 12, f"{len(scenes)} problems in the table"
 
 
 def exported(name, path):
-    asked = scenes[name].split()
+    words = scenes[name].split()
     # a plucked string is judged from where its pluck ends
-    duration = [] if "--duration" in asked else ["--duration", "0.05"]
-    command = [program, "export", *asked, *duration, "--rate", "44100", "--out", path, "--quiet"]
+    duration = [] if "--duration" in words else ["--duration", "0.05"]
+    command = [program, "export", *words, *duration, "--rate", "44100", "--out", path, "--quiet"]
     subprocess.run(command, check=True)
     with open(path) as file:
         return json.load(file)

@@ -151,8 +151,8 @@ JV Kept* jv_run(const char* text, const char* overrides, const char* scheme, dou
                           " --scheme " + d.name + "`.");
         kept->settings = settings;
         kept->promised = d.balance;
-        const auto made = make_scheme(d, scene, settings);
-        kept->run = run(*made, scene, settings, {.energy = energy != 0});
+        const auto stepper = make_scheme(d, scene, settings);
+        kept->run = run(*stepper, scene, settings, {.energy = energy != 0});
         return kept.release();
     });
 }

@@ -85,19 +85,19 @@ function answer_of({best, ties, perhaps}) {
   ].filter(Boolean);
 }
 async function draw_answers() {
-  const asked = ++draw_answers.count,
+  const request = ++draw_answers.count,
     accuracies = [0.1, 0.01, 0.001];
   const points = chart.points,
-    told =
+    verdicts =
       points.length === 0
         ? accuracies.map(() => ({}))
         : await Promise.all(accuracies.map(accuracy => verdict(points, accuracy))).catch(error => {
             if (!(error instanceof Stale_question)) throw error;
           });
   // Returns if the worker was replaced, or if newer points came.
-  if (!told || asked !== draw_answers.count) return;
+  if (!verdicts || request !== draw_answers.count) return;
   document.getElementById("answers").replaceChildren(
-    ...(chart.why ? [] : told).map((v, k) => {
+    ...(chart.why ? [] : verdicts).map((v, k) => {
       const [found, ...more] = answer_of(v),
         card = element("div", {className: "card"});
       card.append(
@@ -113,10 +113,10 @@ async function draw_answers() {
 draw_answers.count = 0;
 
 function svg(name, attributes, ...inside) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...inside);
-  return made;
+  const node = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  node.append(...inside);
+  return node;
 }
 
 function draw_chart() {

@@ -9,7 +9,7 @@ const client = {
   ready: null,
   list: null,
   since: 0,
-  told: new Set(), // kinds of messages received for the newest state
+  received: new Set(), // kinds of messages received for the newest state
 };
 const patience = 1500, // [ms]
   late_seconds = 8; // for a verdict
@@ -54,7 +54,7 @@ function start_worker() {
       } else if (data.id === client.id) {
         if (["charted", "refused", "unreferenced"].includes(data.kind)) client.busy = false;
         if (["reference", "refused", "unreferenced"].includes(data.kind)) clearTimeout(client.late);
-        client.told.add(data.kind);
+        client.received.add(data.kind);
         shows[data.kind](data);
       }
     };
@@ -68,7 +68,7 @@ async function send_state() {
   if (client.busy && performance.now() - client.since > patience) start_worker();
   client.busy = true;
   client.since = performance.now();
-  client.told.clear();
+  client.received.clear();
   clearTimeout(client.late);
   client.late = setTimeout(() => {
     start_worker();

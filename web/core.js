@@ -24,17 +24,17 @@ function jvari_core(module) {
       texts.forEach(at => module._free(at));
     }
   };
-  const said = () => call("jv_said", "string");
-  const told = text => {
-    if (!text) throw new Error(said());
+  const last_text = () => call("jv_said", "string");
+  const parsed = text => {
+    if (!text) throw new Error(last_text());
     return JSON.parse(text);
   };
   const view = (at, rows) => new Float64Array(module.HEAPF64.buffer, at, rows);
   return {
-    list: () => told(call("jv_list", "string")),
-    scene: (text, overrides = []) => told(call("jv_scene", "string", text, overrides.join("\n"))),
+    list: () => parsed(call("jv_list", "string")),
+    scene: (text, overrides = []) => parsed(call("jv_scene", "string", text, overrides.join("\n"))),
     problem: (text, overrides, rate, modes, duration) =>
-      told(call("jv_problem", "string", text, overrides.join("\n"), rate, modes, duration)),
+      parsed(call("jv_problem", "string", text, overrides.join("\n"), rate, modes, duration)),
     // Runs {scene, overrides, scheme, rate, tap_rate, modes, options, duration, shape, energy}; the
     // last five may be absent.
     run(a) {
@@ -52,8 +52,8 @@ function jvari_core(module) {
         (a.shape ?? []).join("\n"),
         a.energy ? 1 : 0,
       );
-      if (!handle) throw new Error(said());
-      const about = told(call("jv_about", "string", handle)),
+      if (!handle) throw new Error(last_text());
+      const about = parsed(call("jv_about", "string", handle)),
         energy = call("jv_energy", "number", handle, 0);
       return {
         ...about,
@@ -79,7 +79,7 @@ function jvari_core(module) {
         points.flatMap(p => [p.error, p.uncertainty ?? NaN, p.cost, p.lower, p.upper]),
       );
       try {
-        return told(
+        return parsed(
           call("jv_cheapest", "string", points.map(p => p.scheme).join("\n"), at, accuracy),
         );
       } finally {

@@ -1,9 +1,9 @@
 // Puts the page together: controls, answers from the worker, keys.
 function element(name, properties = {}, ...inside) {
-  const made = Object.assign(document.createElement(name), properties);
-  if (properties.scope) made.setAttribute("scope", properties.scope);
-  made.append(...inside);
-  return made;
+  const node = Object.assign(document.createElement(name), properties);
+  if (properties.scope) node.setAttribute("scope", properties.scope);
+  node.append(...inside);
+  return node;
 }
 const by_id = id => document.getElementById(id);
 const say = text => {
@@ -211,9 +211,9 @@ const shows = {
     if (again) play_sound("scheme");
     show_run();
   },
-  reference({picture, verdict: told}) {
+  reference({picture, verdict: newest}) {
     shown.reference = picture;
-    shown.verdict = told;
+    shown.verdict = newest;
     new_pictures();
     show_run();
     mark_sound();
@@ -253,10 +253,10 @@ const shows = {
     draw_chart();
   },
   refused({why}) {
-    const {told} = client;
-    if (!told.has("motion")) (forget_motion(), stop_sound());
-    if (told.has("motion")) clear_answers("The exact solution of this string is refused", why);
-    else if (!told.has("scene")) clear_answers("This text is not a scene", why);
+    const {received} = client;
+    if (!received.has("motion")) (forget_motion(), stop_sound());
+    if (received.has("motion")) clear_answers("The exact solution of this string is refused", why);
+    else if (!received.has("scene")) clear_answers("This text is not a scene", why);
     else clear_answers(`${scheme_name()} does not take this string`, why);
   },
 };

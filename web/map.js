@@ -92,13 +92,13 @@ function draw_map(note = "") {
   const cells = map.columns.flat(),
     count = kind => cells.filter(c => c === kind).length,
     found = Object.keys(kinds).filter(count);
-  const told =
+  const summary =
       note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs. `,
     counted = found.map(kind => [kind, `${kind.replace("_", " ")}: ${count(kind)}; `]);
   document
     .getElementById("map_said")
     .replaceChildren(
-      told,
+      summary,
       ...counted.flatMap(([kind, text]) => [
         element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
         text,
@@ -109,7 +109,7 @@ function draw_map(note = "") {
     .setAttribute(
       "aria-label",
       "map of outcomes over stiffness and sample rate. " +
-        [told, ...counted.map(([, text]) => text)].join(""),
+        [summary, ...counted.map(([, text]) => text)].join(""),
     );
 }
 

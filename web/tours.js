@@ -307,7 +307,7 @@ async function take_step() {
   state.step = Math.max(0, Math.min(state.step, tour.steps.length - 1));
   const step = tour.steps[state.step],
     place = walks ? `: step ${state.step + 1} of ${tour.steps.length}` : "",
-    told = set("tour_number", {textContent: ""});
+    number_text = set("tour_number", {textContent: ""});
   set("tour_choice", {value: state.tour || "brighter"});
   set("tour_title", {textContent: tour.title + place});
   set("tour_text", {textContent: step.say});
@@ -318,20 +318,20 @@ async function take_step() {
   });
   set("tour_end", {hidden: !walks});
   if (!walks) return;
-  told.textContent = "…";
+  number_text.textContent = "…";
   // Applies all steps so far: the address may begin in mid-tour.
   for (const before of tour.steps.slice(0, state.step + 1))
     Object.assign(state, structuredClone(before.set ?? {}));
   state.text = null;
   show_state(true);
-  const asked = ++take_step.count;
+  const request = ++take_step.count;
   try {
     await settled();
     const number = await step.number();
-    if (asked === take_step.count) told.textContent = number;
+    if (request === take_step.count) number_text.textContent = number;
   } catch (error) {
-    if (asked === take_step.count && !(error instanceof Stale_question))
-      told.textContent = error.message;
+    if (request === take_step.count && !(error instanceof Stale_question))
+      number_text.textContent = error.message;
   }
 }
 take_step.count = 0;

@@ -101,7 +101,7 @@ async function reference_of(state, scene, go_on) {
   // Only the run with half the modes probes the energy: energy costs eight times as much as motion,
   // and half the modes hold all but 0.2 %.
   const run = (modes, more = {}, points = []) => {
-    const made = jvari.run({
+    const solution = jvari.run({
       scene: state.text,
       overrides: state.overrides,
       scheme: scene.reference,
@@ -110,8 +110,8 @@ async function reference_of(state, scene, go_on) {
       duration: state.window,
       ...more,
     });
-    runs.push(made);
-    return made;
+    runs.push(solution);
+    return solution;
   };
   try {
     const change = (fine, coarse) => jvari.error(fine, coarse, nut);
@@ -171,17 +171,17 @@ function judged(run, scene, state) {
 // Mean time of enough runs to fill a sample: a browser's clock is coarse.
 const sample_seconds = 4e-3,
   rounds = 9;
-function sampled(asked, keep = () => ({})) {
+function sampled(request, keep = () => ({})) {
   let spent = 0,
     runs = 0,
     kept;
   do {
-    const run = jvari.run(asked);
+    const run = jvari.run(request);
     spent += run.wall;
     kept ??= keep(run);
     run.free();
   } while (++runs < 30 && spent < sample_seconds);
-  return {...kept, cost: spent / runs / asked.duration};
+  return {...kept, cost: spent / runs / request.duration};
 }
 function quartiles(costs) {
   const sorted = [...costs].sort((a, b) => a - b),
@@ -198,10 +198,10 @@ function quartiles(costs) {
 // four rates.
 const chart_lines = 5;
 function cells_of({scheme, compliance, lines, rates}, scene) {
-  const told = ([name, of]) => JSON.stringify([name, options_of(name, of)]),
+  const line_key = ([name, of]) => JSON.stringify([name, options_of(name, of)]),
     chosen = [scheme, compliance],
     able = lines.filter(([name]) => scene.able.includes(name)).slice(0, chart_lines);
-  if (!able.some(line => told(line) === told(chosen)))
+  if (!able.some(line => line_key(line) === line_key(chosen)))
     able.splice(Math.min(able.length, chart_lines - 1), 1, chosen);
   return able.flatMap(([scheme, compliance]) => rates.map(rate => ({scheme, compliance, rate})));
 }
@@ -213,9 +213,9 @@ async function chart(state, scene, chosen, post, go_on) {
   const cells = [];
   for (const {scheme, compliance, rate} of chosen) {
     const options = options_of(scheme, compliance),
-      told = {scheme, compliance: options.length ? compliance : "", rate};
+      label = {scheme, compliance: options.length ? compliance : "", rate};
     try {
-      const asked = {
+      const request = {
         scene: state.text,
         overrides: state.overrides,
         scheme,
@@ -223,42 +223,42 @@ async function chart(state, scene, chosen, post, go_on) {
         options,
         duration: state.window,
       };
-      const point = sampled(asked, run => ({
-        ...told,
+      const point = sampled(request, run => ({
+        ...label,
         ...judged(run, scene, state),
         outcome: run.outcome,
         dofs: run.dofs,
       }));
       post({kind: "point", point: {...point, lower: point.cost, upper: point.cost}});
-      cells.push({told, asked, costs: []});
+      cells.push({label, request, costs: []});
     } catch (error) {
-      post({kind: "point", point: {...told, refused: error.message}});
+      post({kind: "point", point: {...label, refused: error.message}});
     }
     await go_on();
   }
   post({kind: "charted"});
   for (let round = 1; round <= rounds; ++round) {
-    for (const {asked, costs} of cells) {
-      costs.push(sampled(asked).cost);
+    for (const {request, costs} of cells) {
+      costs.push(sampled(request).cost);
       await go_on();
     }
     post({
       kind: "timed",
       last: round === rounds,
-      costs: cells.map(({told, costs}) => ({...told, ...quartiles(costs)})),
+      costs: cells.map(({label, costs}) => ({...label, ...quartiles(costs)})),
     });
   }
 }
 
 // ---- One state of the page: the string, its motion, its sound, the reference, the chart.
 
-async function show(asked, post, go_on) {
-  const scene = jvari.scene(asked.text, [
-    ...asked.overrides.filter(o => !o.startsWith("duration=")),
-    `duration=${asked.window}`,
+async function show(request, post, go_on) {
+  const scene = jvari.scene(request.text, [
+    ...request.overrides.filter(o => !o.startsWith("duration=")),
+    `duration=${request.window}`,
   ]);
   // Errors count after the pluck.
-  const state = {...asked, window: scene.free_from + asked.window};
+  const state = {...request, window: scene.free_from + request.window};
   const cells = cells_of(state, scene),
     key = JSON.stringify([state.text, state.overrides, cells]),
     kept = key === charted;
@@ -301,7 +301,7 @@ const questions = {
     const a = jvari.run(first),
       scene = jvari.scene(first.scene, first.overrides),
       {nut, force} = headline_of(scene);
-    const told = r => ({
+    const summary_of = r => ({
       outcome: r.outcome,
       step: r.step,
       rate: r.rate,
@@ -313,11 +313,11 @@ const questions = {
       force: force < 0 ? null : Float64Array.from(r.tap(force)),
       ...balance_of(r),
     });
-    const answer = {run: told(a)};
+    const answer = {run: summary_of(a)};
     if (beside) {
       const b = jvari.run({...first, options: [], ...beside});
       Object.assign(answer, {
-        beside: told(b),
+        beside: summary_of(b),
         error: jvari.error(a, b, nut),
         horizon: jvari.horizon(a, b, nut),
         octaves: jvari.third_octaves(a, b, nut, 60),
@@ -330,9 +330,9 @@ const questions = {
   },
   outcomes({runs}) {
     // Outcomes for a column of the map.
-    return runs.map(asked => {
+    return runs.map(request => {
       try {
-        const run = jvari.run({...asked, energy: true});
+        const run = jvari.run({...request, energy: true});
         run.free();
         return run.verdict;
       } catch {

@@ -215,24 +215,26 @@ void must_be(const char* what, const std::vector<std::string>& names, const auto
 }
 }  // namespace
 
-Checked check(const Descriptor& d, const Asked& asked, const store::Listener& listener,
+Checked check(const Descriptor& d, const Asked& selection, const store::Listener& listener,
               const std::function<void(const Checked&, const Promise&)>& answered) {
-    must_be("promise", asked.promises, promises());
-    if (!asked.scenes.empty()) must_be("scene of a check", asked.scenes, contract_scenes());
+    must_be("promise", selection.promises, promises());
+    if (!selection.scenes.empty()) must_be("scene of a check", selection.scenes, contract_scenes());
     Checked c{d.name, d.source, {}, {}};
     const auto progress = listener.begin(std::string("check ") + d.name);
     double done = 0;
     std::string broken, claim_broken;  // first broken promise, and first broken claim
     for (const Promise& p : promises()) {
-        if (!asked.promises.empty() && !named(asked.promises, p.name)) continue;
+        if (!selection.promises.empty() && !named(selection.promises, p.name)) continue;
         auto cases = cases_of(d, p.scope);
-        if (!asked.scenes.empty()) {
-            std::erase_if(cases, [&](const Case& k) { return !named(asked.scenes, k.scene.name); });
+        if (!selection.scenes.empty()) {
+            std::erase_if(cases,
+                          [&](const Case& k) { return !named(selection.scenes, k.scene.name); });
             if (cases.empty()) continue;
         }
         c.examined.push_back(&p);
         // Each run of an external program needs a process and a file.
-        const bool too_many = asked.promises.empty() && is_called(d) && p.of == feels_every_number;
+        const bool too_many =
+            selection.promises.empty() && is_called(d) && p.of == feels_every_number;
         const bool last = p.scope == Scope::once_all_before_are_kept,
                    claim = last || p.scope == Scope::once_all_others_are_kept;
         const std::string& rests_on = last && broken.empty() ? claim_broken : broken;

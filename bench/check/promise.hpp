@@ -74,7 +74,7 @@ Verdict verdict_on(const Promise&, const Case&);
 
 // ---- One function for each promise, and shared helpers.
 
-// Refusals and declarations: declared.cpp.
+// Refusals and declarations: claims.cpp.
 Verdict refusals_name_what_is_missing(const Case&);
 Verdict runs_a_scene(const Case&);
 Verdict heeds_every_feature(const Case&);

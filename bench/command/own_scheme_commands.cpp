@@ -191,7 +191,7 @@ Act judge_verb(CLI::App& program) {
 namespace {
 struct CheckRequest : Running {
     std::vector<std::string> schemes;  // none: the plugins' schemes
-    check::Asked asked;
+    check::Asked selection;
     std::string junit;
 };
 
@@ -222,7 +222,7 @@ int check_command(const CheckRequest& r) {
     for (const Descriptor& one : chosen) {
         const Descriptor d = judge::declared(one);
         console.print(fmt::format("{}{} ({})", checked.empty() ? "" : "\n", d.name, d.source));
-        checked.push_back(check::check(d, r.asked, console,
+        checked.push_back(check::check(d, r.selection, console,
                                        [&](const check::Checked& c, const check::Promise& p) {
                                            console.print(check::line_of(c, p));
                                        }));
@@ -241,10 +241,10 @@ Act check_verb(CLI::App& program) {
                          "claims in numbers");
     v.option("schemes", v.r.schemes, {"SCHEME"},
              "schemes or references; absent: those of the plugins");
-    v.option("--only", v.r.asked.promises, {"PROMISE,..."}, "these promises alone")
+    v.option("--only", v.r.selection.promises, {"PROMISE,..."}, "these promises alone")
         ->delimiter(',')
         ->allow_extra_args(false);
-    v.option("--scene", v.r.asked.scenes, {"NAME,..."},
+    v.option("--scene", v.r.selection.scenes, {"NAME,..."},
              "what is promised on scenes, on these alone; without what is examined once")
         ->delimiter(',')
         ->allow_extra_args(false);

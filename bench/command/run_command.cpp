@@ -280,7 +280,7 @@ int run_command(RunRequest r) {
         options.state = !r.state.empty();
         if (!r.impacts.empty()) options.impacts = impacts.data();
         options.progress = [&](long done, long rows) {
-            if (options.impacts && done > 0 && std::ranges::none_of(impacts, &Impacts::told))
+            if (options.impacts && done > 0 && std::ranges::none_of(impacts, &Impacts::reported))
                 throw store::UsageError(
                     fmt::format("--impacts: {} does not tell what its contacts do; exact_contact, "
                                 "modal schemes and those of grids do",

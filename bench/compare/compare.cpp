@@ -128,14 +128,14 @@ void run(Comparison& c, study::References& references, std::vector<study::Record
 std::optional<Advice> advice_on(const Scene& scene, const CompareRequest& r,
                                 const Catalogue& catalogue, const store::Listener& listener) {
     const std::size_t waveform = study::waveform_over(study::headline_window(scene));
-    AdviceRequest asked;
+    AdviceRequest advice_request;
     const std::vector<Target> all = targets();
-    asked.measure = std::ranges::find(all, waveform, &Target::measure)->name;
-    asked.tap_rate = r.tap_rate;
+    advice_request.measure = std::ranges::find(all, waveform, &Target::measure)->name;
+    advice_request.tap_rate = r.tap_rate;
     for (const std::string& scheme : r.schemes.empty() ? std::vector<std::string>{""} : r.schemes) {
-        asked.scheme = scheme;
+        advice_request.scheme = scheme;
         try {
-            return advise(scene, asked, catalogue, listener).back();
+            return advise(scene, advice_request, catalogue, listener).back();
         } catch (const Refusal&) {}
     }
     return std::nullopt;

@@ -44,7 +44,8 @@ std::string last_line(const std::string& text) {
 
 using Unwanted = std::function<bool()>;
 
-store::Said asked(const External& e, std::vector<std::string> arguments, const Unwanted& unwanted) {
+store::Said run_external(const External& e, std::vector<std::string> arguments,
+                         const Unwanted& unwanted) {
     std::vector<std::string> words{"sh", "-c", e.command + " \"$@\"", "sh"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return store::run_program(std::move(words), unwanted);
@@ -57,7 +58,7 @@ std::shared_ptr<const Trace> computed(const External& e, const Exported& of,
         throw store::Unwritable("cannot make a folder in " + store::Scratch::place().string());
     const fs::path problem_file = folder.path / "problem.json", given = folder.path / "trace.csv";
     store::write_fresh(problem_file, problem);
-    const store::Said output = asked(e, {problem_file.string(), given.string()}, unwanted);
+    const store::Said output = run_external(e, {problem_file.string(), given.string()}, unwanted);
     if (output.code == refuses)
         throw Refusal(fmt::format("{}: {}", e.name, last_line(output.text)));
     if (output.code != 0)
@@ -201,21 +202,21 @@ std::string enter_external(const std::string& command) {
 Descriptor declared(const Descriptor& d) {
     if (d.make != called) return d;
     const auto start = std::chrono::steady_clock::now();
-    const store::Said output = asked(*static_cast<const External*>(d.own), {"represents"}, [start] {
-        return std::chrono::steady_clock::now() - start > std::chrono::seconds(10);
-    });
-    Descriptor said = d;
+    const store::Said output = run_external(
+        *static_cast<const External*>(d.own), {"represents"},
+        [start] { return std::chrono::steady_clock::now() - start > std::chrono::seconds(10); });
+    Descriptor answered = d;
     std::istringstream lines(output.code == 0 ? output.text : "");
     for (std::string line; std::getline(lines, line);) {
         const std::string value = line.substr(std::min(line.find(": ") + 2, line.size()));
-        if (line.starts_with("balance: ")) said.balance = compare::balance_of(value);
+        if (line.starts_with("balance: ")) answered.balance = compare::balance_of(value);
         if (!line.starts_with("represents: ")) continue;
         std::vector<std::string> names;
         std::istringstream parts(value);
         for (std::string name; std::getline(parts >> std::ws, name, ',');) names.push_back(name);
-        said.represents = compare::features_of(names);
+        answered.represents = compare::features_of(names);
     }
-    return said;
+    return answered;
 }
 
 }  // namespace jvari::bench::judge

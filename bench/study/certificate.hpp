@@ -84,9 +84,9 @@ struct CertifySettings {
 Certificate certificate_plan(const Scene&, const CertifySettings& = {});
 
 // Runs the plan, one reference after the other because their costs are measured. Runs are kept in
-// the folder `runs` and read from there (kept_run.hpp); "": nowhere. A run longer than `seconds` of
-// processor time, or than ten minutes, becomes an entry with this reason. Throws the exceptions of
-// certificate_plan.
+// the folder `runs` and read from there (reference.hpp); "": nowhere. A run longer than `seconds`
+// of processor time, or than ten minutes, becomes an entry with this reason. Throws the exceptions
+// of certificate_plan.
 Certificate certify(const Scene&, Certificate plan, const store::Listener& = {},
                     const std::filesystem::path& runs = {}, double seconds = HUGE_VAL);
 

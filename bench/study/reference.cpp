@@ -84,10 +84,10 @@ int modes_held(const String& s, double rate) {
 }
 
 int modes_to_begin_with(const Scene& scene, double tap_rate, int cells) {
-    int held = 0;
-    for (const String& s : scene.strings) held = std::max(held, modes_held(s, tap_rate));
+    int most = 0;
+    for (const String& s : scene.strings) most = std::max(most, modes_held(s, tap_rate));
     const int carried = cells > 0 ? cells : modes_for(scene, {});
-    return held > 0 && carried > 0 ? std::min(held, carried) : std::max(held, carried);
+    return most > 0 && carried > 0 ? std::min(most, carried) : std::max(most, carried);
 }
 
 std::vector<ReferenceChoice> references_of(const Scene& scene, const Settings& at,

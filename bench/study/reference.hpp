@@ -21,7 +21,7 @@ struct ReferenceChoice {
     std::string note;  // reason for this choice; "" if the rule gives it or the user asked for it
     // ratio of the highest rate to the coarsest, for a scheme that stands in; 0: a real reference
     int oversampled = 0;
-    // Runs from an earlier program may be used (kept_run.hpp). True only if the reference is part
+    // Runs from an earlier program may be used (kept_run). True only if the reference is part
     // of this program, not of a plugin.
     bool kept = false;
     // folder for all runs in a study; "": kept_runs_folder(), and only for runs worth keeping

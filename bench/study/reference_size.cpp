@@ -75,8 +75,8 @@ Sizes sizes_of(const ReferenceChoice& c, const Scene& scene, int modes, int begi
     s.measured = modes == 0 ? measured_modes(scene) : 0;
     const int first =
         s.measured > 0 ? s.measured : modes_to_begin_with(scene, c.settings.tap_rate, begin);
-    const auto asked = std::ranges::find_if(c.settings.options, is_nodes);
-    const bool points_asked = asked != c.settings.options.end();
+    const auto nodes = std::ranges::find_if(c.settings.options, is_nodes);
+    const bool points_asked = nodes != c.settings.options.end();
     int points = 0;
     if (needed_by(scene).any(any_profile))
         points = points_asked ? profile_points(c.settings).count : std::stoi(nodes_option.fallback);

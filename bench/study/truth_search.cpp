@@ -244,13 +244,13 @@ Truth Search::of(const std::vector<ReferenceChoice>& choices, int modes, int beg
         return std::move(t_);
     }
     choice_ = t_.reference.choice;
-    const auto asked = std::ranges::find_if(choices, [&](const ReferenceChoice& c) {
+    const auto declared = std::ranges::find_if(choices, [&](const ReferenceChoice& c) {
         return c.scheme == choice_.scheme && !c.oversampled;
     });
-    sizes_ = sizes_of(*asked, scene_, modes, begin);
+    sizes_ = sizes_of(*declared, scene_, modes, begin);
     size_ = sizes_.each.front();
     spent_ = t_.reference.run.wall_seconds;
-    Settings certified = asked->settings;
+    Settings certified = declared->settings;
     certified.options = choice_.settings.options;  // with the default number of points
     std::erase_if(certified.options,
                   [](const auto& o) { return o.first == std::string(nodes_option.name); });

@@ -149,7 +149,7 @@ std::vector<SuitePoint> points_of(const Suite&);
 // UsageError, SceneFileError, BadScene, Refusal. `advised`: advised settings, added to the cells.
 struct Advised {  // advice on a scene in a set that measures advice
     const CellSet* set;
-    std::string asked, scene;  // asked: in the set's words; scene: its name
+    std::string scene_words, scene;  // the scene in the words of the set, and by name
     compare::Advice advice;
 };
 study::Plan plan_of(const Suite&, const compare::Catalogue&,

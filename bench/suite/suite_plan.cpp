@@ -47,15 +47,15 @@ void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellS
     const std::size_t from = plan.jobs.size(), notes = plan.notes.size();
     compare::add_jobs(plan, r, catalogue, common, like);
     plan.notes.resize(notes);  // the notes repeat for each string
-    const auto held = [&](const study::Job& job) {
+    const auto carried = [&](const study::Job& job) {
         const int modes = job.cell.settings.modes;
         return modes == set.modes.front() ||
                modes <= modes_below(set.drawn->strings.front(),
                                     most_of_rate * job.cell.settings.sample_rate);
     };
-    plan.jobs.erase(
-        std::stable_partition(plan.jobs.begin() + static_cast<long>(from), plan.jobs.end(), held),
-        plan.jobs.end());
+    plan.jobs.erase(std::stable_partition(plan.jobs.begin() + static_cast<long>(from),
+                                          plan.jobs.end(), carried),
+                    plan.jobs.end());
     if (plan.jobs.size() == from || !set.measures(measured::share)) return;
     plan.jobs[from].measured += " beside";
     plan.jobs[from].beside = [catalogue](const study::Point& p, const study::Truth* truth) {
@@ -106,8 +106,9 @@ std::vector<Advised> advice_of(const Suite& suite, const compare::Catalogue& cat
                                const store::Listener& listener) {
     std::vector<Advised> all;
     for (const SuitePoint& p : points_of(suite)) {
-        const bool known = std::ranges::any_of(
-            all, [&p](const Advised& a) { return a.set == p.set && a.asked == p.request.scene; });
+        const bool known = std::ranges::any_of(all, [&p](const Advised& a) {
+            return a.set == p.set && a.scene_words == p.request.scene;
+        });
         if (known || !p.set->measures(measured::advice)) continue;
         const Scene scene = compare::load_scene(p.request);
         if (auto a = compare::advice_on(scene, p.request, catalogue, listener))
@@ -155,7 +156,7 @@ study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
             if (set.drawn) add_string(all, r, set, catalogue, common, like);
             else compare::add_jobs(all, r, catalogue, common, like);
             for (const Advised& a : advised) {
-                if (a.set != &set || a.asked != r.scene || !a.advice.scheme) continue;
+                if (a.set != &set || a.scene_words != r.scene || !a.advice.scheme) continue;
                 study::Job& job = all.jobs.emplace_back(like);
                 job.point = &all.points.back();
                 job.cell = {a.advice.scheme, a.advice.settings};

@@ -66,11 +66,12 @@ std::optional<compare::Advice> advice_on(const Judge& judge, const Request& r,
                                          const compare::Catalogue& catalogue,
                                          const store::Listener& listener) {
     try {
-        compare::AdviceRequest asked{r.within, r.measure, judge.tap().name};
-        if (r.scheme != "any") asked.scheme = r.scheme;
-        asked.tap_rate = r.tap_rate;
-        asked.options = r.options;
-        const compare::Advice a = compare::advise(judge.scene(), asked, catalogue, listener).back();
+        compare::AdviceRequest request{r.within, r.measure, judge.tap().name};
+        if (r.scheme != "any") request.scheme = r.scheme;
+        request.tap_rate = r.tap_rate;
+        request.options = r.options;
+        const compare::Advice a =
+            compare::advise(judge.scene(), request, catalogue, listener).back();
         listener.note("advice before any reference: " + text_of(a));
         if (a.within) return a;
     } catch (const Refusal&) {

@@ -188,7 +188,7 @@ public:
     }
     Status advance(const Block& out) noexcept override {
         impacts_ = out.impacts;
-        if (impacts_) impacts_->told = true;
+        if (impacts_) impacts_->reported = true;
         for (int row = 0; row < out.rows; ++row) {
             write(out, row);
             if (!interval(out))

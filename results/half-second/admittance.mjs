@@ -115,8 +115,8 @@ for (const c of contacts)
         const more = sum(beyond, m => atRest(m) / (m.omega ** 2 - omega ** 2));
         return ((yields / omega) * more) / (cut * (cut + more * omega ** 2));
       }) / sum(kept_ones, m => m.yields / m.omega);
-    const held = (heavier * inertia(beyond.filter(m => m.omega < nyquist))) / inertia(beyond);
-    const branch = ((2 * held) / h) * Math.tanh((Math.min(...touching) * h) / held / 2);
+    const carried = (heavier * inertia(beyond.filter(m => m.omega < nyquist))) / inertia(beyond);
+    const branch = ((2 * carried) / h) * Math.tanh((Math.min(...touching) * h) / carried / 2);
     const own = sum(modes.slice(0, kept), m => stepped(m, [1 + 1e-9, 0], h)[0]),
       C = sum(modes, atRest) - own;
     const damper =
@@ -136,7 +136,7 @@ for (const c of contacts)
         scheme = total(modes.slice(0, kept), stepped),
         missing = plus(truth, times([-1, 0], scheme));
       const speed = times([2 / h, 0], over(plus(z, [-1, 0]), plus(z, [1, 0])));
-      const behind = over([held * branch, 0], plus([branch, 0], times(speed, [held, 0])));
+      const behind = over([carried * branch, 0], plus([branch, 0], times(speed, [carried, 0])));
       const element = over(
         [1, 0],
         plus([1 / C, 0], times(speed, plus([damper, 0], times(speed, behind)))),
@@ -159,7 +159,7 @@ for (const c of contacts)
     console.log(
       `${c.name}, ${rate} Hz: ${kept} modes, C ${C.toExponential(2)} m/N, damper ` +
         `${damper.toPrecision(3)} and ${branch.toPrecision(3)} kg/s, mass ` +
-        `${held.toExponential(2)} kg`,
+        `${carried.toExponential(2)} kg`,
     );
   }
 const rounded = x => Number(x.toPrecision(4));

@@ -12,9 +12,11 @@
 //     F       of the threads, which are eliminated (eliminated_thread.hpp)   N     [000] 45-47
 //     kappa_a beta_a/span of a contact that loses energy: its rule's force   1/m
 //             times 1 - kappa_a r_a (StepLoss, contact.hpp)
-//     D, P    stretch and force of the springs in series with the points     m, N  (4), (5) of
-//             (residual.hpp): they touch at reading + D, and r = free - H +        compliance-
-//     H, K    (Theta + K) F, the same equation                               m, m/N matching.md
+//     D, P    stretch and force of the springs in series with the points     m, N  (4), (5)
+//             (residual.hpp): they touch at reading + D, and r = free - H +
+//     H, K    (Theta + K) F, the same equation                               m, m/N
+//
+// (4) and (5) are in docs/compliance-matching.md.
 #pragma once
 
 #include <memory>

@@ -206,7 +206,7 @@ private:
         const double to = (static_cast<double>(done_) + 0.5 * (levels + 1)) * dt_;
         for (int a = 0; a < obstacle_.contacts(); ++a) {
             const BarrierOf& of = points().contacts.of[a];
-            impacts_[of.string].told = true;
+            impacts_[of.string].reported = true;
             impacts_[of.string].step(of, a,
                                      {to, dt_, levels * dt_, force_[a], obstacle_.moved()[a],
                                       obstacle_.lost_by(a, force_[a])});

@@ -19,17 +19,17 @@
 namespace jvari_open {
 
 template <class Made>
-void* make(const jvari_scheme*, const jvari_problem* problem, jvari_made* made) {
+void* make(const jvari_scheme*, const jvari_problem* problem, jvari_made* result) {
     try {
         auto* scheme = new Made(*problem);
-        made->dofs = scheme->dofs();
+        result->dofs = scheme->dofs();
         return scheme;
     } catch (const std::exception& e) {
-        std::snprintf(made->why, sizeof made->why, "%s", e.what());
+        std::snprintf(result->why, sizeof result->why, "%s", e.what());
     } catch (...) {
-        std::snprintf(made->why, sizeof made->why,
+        std::snprintf(result->why, sizeof result->why,
                       "the scheme throws something that is no std::exception while it is made");
-        made->failed = 1;
+        result->failed = 1;
     }
     return nullptr;
 }

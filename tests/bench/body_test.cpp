@@ -55,11 +55,11 @@ TEST(SyntheticBody, OfTheLibraryIsMadeByThisRecipe) {
     const Body body = read_scene("tanpura_drone").body.value();
     for (const auto& [end, name] :
          {std::pair{BodyEnd::bridge, body.bridge}, std::pair{BodyEnd::nut, body.nut}}) {
-        const auto made = synthetic_response(end);
+        const auto synthetic = synthetic_response(end);
         const auto there = impulse_response(name, synthetic_rate, "body");
-        ASSERT_EQ(there.size(), made.size());
-        for (std::size_t n = 0; n < made.size(); ++n)
-            ASSERT_NEAR(there[n], made[n], 1e-7) << name << " " << n;
+        ASSERT_EQ(there.size(), synthetic.size());
+        for (std::size_t n = 0; n < synthetic.size(); ++n)
+            ASSERT_NEAR(there[n], synthetic[n], 1e-7) << name << " " << n;
     }
 }
 

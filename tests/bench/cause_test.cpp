@@ -40,16 +40,16 @@ std::string said_of(const Change& change, const std::string& run = "",
 }
 
 TEST(Cause, OfALoopWhoseFilterDelayWasForgottenIsItsTuning) {
-    const std::string said = said_of([](std::vector<double>& y) {
+    const std::string cause = said_of([](std::vector<double>& y) {
         for (std::size_t n = 289; n < y.size(); ++n) y[n] = 0.5 * (y[n - 288] + y[n - 289]);
     });
     // 1200 log2(288/288.5)
     EXPECT_TRUE(
-        says(said,
+        says(cause,
              "it is out of tune, 3.0 cents flat: its partials 1, 2, 3, 4, 6, 7, 8, 9, 11, 12 are "
              "off by "
              "-3.0 -3.0 "))
-        << said;
+        << cause;
 }
 
 TEST(Cause, OfADelayIsTheDelayAndOfAGainTheGain) {
@@ -140,17 +140,17 @@ TEST(Cause, OfATraceThatIsManyTimesTooLargeIsTheFactorWhateverTheStringsEnergyAl
 }
 
 TEST(Cause, OfAnOffsetIsTheOffset) {
-    const std::string said = said_of([](std::vector<double>& y) {
+    const std::string cause = said_of([](std::vector<double>& y) {
         for (double& v : y) v += 6e-4;
     });
-    EXPECT_TRUE(says(said, "it is off by +0.0006 m throughout, an offset")) << said;
-    EXPECT_FALSE(says(said, "grows")) << said;
+    EXPECT_TRUE(says(cause, "it is off by +0.0006 m throughout, an offset")) << cause;
+    EXPECT_FALSE(says(cause, "grows")) << cause;
 }
 
 TEST(Cause, OfATraceThatStopsMovingIsTheRowWhereItStops) {
-    const std::string said =
+    const std::string cause =
         said_of([](std::vector<double>& y) { std::fill(y.begin() + 2646, y.end(), y[2646]); });
-    EXPECT_TRUE(says(said, "it stands still from row 2646 on, 0.06 s")) << said;
+    EXPECT_TRUE(says(cause, "it stands still from row 2646 on, 0.06 s")) << cause;
 }
 
 TEST(Cause, OfAHalfRowAQuarterAndAHundredRowsIsTheDelayAlsoOfABrightTone) {
@@ -158,40 +158,40 @@ TEST(Cause, OfAHalfRowAQuarterAndAHundredRowsIsTheDelayAlsoOfABrightTone) {
     const std::string scene = bright_string();
     for (const auto& [late, text] :
          {std::pair{8, "it comes 0.50 rows late"}, {4, "it comes 0.25 rows late"}}) {
-        const std::string said =
+        const std::string cause =
             said_of(every_sixteenth(late), " --tap-rate 705600", scene.c_str());
-        EXPECT_TRUE(says(said, text)) << said;
+        EXPECT_TRUE(says(cause, text)) << cause;
     }
 }
 
 TEST(Cause, OfAStringOfAnotherLengthOrWithAFreeEndIsTheOctave) {
     EXPECT_TRUE(says(said_of(same, " --set string.0.length=2 --set string.0.frequency=76.5625"),
                      "it sounds an octave low: "));
-    const std::string said = said_of([](std::vector<double>& y) {
+    const std::string cause = said_of([](std::vector<double>& y) {
         for (std::size_t n = 0; n < y.size(); ++n)
             y[n] =
                 5e-4 * std::cos(2 * 3.141592653589793 * 76.5625 * static_cast<double>(n) / 44100);
     });
-    EXPECT_TRUE(says(said, "it sounds an octave low: ") &&
-                says(said, "of a string with a free end"))
-        << said;
+    EXPECT_TRUE(says(cause, "it sounds an octave low: ") &&
+                says(cause, "of a string with a free end"))
+        << cause;
     EXPECT_TRUE(says(said_of(same, " --set string.0.frequency=306.25"), "sounds an octave high"));
 }
 
 TEST(Cause, OfARateThatWasMistakenIsTheIntervalAlsoBeyondHalfASemitone) {
-    const std::string said = said_of([](std::vector<double>& y) { y.resize(5293); },
-                                     " --tap-rate 48000 --duration 0.121");
-    EXPECT_TRUE(says(said, "it is out of tune, 146.7 cents flat: ")) << said;
+    const std::string cause = said_of([](std::vector<double>& y) { y.resize(5293); },
+                                      " --tap-rate 48000 --duration 0.121");
+    EXPECT_TRUE(says(cause, "it is out of tune, 146.7 cents flat: ")) << cause;
 }
 
 TEST(Cause, OfPartialsThatAreOffByDifferentIntervalsIsNoMedian) {
-    const std::string said = said_of(same, " --set string.0.bending_stiffness=0.2");
-    EXPECT_TRUE(says(said, "it is out of tune, each partial by another interval: ")) << said;
+    const std::string cause = said_of(same, " --set string.0.bending_stiffness=0.2");
+    EXPECT_TRUE(says(cause, "it is out of tune, each partial by another interval: ")) << cause;
 }
 
 TEST(Cause, OfFewModesIsTheirNumber) {
-    const std::string scene = bright_string(), said = said_of(same, " --modes 20", scene.c_str());
-    EXPECT_TRUE(says(said, "it has 20 partials: it lacks those above 3.14 kHz")) << said;
+    const std::string scene = bright_string(), cause = said_of(same, " --modes 20", scene.c_str());
+    EXPECT_TRUE(says(cause, "it has 20 partials: it lacks those above 3.14 kHz")) << cause;
 }
 
 TEST(Cause, OfAStringThatTouchesABridgeIsItsTuningAndItsDecayToo) {

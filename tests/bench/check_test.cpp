@@ -50,32 +50,32 @@ TEST(Check, ExcusesAKnownBreachByNameAndSaysSo) {
 
 TEST(Check, ItsLastLineCountsAndSaysWhyAPromiseWasNotAsked) {
     const Scratch scratch;
-    const std::string asked =
+    const std::string words =
         "check modal_explicit_penalty --only NeverPulls,"
         "KeepsItsEnergyLedgerInSum,StaysSoundOverAMap";
-    const Ended o = jvari(scratch, asked);
+    const Ended o = jvari(scratch, words);
     EXPECT_EQ(o.code, 0) << o.err;
     EXPECT_TRUE(o.out.ends_with(
         "\n  keeps what it promises\n  1 kept, 2 not asked: it promises no balance\n"))
         << o.out;
-    EXPECT_EQ(Json::parse(jvari(scratch, asked + " --json").out)["schemes"][0]["not_asked"],
+    EXPECT_EQ(Json::parse(jvari(scratch, words + " --json").out)["schemes"][0]["not_asked"],
               Json({"KeepsItsEnergyLedgerInSum", "StaysSoundOverAMap"}));
 }
 
 TEST(Check, AsksTheNamedPromisesOnTheNamedScenesAlone) {
     const Scratch scratch;
-    const auto asked = [&](const std::string& options) {
+    const auto answers = [&](const std::string& options) {
         std::set<std::string> all;
         const Ended o = jvari(scratch, "check --json " + options + " modal_two_point");
-        const Json said = Json::parse(o.out);
-        for (const Json& a : said["schemes"][0]["answers"])
+        const Json report = Json::parse(o.out);
+        for (const Json& a : report["schemes"][0]["answers"])
             all.insert(a["promise"].get<std::string>() + " " + a["scene"].get<std::string>());
         return all;
     };
-    EXPECT_EQ(asked("--only NeverPulls,ItRunsAScene --scene tanpura_c3,free_string"),
+    EXPECT_EQ(answers("--only NeverPulls,ItRunsAScene --scene tanpura_c3,free_string"),
               (std::set<std::string>{"NeverPulls tanpura_c3", "NeverPulls free_string"}));
-    EXPECT_EQ(asked("--only ItRunsAScene"), std::set<std::string>{"ItRunsAScene "});
-    EXPECT_GT(asked("--scene free_string").size(), 10u);
+    EXPECT_EQ(answers("--only ItRunsAScene"), std::set<std::string>{"ItRunsAScene "});
+    EXPECT_GT(answers("--scene free_string").size(), 10u);
     EXPECT_TRUE(
         says(jvari(scratch, "check modal_two_point --only NeverPulls --scene rest").out,
              "\n  nothing could be asked of it\n  1 not asked: the string touches nothing"));

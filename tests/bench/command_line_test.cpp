@@ -836,16 +836,16 @@ TEST(Units, ARateAndADurationMayHaveTheirUnitBehindThem) {
 
 TEST(Units, ValuesThatLookLikeAnotherUnitAreNamed) {
     const Scratch scratch;
-    const auto said = [&](const std::string& set) {
+    const auto warning = [&](const std::string& set) {
         return jvari(scratch,
                      "run guitar_over_fret --scheme modal_two_point --modes 20 --duration 0.001 " +
                          set)
             .err;
     };
-    EXPECT_TRUE(says(said("--set string.0.length=62"), "length = 62 m"));
-    EXPECT_TRUE(says(said("--set string.0.tension=1e9"), "the pitch that"));
-    EXPECT_TRUE(says(said("--set string.0.start.amplitude=1.9"), "start.amplitude = 1.9 m"));
-    EXPECT_FALSE(says(said(""), "warning"));
+    EXPECT_TRUE(says(warning("--set string.0.length=62"), "length = 62 m"));
+    EXPECT_TRUE(says(warning("--set string.0.tension=1e9"), "the pitch that"));
+    EXPECT_TRUE(says(warning("--set string.0.start.amplitude=1.9"), "start.amplitude = 1.9 m"));
+    EXPECT_FALSE(says(warning(""), "warning"));
 }
 
 TEST(ForceFile, WhoseRowsAreCloserThanAStepIsSaid) {
@@ -900,14 +900,14 @@ TEST(Untouched, ARunInWhichNoStringTouchesItsBarrierSaysSo) {
     const std::string
         settings =
             " guitar_over_fret --set string.0.barrier.0.height=-0.1 --modes 20 --duration 0.01 ",
-        said = "touches a barrier or a mass in 0.01 s";
-    EXPECT_TRUE(says(jvari(scratch, "run" + settings + "--scheme modal_two_point").out, said));
+        touch = "touches a barrier or a mass in 0.01 s";
+    EXPECT_TRUE(says(jvari(scratch, "run" + settings + "--scheme modal_two_point").out, touch));
     EXPECT_TRUE(
         says(jvari(scratch,
                    "compare" + settings +
                        "--schemes modal_two_point --rates 44100 --reference-modes 20 --repeats 1")
                  .err,
-             said));
+             touch));
 }
 
 TEST(Quiet, SaysNothingButErrors) {
@@ -926,8 +926,8 @@ TEST(Controls, TakePartWhereTheyAreAskedFor) {
         "--reference-modes cell";
     const auto schemes = [&](const std::string& more) {
         std::set<std::string> names;
-        const auto said = json_from(scratch, compare + more);
-        for (const auto& cell : said.at("cells")) names.insert(cell.at("scheme"));
+        const auto table = json_from(scratch, compare + more);
+        for (const auto& cell : table.at("cells")) names.insert(cell.at("scheme"));
         return names;
     };
     const auto without = schemes(""), with = schemes(" --controls");

@@ -157,10 +157,10 @@ TEST(FileLock, ThatIsStaleInAFolderThatCannotBeWrittenIsPassedBy) {
     EXPECT_EQ(status_of_child([&] {
                   // root may write everywhere
                   if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) return 2;
-                  int made = 0;
+                  int count = 0;
                   bench::study::kept_run(
-                      scratch / "runs", "key", [&made] { return ++made, jvari::Run(); }, 0);
-                  return made == 1 ? 0 : 1;
+                      scratch / "runs", "key", [&count] { return ++count, jvari::Run(); }, 0);
+                  return count == 1 ? 0 : 1;
               }),
               0);
     EXPECT_FALSE(fs::exists(scratch / "runs/key.run"));

@@ -17,7 +17,7 @@ TEST(Files, NoResultReplacesAnotherOrWhatIsRead) {
           "printf 'mode,displacement_m,velocity_m_per_s\\n1,1e-3,0\\n' >s.csv");
     const std::string mine = "$J run mine.toml --scheme modal_two_point --duration 0.005 ",
                       own = "$J run ./scene.txt --scheme modal_two_point --duration 0.005 ";
-    for (const auto& [line, said] : {
+    for (const auto& [line, message] : {
              std::pair{c3 + "--out o.csv --state o.csv", "--state o.csv: --out writes that file"},
              {c3 + "--out o.csv --impacts ./o.csv", "--impacts ./o.csv: --out writes that file"},
              {"ln -s o.csv link.csv; " + c3 + "--out o.csv --state link.csv", "--out writes that"},
@@ -30,7 +30,7 @@ TEST(Files, NoResultReplacesAnotherOrWhatIsRead) {
              {std::string("$J export ./scene.txt --duration 0.005 --out scene.txt"), "the scene"},
              {std::string("$J check modal_two_point --only energy --junit mine.toml"), ".toml"},
          })
-        EXPECT_TRUE(ends(shell(scratch, line), 2, said)) << line;
+        EXPECT_TRUE(ends(shell(scratch, line), 2, message)) << line;
     EXPECT_EQ(content(scratch / "mine.toml"), content(scratch / "kept.toml"));
     EXPECT_EQ(content(scratch / "scene.txt"), content(scratch / "kept.toml"));
     EXPECT_FALSE(std::filesystem::exists(scratch / "o.csv"));

@@ -140,11 +140,11 @@ TEST(Interruption, ASuiteSaysWhatIsKeptLeavesNoPartAndGoesOnToTheSameTable) {
         EXPECT_GT(n, before);
         EXPECT_LT(n, 24);
         before = n;
-        const std::string said = "interrupted: " + std::to_string(n) + " of 24 cells and " +
-                                 std::to_string(files_of(scratch / "stopped/references", ".run")) +
-                                 " runs of references are kept in " + (scratch / "stopped") +
-                                 "; --resume";
-        EXPECT_TRUE(says(content(scratch / "stderr"), said));
+        const std::string message =
+            "interrupted: " + std::to_string(n) + " of 24 cells and " +
+            std::to_string(files_of(scratch / "stopped/references", ".run")) +
+            " runs of references are kept in " + (scratch / "stopped") + "; --resume";
+        EXPECT_TRUE(says(content(scratch / "stderr"), message));
         EXPECT_EQ(content(scratch / "stdout"), "");
     }
     ASSERT_EQ(Started(scratch, {"suite", file, "--resume", "--out", scratch / "stopped"}).end(),
@@ -167,12 +167,12 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
     };
     ASSERT_EQ(Started(scratch, arguments(scratch / "whole")).end(), -1)
         << content(scratch / "stderr");
-    fs::path held;
+    fs::path locked;
     for (const auto& entry : fs::directory_iterator(scratch / "whole/cells"))
-        if (entry.path().extension() == ".json") held = cells / entry.path().filename();
+        if (entry.path().extension() == ".json") locked = cells / entry.path().filename();
     fs::create_directories(cells);
     {
-        const bench::store::FileLock lock(held, "is held by a test");
+        const bench::store::FileLock lock(locked, "is held by a test");
         Started compare(scratch, arguments(out));
         compare.once(
             [&] { return content(scratch / "stderr").find("waiting for") != std::string::npos; });
@@ -180,9 +180,9 @@ TEST(Interruption, AComparisonSaysWhatIsKeptAndGoesOnToTheSameTable) {
         EXPECT_EQ(compare.end(), SIGINT);
     }
     EXPECT_EQ(cells_in(cells), 3);
-    const std::string said = content(scratch / "stderr");
-    EXPECT_TRUE(says(said, "interrupted: the errors of 3 of 4 cells are kept in " + out +
-                               "; --resume goes on from there"));
+    const std::string message = content(scratch / "stderr");
+    EXPECT_TRUE(says(message, "interrupted: the errors of 3 of 4 cells are kept in " + out +
+                                  "; --resume goes on from there"));
     EXPECT_FALSE(fs::exists(out + "/cells.csv"));
     ASSERT_EQ(Started(scratch, arguments(out, " --resume")).end(), -1)
         << content(scratch / "stderr");
@@ -200,7 +200,7 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
     const std::string file = scratch / "a.toml";
     std::ofstream(file) << suite_of("tanpura_c3", "modal_two_point", "2822400",
                                     "reference_modes = 'cell'\nduration = 60");
-    for (const auto& [arguments, said] : {
+    for (const auto& [arguments, message] : {
              std::pair<std::vector<std::string>, std::string>{
                  {"compare", "tanpura_c3", "--schemes", "modal_two_point", "--rates", "2822400"},
                  "for there is no --out DIR"},
@@ -212,7 +212,7 @@ TEST(Interruption, WhereNothingIsKeptThatIsSaid) {
         std::this_thread::sleep_for(under_way);
         nowhere.send(SIGINT);
         EXPECT_EQ(nowhere.end(), SIGINT) << arguments.front();
-        EXPECT_TRUE(says(content(scratch / "stderr"), "interrupted: nothing is kept, " + said))
+        EXPECT_TRUE(says(content(scratch / "stderr"), "interrupted: nothing is kept, " + message))
             << arguments.front() << ": ";
     }
     EXPECT_FALSE(fs::exists(scratch / "c.json"));
@@ -232,9 +232,9 @@ TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
     suite.send(SIGINT);
     EXPECT_EQ(suite.end(), SIGINT);
     EXPECT_EQ(files_of(references, ".run"), 6);  // of the free string
-    const std::string said = "interrupted: 1 of 2 cells and 6 runs of references are kept in " +
-                             (scratch / "all") + "; --resume";
-    EXPECT_TRUE(says(content(scratch / "stderr"), said));
+    const std::string message = "interrupted: 1 of 2 cells and 6 runs of references are kept in " +
+                                (scratch / "all") + "; --resume";
+    EXPECT_TRUE(says(content(scratch / "stderr"), message));
     EXPECT_EQ(files_of(references, ".lock") + files_of(scratch / "all/cells", ".lock"), 0);
 }
 

@@ -119,19 +119,19 @@ TEST(KeptRun, OfSizesThatCannotBeIsNotBelievedWhateverItsChecksum) {
 TEST(KeptRun, IsMadeOnceAndAgainWhereTheFileIsBroken) {
     const Scratch scratch;
     const fs::path folder = scratch / "runs";
-    int made = 0;
-    const auto make = [&made] { return ++made, a_run(); };
+    int count = 0;
+    const auto make = [&count] { return ++count, a_run(); };
     const jvari::Run first = bench::study::kept_run(folder, "key", make),
                      second = bench::study::kept_run(folder, "key", make);
-    EXPECT_EQ(made, 1);
+    EXPECT_EQ(count, 1);
     EXPECT_EQ(first.trace.tap, second.trace.tap);
     overwrite(folder / "key.run", "half");
     bench::study::kept_run(folder, "key", make);
-    EXPECT_EQ(made, 2);
+    EXPECT_EQ(count, 2);
     bench::study::kept_run(folder, "key", make);
-    EXPECT_EQ(made, 2);
+    EXPECT_EQ(count, 2);
     bench::study::kept_run({}, "key", make);
-    EXPECT_EQ(made, 3);
+    EXPECT_EQ(count, 3);
 }
 
 TEST(KeptRun, OfLessThanHalfASecondIsNotKeptAndAFolderThatCannotBeIsNoError) {

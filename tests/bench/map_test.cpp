@@ -95,15 +95,15 @@ TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
 }
 
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
-    int asked = 0;
-    const auto past_pi = [&asked](double x) {
-        return ++asked,
+    int calls = 0;
+    const auto past_pi = [&calls](double x) {
+        return ++calls,
                x < 3.14159265 ? bench::study::Verdict::sound : bench::study::Verdict::diverged;
     };
     const bench::suite::Bracket b = bench::suite::bisect(
         {1, 100, bench::study::Verdict::sound, bench::study::Verdict::diverged}, 20, false,
         past_pi);
-    EXPECT_EQ(asked, 20);
+    EXPECT_EQ(calls, 20);
     EXPECT_LT(b.low, 3.14159265);
     EXPECT_GE(b.high, 3.14159265);
     EXPECT_LT(b.high / b.low - 1, std::log(100) / (1 << 20) * 1.1);

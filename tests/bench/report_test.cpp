@@ -290,13 +290,13 @@ TEST(Report, APageOfManyCellsKeepsItsSizeAndTheBestOfEachScheme) {
 TEST(Report, ATableThatWouldBeTooLargeKeepsTheColumnsThatChartsNeedAndSaysSo) {
     bench::store::Table t{{"scheme", "rate", "much"}, {}};
     t.rows.assign(2000, {"a", "44100", std::string(1000, 'x')});
-    Json said = Json::array();
-    EXPECT_EQ(bench::report::fitting(t, said).columns,
+    Json notes = Json::array();
+    EXPECT_EQ(bench::report::fitting(t, notes).columns,
               (std::vector<std::string>{"scheme", "rate"}));
-    EXPECT_EQ(said.size(), 1u);
+    EXPECT_EQ(notes.size(), 1u);
     t.rows.resize(1000);
-    EXPECT_EQ(bench::report::fitting(t, said).columns.size(), 3u);
-    EXPECT_EQ(said.size(), 1u);
+    EXPECT_EQ(bench::report::fitting(t, notes).columns.size(), 3u);
+    EXPECT_EQ(notes.size(), 1u);
 }
 
 TEST(Pareto, ADifferenceInsideTheSpreadDecidesNothing) {

@@ -214,18 +214,18 @@ TEST(SharedFolder, WhatIsNoLockInTheirPlaceHoldsNobodyUp) {
     const std::string suite = "timeout 60 $J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, suite).code, 0) << content(scratch / "stderr");
     const std::string table = content(scratch / "all/errors.csv");
-    std::vector<fs::path> made;
+    std::vector<fs::path> files;
     for (const char* name : {"cells", "references"})
         for (const auto& entry : fs::directory_iterator(scratch.path / "all" / name))
-            made.push_back(entry.path());
-    ASSERT_EQ(made.size(), 3u);
-    for (const fs::path& file : made) {
+            files.push_back(entry.path());
+    ASSERT_EQ(files.size(), 3u);
+    for (const fs::path& file : files) {
         fs::remove(file);
-        if (file == made.back()) ASSERT_EQ(mkfifo((file.string() + ".lock").c_str(), 0600), 0);
+        if (file == files.back()) ASSERT_EQ(mkfifo((file.string() + ".lock").c_str(), 0600), 0);
         else fs::create_directory(file.string() + ".lock");
     }
     EXPECT_FALSE(says(shell(scratch, suite).err, "no file can be locked here"));
-    for (const fs::path& file : made)
+    for (const fs::path& file : files)
         EXPECT_TRUE(fs::exists(file) && fs::exists(file.string() + ".lock")) << file;
     EXPECT_EQ(content(scratch / "all/errors.csv"), table);
     fs::create_directory(scratch / "all/cells/any.lock");

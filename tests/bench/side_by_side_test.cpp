@@ -174,8 +174,8 @@ TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
         Clock::time_point begun = Clock::now();
     };
     struct Ear : bench::store::Listener {
-        mutable std::vector<std::string> said;
-        void note(const std::string& text) const override { said.push_back(text); }
+        mutable std::vector<std::string> notes;
+        void note(const std::string& text) const override { notes.push_back(text); }
         std::unique_ptr<bench::store::Progress> begin(const std::string&) const override {
             return std::make_unique<Weary>();
         }
@@ -188,7 +188,7 @@ TEST(SideBySide, WhoWaitsSaysForWhomOnceAndMayBeToldToEnd) {
                                       i == 1 ? "process 7 on node, which works" : "");
     };
     EXPECT_THROW(bench::store::side_by_side({1, 1}, 2, ear, "", waits), std::runtime_error);
-    EXPECT_EQ(ear.said, std::vector<std::string>{"waiting for process 7 on node, which works"});
+    EXPECT_EQ(ear.notes, std::vector<std::string>{"waiting for process 7 on node, which works"});
 }
 
 }  // namespace

@@ -399,8 +399,9 @@ TEST(Trim, IsVerifiedByStartsThatTheSearchDidNotKnow) {
         const jvari::Run truth = run(catalogue().find("exact_contact"), scene,
                                      {0, 44100, r.reference_modes, {{"compliance", "matched"}}});
         const trim::Model& m = t.last().model;
-        const jvari::Run made = run(*m.scheme, judge.scene_of(m, v.start), m.settings);
-        EXPECT_NEAR(relative_l2(made.trace.column(0), truth.trace.column(0), 44100), v.error, 1e-6)
+        const jvari::Run repeated = run(*m.scheme, judge.scene_of(m, v.start), m.settings);
+        EXPECT_NEAR(relative_l2(repeated.trace.column(0), truth.trace.column(0), 44100), v.error,
+                    1e-6)
             << v.name;
     }
     EXPECT_EQ(names.size(), t.verified.size());

@@ -169,11 +169,11 @@ TEST(Within, AComparisonSeeksCellsNearTheAdviceAndSaysWhetherItHeld) {
     const study::Cells cells = compare::cells_of(c);
     const compare::Verdict v = verdict_on(*c.advice, cells);
     ASSERT_TRUE(v.cell) << v.text;
-    EXPECT_EQ(v.says, compare::Verdict::Says::held) << v.text;
+    EXPECT_EQ(v.says, compare::Verdict::Says::confirmed) << v.text;
     EXPECT_NEAR(c.advice->counted / v.bound.error, 1, 0.4);
     Advice less = *c.advice;
     less.target.most = 0.9 * v.bound.least();
-    EXPECT_EQ(verdict_on(less, cells).says, compare::Verdict::Says::not_held);
+    EXPECT_EQ(verdict_on(less, cells).says, compare::Verdict::Says::refuted);
     less.target.most = v.bound.error;  // nearer than the reference is certain
     EXPECT_EQ(verdict_on(less, cells).says, compare::Verdict::Says::not_known);
     less.settings.modes = 7;

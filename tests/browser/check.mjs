@@ -176,10 +176,10 @@ const in_page = {
           .map(x => Math.sqrt(x.reduce((sum, v) => sum + v * v, 0) / x.length));
       const guess = [...document.querySelectorAll("#player .guess")],
         score = document.querySelector("#player output"),
-        told = [];
+        scores = [];
       for (let k = 0; k < 10; ++k) {
         guess[k < 7 ? player.hidden : 1 - player.hidden].click();
-        told.push(score.textContent);
+        scores.push(score.textContent);
       }
       const best = answer.found.best?.c,
         of_best = sounds().find(
@@ -193,7 +193,7 @@ const in_page = {
         took,
         goes_on,
         ended,
-        told,
+        scores,
         loudness: Math.max(...rms) / Math.min(...rms),
         preferred: !of_best || player.pair[1] === of_best,
         shown: document.querySelectorAll("#player select")[1].options.length,
@@ -247,7 +247,7 @@ const in_page = {
                 : ["the player"]),
             ];
       const select = document.getElementById("scene"),
-        told = [],
+        views = [],
         every = document.querySelector("#work-precision .every");
       if (every) {
         every.checked = true;
@@ -267,7 +267,7 @@ const in_page = {
           offers = errors_in(of_scene(cells(), scene)).map(e => e.column),
           error = answer.error;
         const cost = c => number(c.cost_s_per_s);
-        told.push({
+        views.push({
           name,
           offered: offers.includes(error),
           empty: [...document.querySelectorAll(".chart")]
@@ -290,7 +290,7 @@ const in_page = {
         select.selectedIndex = 0;
         await select.onchange();
       } else await every?.onchange();
-      return told;
+      return views;
     })()`,
   // The names beside the lines of the first chart, as they are first seen. Each has a rim under it.
   names: `(() => {
@@ -316,7 +316,7 @@ const in_page = {
       };
     })()`,
   // What the first screen says: sentence, ranking, filled points, colours.
-  said: `(() => {
+  first_screen: `(() => {
       const chart = document.querySelector("#work-precision .chart"),
         paper = getComputedStyle(document.body).backgroundColor,
         points = [...chart.querySelectorAll(".mark-symbol.role-mark path:not([opacity='0'])")],
@@ -512,7 +512,7 @@ const in_page = {
   lines: `(async () => {
       const chart = document.querySelector("#sounds .chart"),
         scenes = document.getElementById("scene"),
-        told = [];
+        drawings = [];
       for (const name of scenes ? [...scenes.options].map(o => o.value) : [null]) {
         if (
           name !== null &&
@@ -542,7 +542,7 @@ const in_page = {
         );
         const zero = difference.map((y, k) => y - scheme[k] + reference[k]),
           span = ys => Math.max(...ys) - Math.min(...ys);
-        told.push({
+        drawings.push({
           name,
           names: names.join(),
           colours: new Set(colours).size,
@@ -555,7 +555,7 @@ const in_page = {
         scenes.selectedIndex = 0;
         await scenes.onchange();
       }
-      return told;
+      return drawings;
     })()`,
   // Spectrograms as they are seen: of each panel which part is not background, and which is warm
   // or cold, beside what its tiles cover.
@@ -788,27 +788,30 @@ const in_folder = (file, table) =>
 async function read_in(browser, name) {
   // what must hold however the page is looked at
   await view(browser, name);
-  for (const told of await browser.evaluate(in_page.scenes)) {
-    expect(told.offered, `${name}, ${told.name}: the error that is chosen is one of the scene's`);
+  for (const scene_view of await browser.evaluate(in_page.scenes)) {
     expect(
-      told.empty.length === 0,
-      `${name}, ${told.name}: every chart is drawn: ${told.empty.join("; ")}`,
+      scene_view.offered,
+      `${name}, ${scene_view.name}: the error that is chosen is one of the scene's`,
     );
     expect(
-      told.crosses === told.failed,
-      `${name}, ${told.name}: ${told.crosses} crosses, ${told.failed} runs failed`,
+      scene_view.empty.length === 0,
+      `${name}, ${scene_view.name}: every chart is drawn: ${scene_view.empty.join("; ")}`,
     );
     expect(
-      told.points >= told.drawable && told.drawable > 0,
-      `${name}, ${told.name}: ${told.points} points for ${told.drawable} runs that have the error`,
+      scene_view.crosses === scene_view.failed,
+      `${name}, ${scene_view.name}: ${scene_view.crosses} crosses, ${scene_view.failed} runs failed`,
     );
     expect(
-      told.behind.length === 0,
-      `${name}, ${told.name}: no part of the page shows another scene: ${told.behind.join("; ")}`,
+      scene_view.points >= scene_view.drawable && scene_view.drawable > 0,
+      `${name}, ${scene_view.name}: ${scene_view.points} points for ${scene_view.drawable} runs that have the error`,
     );
     expect(
-      told.verdict > 0 && told.title !== "",
-      `${name}, ${told.name}: there is an answer, and a title`,
+      scene_view.behind.length === 0,
+      `${name}, ${scene_view.name}: no part of the page shows another scene: ${scene_view.behind.join("; ")}`,
+    );
+    expect(
+      scene_view.verdict > 0 && scene_view.title !== "",
+      `${name}, ${scene_view.name}: there is an answer, and a title`,
     );
   }
   const {texts, faint} = await browser.evaluate(in_page.faint);
@@ -958,9 +961,9 @@ async function check(browser, name, file, charts) {
       `both sounds are as loud, but for the 5 ms of their fades: ${JSON.stringify(sound)}`,
     );
     expect(
-      sound.told[6].startsWith("so far 7 of 7: you hear a difference (p = 0.0078)") &&
-        sound.told[9] === "so far 7 of 10: no difference shown (p = 0.17)",
-      `guesses are counted, and their chance is said: ${sound.told.join("; ")}`,
+      sound.scores[6].startsWith("so far 7 of 7: you hear a difference (p = 0.0078)") &&
+        sound.scores[9] === "so far 7 of 10: no difference shown (p = 0.17)",
+      `guesses are counted, and their chance is said: ${sound.scores.join("; ")}`,
     );
     expect(
       sound.preferred &&
@@ -1037,10 +1040,10 @@ async function pull(browser, [x, y], [to_x, to_y]) {
 async function drag(browser, name, file) {
   console.log(`${name}, dragged`);
   await go(browser, pathToFileURL(file).href);
-  const said = () => browser.evaluate(in_page.said),
+  const screen = () => browser.evaluate(in_page.screen),
     top = () => browser.evaluate("scrollTo(0, 0)");
   await top();
-  const before = await said();
+  const before = await screen();
   expect(
     before.within === 0.01 &&
       before.title.includes("within 1\u00a0%") &&
@@ -1048,7 +1051,7 @@ async function drag(browser, name, file) {
     `1 % is asked for at first: ${before.title}`,
   );
   await pull(browser, before.tag, [before.tag[0], before.plot.top + 40]);
-  const up = await said();
+  const up = await screen();
   expect(
     up.within > 0.03 &&
       up.title !== before.title &&
@@ -1067,15 +1070,15 @@ async function drag(browser, name, file) {
   );
   const {left, right, bottom} = before.plot;
   await pull(browser, [(left + right) / 2, bottom - 30], [(left + right) / 2, bottom - 20]);
-  const down = await said();
+  const down = await screen();
   expect(down.within < 0.01, `the plot itself is dragged: ${down.within}`);
   await pull(browser, down.handle, [down.handle[0] + 60, down.handle[1]]);
-  const again = await said();
+  const again = await screen();
   expect(again.within > down.within, `and the sentence's tolerance: ${again.within}`);
   await browser.evaluate(
     "(() => { const s = document.getElementById('within'); s.value = 1000; s.oninput(); })()",
   );
-  const all = await said();
+  const all = await screen();
   const cost = new Map(in_folder(file, "cost.csv").map(row => [row[0], Number(row[8])]));
   for (const row of all.ranking)
     expect(
@@ -1092,10 +1095,10 @@ async function drag(browser, name, file) {
     row => row[0] === first.cell && row[1] === "force" && row[2] === "error_l2_50ms",
   );
   const [value, certificate] = [Number(error[3]), Number(error[5])],
-    told = certificate > 0.1 * value ? ["at most ", value + certificate] : ["", value];
+    in_words = certificate > 0.1 * value ? ["at most ", value + certificate] : ["", value];
   expect(
-    all.sub.includes(`errs by ${told[0]}${Number((100 * told[1]).toPrecision(2))}\u00a0%`),
-    `the error of the sentence is that of the table: ${all.sub}; ${told}`,
+    all.sub.includes(`errs by ${in_words[0]}${Number((100 * in_words[1]).toPrecision(2))}\u00a0%`),
+    `the error of the sentence is that of the table: ${all.sub}; ${in_words}`,
   );
   if (name === "guest")
     expect(
@@ -1107,9 +1110,9 @@ async function drag(browser, name, file) {
         )),
       `a scheme without a cost stands in title, ranking and chart: ${all.title} ${all.below}`,
     );
-  const light = await said();
+  const light = await screen();
   await view(browser, "dark, 1400 px");
-  const dark = await said();
+  const dark = await screen();
   expect(
     light.ink !== dark.ink &&
       light.colours.length === dark.colours.length &&
@@ -1122,10 +1125,10 @@ async function drag(browser, name, file) {
   await view(browser, "light, 390 px");
   await browser.evaluate("document.querySelector('#work-precision .chart').scrollIntoView()");
   await pause(300);
-  const phone = await said();
+  const phone = await screen();
   await pull(browser, phone.tag, [phone.tag[0], phone.plot.top + phone.plot.height / 2]);
   expect(
-    (await said()).within < phone.within && (await browser.evaluate(in_page.width)) <= 390,
+    (await screen()).within < phone.within && (await browser.evaluate(in_page.width)) <= 390,
     "on a phone the line is dragged too, and nothing scrolls sideways",
   );
 }

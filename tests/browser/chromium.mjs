@@ -38,9 +38,9 @@ export async function open(extra = []) {
     listeners = [];
   let number = 0,
     rest = Buffer.alloc(0),
-    said = "";
+    output = "";
   browser.stderr.on("data", data => {
-    said = (said + data).slice(-2000);
+    output = (output + data).slice(-2000);
   });
   browser.stdio[4].on("data", data => {
     rest = Buffer.concat([rest, data]);
@@ -57,7 +57,7 @@ export async function open(extra = []) {
   });
   browser.stdio[3].on("error", () => {}); // it is gone: said below
   browser.on("exit", code =>
-    waiting.forEach(({reject}) => reject(new Error(`chromium ended with ${code}: ${said}`))),
+    waiting.forEach(({reject}) => reject(new Error(`chromium ended with ${code}: ${output}`))),
   );
   const send = (method, params = {}, sessionId) =>
     new Promise((resolve, reject) => {

@@ -42,10 +42,10 @@ function report(folder, allowed = 0) {
     from = page.indexOf('id="data">') + 10;
   return {...JSON.parse(page.slice(from, page.indexOf("</script>", from))), missing: ""};
 }
-function folder_of(names, made = {}) {
+function folder_of(names, extra = {}) {
   const folder = mkdtempSync(join(scratch, `${++folders}-`));
   for (const name of names) copyFileSync(join(results, name), join(folder, name));
-  for (const [name, text] of Object.entries(made)) writeFileSync(join(folder, name), text);
+  for (const [name, text] of Object.entries(extra)) writeFileSync(join(folder, name), text);
   return folder;
 }
 const every_file = [
@@ -456,7 +456,7 @@ test("names are of what is drawn and nothing else", () => {
 
 // ---- The answer
 test("errors of a plucked string begin after the pluck: sentence and axis say so", () => {
-  for (const [from, said] of [
+  for (const [from, after_pluck] of [
     ["0", false],
     ["0.05", true],
   ]) {
@@ -466,7 +466,7 @@ test("errors of a plucked string begin after the pluck: sentence and axis say so
       ),
       [error] = of("errors_in(cells())");
     for (const text of [error.title, of("spoken_error")(error, of("cells()"))])
-      assert.equal(text.includes(" after the last pluck"), said, text);
+      assert.equal(text.includes(" after the last pluck"), after_pluck, text);
   }
 });
 test("an error is spoken of by what its tap measures", () => {
@@ -488,7 +488,7 @@ const at = (of, scene, within, error = "error_l2_50ms") => {
   return {
     ...found,
     finding: plain(of("finding_of")(found)),
-    said: plain(of("consequences")(found, rows).join(" ")),
+    sentences: plain(of("consequences")(found, rows).join(" ")),
   };
 };
 test("the answer names run, error, cost and what is certain", () => {
@@ -496,21 +496,24 @@ test("the answer names run, error, cost and what is certain", () => {
     found = at(of, problems[0], 0.1); // e = 2.5e-2 and c = 4e-3 at 88.2 kHz
   assert.equal(found.finding, " take one: 40 modes at 88.2 kHz.");
   assert.ok(
-    found.said.startsWith("It errs by *at most 2.9 %* and takes *2 % of a core*: 50 voices"),
-    found.said,
+    found.sentences.startsWith("It errs by *at most 2.9 %* and takes *2 % of a core*: 50 voices"),
+    found.sentences,
   );
   assert.equal(at(of, problems[0], 0.01).best.c.rate, "352800");
   // 0.4 % is what the reference is known to
   assert.match(at(of, problems[0], 0.004).finding, /^: cannot be decided/);
-  assert.match(at(of, problems[0], 0.004).said, /^The reference itself may be wrong by \*0\.4/);
+  assert.match(
+    at(of, problems[0], 0.004).sentences,
+    /^The reference itself may be wrong by \*0\.4/,
+  );
   const open = at(of, problems[2], 0.01); // no certificate there
   assert.match(open.finding, /^: cannot be decided/);
-  assert.match(open.said, /^How wrong the reference itself may be is not known/);
+  assert.match(open.sentences, /^How wrong the reference itself may be is not known/);
 });
 test("what none is within is said, with the closest", () => {
   const found = at(sample(), "s", 1e-4);
   assert.match(found.finding, /^ is more than any run here does/);
-  assert.match(found.said, /a: 133 modes at 88\.2 kHz|a, 133 modes at 88\.2 kHz/);
+  assert.match(found.sentences, /a: 133 modes at 88\.2 kHz|a, 133 modes at 88\.2 kHz/);
 });
 test("ties stand beside the answer and never change it, as in the program", () => {
   const row = (scheme, rate, error, cost) =>
@@ -527,7 +530,10 @@ test("ties stand beside the answer and never change it, as in the program", () =
     [best, ...ties].map(o => o.c.run),
     ["a, 10 modes at 44.1 kHz", "a, 10 modes at 88.2 kHz", "b, 10 modes at 44.1 kHz"],
   );
-  assert.match(at(of, "s", 0.1).said, /No dearer by this clock: a: 10 modes at 88\.2 kHz \(0\.1/);
+  assert.match(
+    at(of, "s", 0.1).sentences,
+    /No dearer by this clock: a: 10 modes at 88\.2 kHz \(0\.1/,
+  );
   for (const page of [of, whole(), sample()])
     for (const c of page("records('cheapest')")) {
       const found = at(page, c.problem, Number(c.target), c.measure);

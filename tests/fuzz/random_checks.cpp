@@ -64,10 +64,10 @@ void check_ledger(const Descriptor& d, const Trace& t, const Finding& finding) {
         finding(d.name, "ledger open by " + text(b.accumulated) + " in all");
 }
 
-void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& told,
+void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& summary,
                 const Trace& t, const Finding& finding) {
     if (pulls_by_law(c.scene)) return;
-    double least = told.smallest_contact_force, most = told.largest_contact_force;
+    double least = summary.smallest_contact_force, most = summary.largest_contact_force;
     for (int k = 0; k < t.taps(); ++k)
         if (c.scene.taps[static_cast<std::size_t>(k)].quantity == Quantity::bridge_force)
             for (const double f : t.column(k))
@@ -78,23 +78,23 @@ void check_pull(const Descriptor& d, const RandomCase& c, const study::Summary& 
 
 // A row of a single contact's force is the mean of what its facts are the extremes of; a reference
 // in continuous time interpolates between its steps.
-void check_force_facts(const Descriptor& d, const RandomCase& c, const study::Summary& told,
+void check_force_facts(const Descriptor& d, const RandomCase& c, const study::Summary& summary,
                        const Trace& t, const Finding& finding) {
     if (c.scene.strings.size() > 1 || c.scene.strings[0].barriers.size() != 1 ||
-        std::isnan(told.largest_contact_force))
+        std::isnan(summary.largest_contact_force))
         return;
     if (needed_by(c.scene).any(any_profile)) return;
-    const double scale = std::max(told.largest_contact_force, -told.smallest_contact_force),
+    const double scale = std::max(summary.largest_contact_force, -summary.smallest_contact_force),
                  room = force_facts * scale;
     for (int k = 0; k < t.taps(); ++k) {
         if (c.scene.taps[static_cast<std::size_t>(k)].quantity != Quantity::bridge_force) continue;
         for (const double f : t.column(k))
-            if (f > told.largest_contact_force + room ||
-                f < std::min(0.0, told.smallest_contact_force) - room)
+            if (f > summary.largest_contact_force + room ||
+                f < std::min(0.0, summary.smallest_contact_force) - room)
                 return finding(d.name, "a row's contact force of " + text(f) +
                                            " N lies outside of its facts, " +
-                                           text(told.smallest_contact_force) + " to " +
-                                           text(told.largest_contact_force) + " N");
+                                           text(summary.smallest_contact_force) + " to " +
+                                           text(summary.largest_contact_force) + " N");
     }
 }
 
@@ -117,8 +117,8 @@ struct FewerWereMeasured {};
 void check_trace(const Descriptor& d, const RandomCase& c, const Settings& settings,
                  const study::Ran& ran, const Finding& finding) {
     const Trace& t = ran.trace;
-    const study::Summary& told = ran.cell.summary;
-    const bool ok = told.status.outcome == Outcome::ok;
+    const study::Summary& summary = ran.cell.summary;
+    const bool ok = summary.status.outcome == Outcome::ok;
     if (t.rows < 0 || t.rows > t.stride || (ok && t.rows != t.stride))
         return finding(d.name,
                        std::to_string(t.rows) + " rows are valid of " + std::to_string(t.stride));
@@ -128,8 +128,8 @@ void check_trace(const Descriptor& d, const RandomCase& c, const Settings& setti
                 return finding(d.name, "a value of " + text(x) + " is called valid");
     if (ok) {
         check_ledger(d, t, finding);
-        check_pull(d, c, told, t, finding);
-        check_force_facts(d, c, told, t, finding);
+        check_pull(d, c, summary, t, finding);
+        check_force_facts(d, c, summary, t, finding);
     }
     const bool probed = c.seed % 4 == 1;
     const Run again =
@@ -137,8 +137,8 @@ void check_trace(const Descriptor& d, const RandomCase& c, const Settings& setti
     if (!same_bits(t, again.trace))
         finding(d.name,
                 probed ? "the block size changes a bit" : "block size or probe change a bit");
-    if (again.status.outcome != told.status.outcome || again.status.step != told.status.step ||
-        again.trace.rows != t.rows)
+    if (again.status.outcome != summary.status.outcome ||
+        again.status.step != summary.status.step || again.trace.rows != t.rows)
         finding(d.name, "block size or probe change the outcome");
 }
 

@@ -42,10 +42,10 @@ void send(int pipe, const std::string& line) {
 }
 
 enum class Asked { promises, about_scene, matched, bar, wide };
-Matching kind_of(Asked asked) {
-    return asked == Asked::bar    ? Matching::bar
-           : asked == Asked::wide ? Matching::wide
-                                  : Matching::string;
+Matching kind_of(Asked kind) {
+    return kind == Asked::bar    ? Matching::bar
+           : kind == Asked::wide ? Matching::wide
+                                 : Matching::string;
 }
 Asked asked_by(const std::string& word) {
     return word == "scene"     ? Asked::about_scene
@@ -54,11 +54,11 @@ Asked asked_by(const std::string& word) {
            : word == "wide"    ? Asked::wide
                                : Asked::promises;
 }
-RandomCase drawn(Asked asked, std::uint64_t seed) {
-    return asked >= Asked::matched ? matching_case(seed, kind_of(asked)) : random_case(seed);
+RandomCase drawn(Asked kind, std::uint64_t seed) {
+    return kind >= Asked::matched ? matching_case(seed, kind_of(kind)) : random_case(seed);
 }
 
-[[noreturn]] void run_scene(Asked asked, std::uint64_t seed, int pipe) {
+[[noreturn]] void run_scene(Asked kind, std::uint64_t seed, int pipe) {
     const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed},
         none{0, 0};
     setrlimit(RLIMIT_CPU, &time);
@@ -70,11 +70,11 @@ RandomCase drawn(Asked asked, std::uint64_t seed) {
     };
     Tally t;
     at("drawing the scene");
-    const RandomCase c = drawn(asked, seed);
-    if (asked == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
-    else if (asked >= Asked::matched) check_matching(c, kind_of(asked), t, finding, at);
+    const RandomCase c = drawn(kind, seed);
+    if (kind == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
+    else if (kind >= Asked::matched) check_matching(c, kind_of(kind), t, finding, at);
     else check_schemes(c, t, finding, at);
-    if (asked == Asked::promises && seed % certified_every == 0 && !c.extreme)
+    if (kind == Asked::promises && seed % certified_every == 0 && !c.extreme)
         check_certificate(c, t, finding, at);
     std::ostringstream line;
     line << "=" << t.runs << ' ' << t.ended << ' ' << t.refused << ' ' << t.failed << ' '
@@ -86,18 +86,18 @@ RandomCase drawn(Asked asked, std::uint64_t seed) {
 }
 
 // ---- In the process that stays
-long take(Asked asked, std::uint64_t seed, Tally& tally) {
+long take(Asked kind, std::uint64_t seed, Tally& tally) {
     int ends[2];
     if (pipe(ends) != 0) return std::perror("pipe"), 1;
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child < 0) return std::perror("fork"), 1;
-    if (child == 0) close(ends[0]), run_scene(asked, seed, ends[1]);
+    if (child == 0) close(ends[0]), run_scene(kind, seed, ends[1]);
     close(ends[1]);
-    std::string said, line, doing;
+    std::string output, line, doing;
     char buffer[4096];
     for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
-        said.append(buffer, static_cast<std::size_t>(n));
+        output.append(buffer, static_cast<std::size_t>(n));
     close(ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
@@ -106,7 +106,7 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
         std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), what.c_str());
         ++findings;
     };
-    std::istringstream lines(said);
+    std::istringstream lines(output);
     while (std::getline(lines, line)) {
         if (line[0] == '@') doing = line.substr(1);
         if (line[0] == '!') report(line.substr(1));
@@ -129,15 +129,15 @@ long take(Asked asked, std::uint64_t seed, Tally& tally) {
     return findings;
 }
 
-int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
+int all(Asked kind, const std::vector<std::uint64_t>& seeds) {
     Tally tally;
     long findings = 0;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-        findings += take(asked, seeds[i], tally);
-        if ((i + 1) % (asked == Asked::promises ? 100 : 10) == 0)
+        findings += take(kind, seeds[i], tally);
+        if ((i + 1) % (kind == Asked::promises ? 100 : 10) == 0)
             std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
     }
-    if (asked == Asked::about_scene) {
+    if (kind == Asked::about_scene) {
         std::printf(
             "%ld scenes, %ld judged, %ld ended by a limit\n%ld figures of certificates about the "
             "scene, true/claimed at most %.3g\n"
@@ -145,7 +145,7 @@ int all(Asked asked, const std::vector<std::uint64_t>& seeds) {
             tally.scenes, tally.judged, tally.ended, tally.claims, tally.worst_claim, findings);
         return findings > 0 || tally.judged == 0;
     }
-    if (asked >= Asked::matched) {
+    if (kind >= Asked::matched) {
         std::printf(
             "%ld scenes at two rates each, %ld ended by a limit\n%ld runs judged, %ld refused, "
             "matched does harm in %ld\n%ld findings\n",
@@ -176,8 +176,8 @@ int main(int argc, char** argv) {
         return 0;
     }
     const std::string mode = argc == 4 ? argv[1] : "";
-    const Asked asked = asked_by(mode);
-    if (asked != Asked::promises) --argc, ++argv;
+    const Asked kind = asked_by(mode);
+    if (kind != Asked::promises) --argc, ++argv;
     if (argc != 3)
         return std::fprintf(stderr,
                             "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched|bar|wide "
@@ -194,5 +194,5 @@ int main(int argc, char** argv) {
         for (std::size_t i = 0; i < count; ++i)
             seeds.push_back(std::strtoull(argv[2], nullptr, 10) + i);
     }
-    return all(asked, seeds);
+    return all(kind, seeds);
 }

@@ -75,7 +75,7 @@ class Module(unittest.TestCase):
 
     def test_what_is_no_value_is_refused_with_what_was_found(self):
         run = lambda **more: jvari.run("free_string", "modal_two_point", **SHORT, **more)
-        for call, said in (
+        for call, message in (
                 (lambda: run(options={"compliance": None}), "found \"None\", expected a text"),
                 (lambda: run(options={"compliance": []}), "option compliance: found .*one value"),
                 (lambda: run(options={3: "own"}), "options: found \"3\", expected the name"),
@@ -88,7 +88,7 @@ class Module(unittest.TestCase):
                 (lambda: jvari.compare("free_string", jobs=-1), "jobs: found \"-1\""),
                 (lambda: jvari.run_many(["free_string"], "modal_two_point", modes=-1), "modes"),
                 (lambda: jvari.report(3), "report: found \"3\"")):
-            with self.assertRaisesRegex(jvari.UsageError, said):
+            with self.assertRaisesRegex(jvari.UsageError, message):
                 call()
         traces = {name: run()[name] for name in jvari.scene("free_string").taps}
         with self.assertRaisesRegex(TypeError, "another type than jvari.pyi says"):
@@ -186,9 +186,9 @@ os._exit(1)"""
             script = ("import jvari, threading, time\n"
                       f"threading.Thread(target=lambda: jvari.{call}, daemon=True).start()\n"
                       "time.sleep(0.7)")
-            said = subprocess.run([sys.executable, "-W", "ignore", "-c", script],
+            ended = subprocess.run([sys.executable, "-W", "ignore", "-c", script],
                                   capture_output=True, text=True, timeout=60)
-            self.assertEqual((said.returncode, said.stderr), (0, ""), call)
+            self.assertEqual((ended.returncode, ended.stderr), (0, ""), call)
 
     def test_a_failed_run_says_so_and_keeps_its_valid_rows(self):
         run = jvari.run("tanpura_c3_release", "modal_explicit_penalty", **SHORT)

@@ -12,24 +12,24 @@
 using namespace jvari;
 
 namespace {
-const Reduction& named(const std::vector<Reduction>& all, const std::string& said) {
-    const auto found =
-        std::ranges::find_if(all, [&](const Reduction& r) { return r.description() == said; });
-    if (found == all.end()) throw std::runtime_error("no reduction " + said);
+const Reduction& named(const std::vector<Reduction>& all, const std::string& description) {
+    const auto found = std::ranges::find_if(
+        all, [&](const Reduction& r) { return r.description() == description; });
+    if (found == all.end()) throw std::runtime_error("no reduction " + description);
     return *found;
 }
 
 TEST(Reductions, EachOfEveryLibrarySceneChangesItAndLeavesAScene) {
     for (const std::string& name : library_scenes()) {
         const Scene whole = read_scene(name);
-        std::set<std::string> said;
+        std::set<std::string> descriptions;
         for (const Reduction& r : reductions_of(whole)) {
             Scene left = whole;
             r.apply(left);
             EXPECT_NE(left, whole) << name << ": " << r.description();
             remove_idle_taps(left);
             EXPECT_NO_THROW(validate(left)) << name << ": " << r.description();
-            EXPECT_TRUE(said.insert(r.description()).second)
+            EXPECT_TRUE(descriptions.insert(r.description()).second)
                 << name << ": " << r.description() << " comes twice";
         }
     }

@@ -441,13 +441,13 @@ TEST(Material, AWireOfItWeighsAndBendsAsTheLibrarysOwnStringsOfItDo) {
     for (const auto& [scene, diameter] :
          {std::pair{"tanpura_c3", "0.28e-3"}, std::pair{"prepared_piano", "1e-3"}}) {
         const String printed = read_scene(scene).strings[0],
-                     made =
+                     computed =
                          parse_scene(wire + "material = \"steel\"\ndiameter = " + diameter + "\n",
                                      "s.toml")
                              .strings[0];
-        EXPECT_NEAR(made.linear_density, printed.linear_density, 1e-3 * printed.linear_density)
+        EXPECT_NEAR(computed.linear_density, printed.linear_density, 1e-3 * printed.linear_density)
             << scene;
-        EXPECT_NEAR(made.bending_stiffness, printed.bending_stiffness,
+        EXPECT_NEAR(computed.bending_stiffness, printed.bending_stiffness,
                     2e-3 * printed.bending_stiffness)
             << scene;
     }

@@ -55,21 +55,21 @@ Answer sweep_reference(const Problem& p) {
     for (int sweep = 0; sweep < 4000; ++sweep) {
         Real change = 0, largest = 0;
         for (int a = 0; a < n; ++a) {
-            Real held = p.b[a];
+            Real offset = p.b[a];
             for (int c = 0; c < n; ++c)
-                if (c != a) held -= static_cast<Real>(p.theta[a * n + c]) * s.f[c];
+                if (c != a) offset -= static_cast<Real>(p.theta[a * n + c]) * s.f[c];
             const Real theta = p.theta[a * n + a], eta = p.eta[a];
             Real f = 0;
-            if (eta > 0 || eta + held > 0) {
+            if (eta > 0 || eta + offset > 0) {
                 const Real far = std::sqrt(2 * theta * potential(p.laws[a], eta) * 4) +
-                                 std::abs(held) + std::abs(eta);
+                                 std::abs(offset) + std::abs(eta);
                 const auto g = [&](Real r) {
-                    return r + held - theta * force_over(p.laws[a], eta, r) * p.factor(a, r);
+                    return r + offset - theta * force_over(p.laws[a], eta, r) * p.factor(a, r);
                 };
-                const Real r = !p.loss.empty() && -held * p.loss[a].kappa > 1
-                                   ? root(g, 1 / p.loss[a].kappa, -held)
-                                   : root(g, -held, -held + 4 * far);
-                f = (r + held) / theta;
+                const Real r = !p.loss.empty() && -offset * p.loss[a].kappa > 1
+                                   ? root(g, 1 / p.loss[a].kappa, -offset)
+                                   : root(g, -offset, -offset + 4 * far);
+                f = (r + offset) / theta;
                 if (theta * p.laws[a].k *
                         std::pow(std::max<Real>(eta - r, 0),
                                  static_cast<Real>(p.laws[a].alpha) - 1) <

@@ -198,16 +198,16 @@ TEST(FreeMass, IsTheSameInBothReferences) {
 }
 
 TEST(FreeMass, ThatIsHeavyIsABarrier) {
-    Scene held = lasting(c3_release(), 10e-3);
-    barrier(held).height = -1e-5;
-    held.taps = {{"y", Quantity::displacement, 0, 0.3}, {"F", Quantity::bridge_force, 0, 0}};
+    Scene pressed = lasting(c3_release(), 10e-3);
+    barrier(pressed).height = -1e-5;
+    pressed.taps = {{"y", Quantity::displacement, 0, 0.3}, {"F", Quantity::bridge_force, 0, 0}};
     for (const char* form : {"modal_two_point", "modal_three_point", "exact_contact",
                              "modal_two_point compliance=matched", "modal_quadratised"}) {
-        const auto truth = play(form, held, sampled(44100, 60));
+        const auto truth = play(form, pressed, sampled(44100, 60));
         double before = 1;
         for (const double kg : {1e3, 1e6}) {
-            Scene scene = held;
-            const LumpedBarrier& b = barrier(held);
+            Scene scene = pressed;
+            const LumpedBarrier& b = barrier(pressed);
             scene.strings[0].masses = {
                 {kg, b.position, b.width, 0, -b.height, b.stiffness.k, b.exponent}};
             scene.strings[0].barriers.clear();
@@ -231,12 +231,12 @@ TEST(FreeMass, TellsItsImpacts) {
     for (const auto& [form, value] : {std::pair{"exact_contact", 1e-9},
                                       {"modal_two_point", 1e-5},
                                       {"modal_three_point", 1e-5}}) {
-        std::vector<Impacts> told(scene.strings.begin(), scene.strings.end());
+        std::vector<Impacts> contacts(scene.strings.begin(), scene.strings.end());
         RunOptions how;
-        how.impacts = told.data();
+        how.impacts = contacts.data();
         const auto r = play(form, scene, sampled(44100, 1), how);
-        ASSERT_EQ(told[0].all().size(), 1u) << form;
-        const Impact& i = told[0].all()[0];
+        ASSERT_EQ(contacts[0].all().size(), 1u) << form;
+        const Impact& i = contacts[0].all()[0];
         EXPECT_EQ(i.barrier, 0);
         EXPECT_NEAR(i.largest_force, 1e4, 1e4 * value) << form;
         EXPECT_NEAR(i.impulse, 200, 200 * value) << form;

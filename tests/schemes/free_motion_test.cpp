@@ -99,7 +99,7 @@ FreeMode own_mode(const std::string& form, const Scene& scene, int mode) {
 // 1e-3 cents or 1e-4/s amiss would show in the last digit that is asked for here.
 TEST(OwnRelation, IsWhatTheTraceOfAModeFollowsFromRowToRow) {
     const double dt = 1 / 44100.0;
-    int asked = 0;
+    int count = 0;
     for (const auto& table : {schemes(), std::span(schemes_of_pairings())})
         for (const Descriptor& d : table)
             for (const Scene& base : {lossless(c3_free()), c3_free()})
@@ -118,9 +118,9 @@ TEST(OwnRelation, IsWhatTheTraceOfAModeFollowsFromRowToRow) {
                     for (std::size_t n = 1; n + 1 < y.size(); ++n)
                         worst = std::max(worst, std::abs(y[n + 1] - p * y[n] + R * R * y[n - 1]));
                     EXPECT_LT(worst, 1e-11 * largest(y)) << d.name << " mode " << mode;
-                    ++asked;
+                    ++count;
                 }
-    EXPECT_GT(asked, 7 * 2 * 27);
+    EXPECT_GT(count, 7 * 2 * 27);
 }
 
 TEST(OwnRelation, OfALosslessModeIsACosineFromTheFirstSample) {

@@ -17,8 +17,8 @@ struct Told {
     Run run;
     std::vector<Impacts> impacts;
 };
-Told told(const std::string& form, const Scene& scene, const Settings& settings,
-          bool energy = true) {
+Told play_with_impacts(const std::string& form, const Scene& scene, const Settings& settings,
+                       bool energy = true) {
     Told t{{}, {scene.strings.begin(), scene.strings.end()}};
     RunOptions how;
     how.energy = energy;
@@ -56,8 +56,8 @@ TEST(Impacts, OfAnOscillatorAgainstASpringHaveTheirClosedForm) {
     for (const auto& [form, instant, value] : {std::tuple{"exact_contact", 1e-12, 1e-9},
                                                {"modal_two_point", dt, step},
                                                {"modal_three_point", dt, step}}) {
-        const Told t = told(form, oscillator(), one);
-        ASSERT_TRUE(t.impacts[0].told) << form;
+        const Told t = play_with_impacts(form, oscillator(), one);
+        ASSERT_TRUE(t.impacts[0].reported) << form;
         ASSERT_EQ(t.impacts[0].all().size(), 1u) << form;
         const Impact& i = t.impacts[0].all()[0];
         EXPECT_NEAR(i.start, start, instant) << form;
@@ -79,7 +79,7 @@ TEST(Impacts, ThatBeginBeforeTheRunLoseNoneOfWhatTheyHadStored) {
     Settings one = audio;
     one.modes = 1;
     for (const char* form : {"exact_contact", "modal_two_point", "modal_three_point"}) {
-        const Told t = told(form, scene, one);
+        const Told t = play_with_impacts(form, scene, one);
         ASSERT_GE(t.impacts[0].all().size(), 1u) << form;
         const Impact& i = t.impacts[0].all()[0];
         EXPECT_LT(i.start, 1e-4) << form;
@@ -93,7 +93,7 @@ TEST(Impacts, LoseWhatTheEnergyColumnsSay) {
     one.modes = 1;
     double by_exact = 0;
     for (const char* form : {"exact_contact", "modal_two_point", "modal_three_point"}) {
-        const Told t = told(form, oscillator(0.3), one);
+        const Told t = play_with_impacts(form, oscillator(0.3), one);
         double dissipated = 0;
         for (const double x : t.run.trace.energy_column(2)) dissipated += x;
         ASSERT_EQ(t.impacts[0].all().size(), 1u) << form;
@@ -117,7 +117,8 @@ TEST(Impacts, ThatAreOnAtTheStartOrAtTheEndLoseWhatTheirLossTakesAndNoMore) {
     Scene inside = lasting(oscillator(), 0.1), open = lasting(oscillator(), 0.17);
     inside.strings[0].start = ModeShape{1, -0.02};
     for (const char* form : with_a_state) {
-        const Told first = told(form, inside, one), last = told(form, open, one);
+        const Told first = play_with_impacts(form, inside, one),
+                   last = play_with_impacts(form, open, one);
         ASSERT_EQ(first.impacts[0].all().size(), 1u) << form;
         ASSERT_EQ(last.impacts[0].all().size(), 1u) << form;
         const Impact &from = first.impacts[0].all()[0], &to = last.impacts[0].all()[0];
@@ -132,7 +133,7 @@ TEST(Impacts, ThatAreOnAtTheStartOrAtTheEndLoseWhatTheirLossTakesAndNoMore) {
     double by_exact = 0;
     for (const char* form :
          {"exact_contact", "modal_two_point", "modal_three_point", "modal_quadratised levels=3"}) {
-        const Told t = told(form, inside, one);
+        const Told t = play_with_impacts(form, inside, one);
         const double lost = t.impacts[0].all().at(0).energy_lost;
         if (by_exact == 0) by_exact = lost;
         EXPECT_GT(lost, 1) << form;
@@ -146,7 +147,7 @@ TEST(Impacts, ComeInTowardsTheBarrierAndGoOutAwayFromItOrAreNotSeen) {
          {"exact_contact", "modal_two_point", "modal_two_point compliance=matched",
           "modal_three_point", "finite_difference_theta"}) {
         int seen = 0;
-        const Told t = told(form, scene, audio, false);
+        const Told t = play_with_impacts(form, scene, audio, false);
         for (const Impact& i : t.impacts[0].all()) {
             EXPECT_FALSE(i.speed_in < 0) << form << ' ' << i.start;
             EXPECT_FALSE(i.speed_out < 0) << form << ' ' << i.end;
@@ -179,7 +180,7 @@ TEST(Impacts, PushAsMuchAsTheRowsOfTheContactForce) {
                 scene.taps.push_back({"push" + std::to_string(k), Quantity::bridge_force, k, 0});
         Settings settings = audio;
         settings.modes = modes;
-        const Told t = told(form, scene, settings);
+        const Told t = play_with_impacts(form, scene, settings);
         ASSERT_EQ(t.run.status.outcome, Outcome::ok) << form << name;
         int contacts = 0;
         for (std::size_t k = 0; k < scene.taps.size(); ++k) {
@@ -212,7 +213,7 @@ TEST(Impacts, OfARigidBridgeHaveTheSameLargestForceWhateverTheRows) {
         Settings settings = audio;
         settings.modes = 40;
         settings.tap_rate *= times;
-        const Told t = told("exact_contact", scene, settings, false);
+        const Told t = play_with_impacts("exact_contact", scene, settings, false);
         double hardest = 0;
         for (const Impact& i : t.impacts[0].all()) hardest = std::max(hardest, i.largest_force);
         const double most = fact(t.run, "largest_contact_force");
@@ -232,7 +233,7 @@ TEST(Impacts, NameTheBarrierThatIsTouched) {
     Settings one = audio;
     one.modes = 1;
     for (const char* form : {"exact_contact", "modal_two_point"}) {
-        const Told t = told(form, scene, one);
+        const Told t = play_with_impacts(form, scene, one);
         ASSERT_EQ(t.impacts[0].all().size(), 1u) << form;
         EXPECT_EQ(t.impacts[0].all()[0].barrier, 1) << form;
     }
@@ -246,7 +247,7 @@ TEST(Impacts, NameTheProfileWhosePointIsTouched) {
     one.modes = 1;
     for (const char* form : {"exact_contact nodes=3", "modal_two_point points=3",
                              "modal_generalised_alpha points=3"}) {
-        const Told t = told(form, scene, one);
+        const Told t = play_with_impacts(form, scene, one);
         EXPECT_EQ(t.impacts[0].all().size(), 1u) << form;
         for (const Impact& i : t.impacts[0].all()) EXPECT_EQ(i.barrier, 1) << form;
     }
@@ -257,7 +258,7 @@ TEST(Impacts, AreToldBesideTheSameRows) {
          {"modal_two_point", "modal_two_point compliance=matched", "exact_contact"}) {
         const Scene scene = lasting(read_scene("tanpura_c3_release"), 0.02);
         const auto bare = play(form, scene, audio);
-        const Told t = told(form, scene, audio, false);
+        const Told t = play_with_impacts(form, scene, audio, false);
         EXPECT_GT(t.impacts[0].all().size(), 2u) << form;
         EXPECT_EQ(bare.trace.tap, t.run.trace.tap) << form;
         EXPECT_EQ(fact(bare, "largest_contact_force"), fact(t.run, "largest_contact_force"));

@@ -107,9 +107,9 @@ std::vector<Refused> refused() {
 
 TEST(Refusals, SayWhatAFormCannotDoWithAScene) {
     for (const Refused& r : refused()) {
-        const std::string said = refusal(r.form, r.scene, r.settings);
-        EXPECT_NE(said, "") << r.form << " takes " << r.scene.name;
-        EXPECT_TRUE(says(said, r.why)) << r.form << " on " << r.scene.name;
+        const std::string message = refusal(r.form, r.scene, r.settings);
+        EXPECT_NE(message, "") << r.form << " takes " << r.scene.name;
+        EXPECT_TRUE(says(message, r.why)) << r.form << " on " << r.scene.name;
     }
     EXPECT_EQ(refusal("exact_contact compliance=matched", c3_pluck(), {0, 44100, 20, {}}), "");
 }

@@ -101,7 +101,7 @@ struct Odd final : Scheme {
     std::function<Status(const Block&, long first)> act = [](const Block&, long) {
         return Status{};
     };
-    std::function<std::vector<Fact>()> told = [] { return std::vector<Fact>{}; };
+    std::function<std::vector<Fact>()> make_facts = [] { return std::vector<Fact>{}; };
     long row = 0;
     void reset() noexcept override { row = 0; }
     Status advance(const Block& out) noexcept override {
@@ -110,7 +110,7 @@ struct Odd final : Scheme {
         return act(out, first);
     }
     int dofs() const override { return 1; }
-    std::vector<Fact> facts() const override { return told(); }
+    std::vector<Fact> facts() const override { return make_facts(); }
 };
 
 // A scheme that tells no energy: the largest displacement that 10 times the energy of a string
@@ -288,7 +288,7 @@ TEST(RunLoop, FactsOfARunThatDivergesDoNotDependOnTheBlock) {
                 write_energy(out, n, std::exp2(static_cast<double>(first + n)), 0, 0);
             return Status{};
         };
-        scheme.told = [&most] { return std::vector<Fact>{{{"most", "J", ""}, most}}; };
+        scheme.make_facts = [&most] { return std::vector<Fact>{{{"most", "J", ""}, most}}; };
         const auto r = run(scheme, second(), {1000, 1000, 0, {}},
                            {.energy = energy, .block_rows = block_rows});
         EXPECT_EQ(r.status.outcome, Outcome::diverged);
@@ -299,17 +299,17 @@ TEST(RunLoop, FactsOfARunThatDivergesDoNotDependOnTheBlock) {
 }
 
 TEST(RunLoop, WhatASchemeCannotMeanIsASentence) {
-    for (const Status said :
+    for (const Status status :
          {Status{static_cast<Outcome>(77), 5}, Status{Outcome::diverged, -1000000},
           Status{Outcome::diverged, 1L << 40}}) {
         Odd scheme;
-        scheme.act = [said](const Block&, long) { return said; };
+        scheme.act = [status](const Block&, long) { return status; };
         EXPECT_THROW(run(scheme, second(), {1000, 1000, 0, {}}), BadScheme);
     }
     Odd throws;
-    throws.told = []() -> std::vector<Fact> { throw 42; };
+    throws.make_facts = []() -> std::vector<Fact> { throw 42; };
     EXPECT_THROW(run(throws, second(), {1000, 1000, 0, {}}), BadScheme);
-    throws.told = []() -> std::vector<Fact> { throw std::runtime_error("no facts today"); };
+    throws.make_facts = []() -> std::vector<Fact> { throw std::runtime_error("no facts today"); };
     EXPECT_THROW(run(throws, second(), {1000, 1000, 0, {}}), std::runtime_error);
 }
 
@@ -414,18 +414,18 @@ TEST(RunLoop, ASlowRunSaysSoOnceWithItsFacts) {
         std::this_thread::sleep_for(std::chrono::milliseconds(400) * out.rows);
         return Status{};
     };
-    scheme.told = [] { return std::vector<Fact>{{"contact_points", 1600, ""}}; };
+    scheme.make_facts = [] { return std::vector<Fact>{{"contact_points", 1600, ""}}; };
     Scene scene = second();
     scene.duration = 7e-3;
-    std::vector<long> told;
+    std::vector<long> rows;
     run(scheme, scene, {1000, 1000, 0, {}},
         {.slow = [&](long done, long, const std::vector<Fact>& facts) {
-            told.push_back(done);
+            rows.push_back(done);
             EXPECT_EQ(facts.front().value, 1600);
         }});
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_GT(told.front(), 0);
-    EXPECT_LT(told.front(), 8);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_GT(rows.front(), 0);
+    EXPECT_LT(rows.front(), 8);
 }
 
 TEST(RunLoop, DenormalsAreFlushedForItsLifeOnly) {

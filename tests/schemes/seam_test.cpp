@@ -110,12 +110,12 @@ TEST(Options, EveryDeclaredOneIsAcceptedWithEachOfItsWords) {
 }
 
 TEST(Options, OneThatIsUndeclaredOrGivenTwiceIsRefusedBeforeTheSchemeIsAsked) {
-    static bool asked;
-    asked = false;
+    static bool called;
+    called = false;
     Descriptor careless = schemes()[0];
     careless.make = [](const Descriptor&, const Scene&,
                        const Settings&) -> std::unique_ptr<Scheme> {
-        asked = true;
+        called = true;
         return nullptr;
     };
     const auto scene =
@@ -123,17 +123,17 @@ TEST(Options, OneThatIsUndeclaredOrGivenTwiceIsRefusedBeforeTheSchemeIsAsked) {
                      [&careless](const Scene& s) { return represents(careless, s); });
     ASSERT_NE(scene, library().end());
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"no_such_option", "1"}})), BadOption);
-    EXPECT_FALSE(asked);
+    EXPECT_FALSE(called);
     constexpr static Option word{"word", "a", "for the test", {"a", "b"}};
     careless.options = {&word, 1};
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "c"}})), Refusal);
     for (const char* second : {"a", "b"})
         EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "a"}, {"word", second}})),
                      BadOption);
-    EXPECT_FALSE(asked);
+    EXPECT_FALSE(called);
     // asked, it makes nothing
     EXPECT_THROW(make_scheme(careless, *scene, settings_for({{"word", "b"}})), BadScheme);
-    EXPECT_TRUE(asked);
+    EXPECT_TRUE(called);
 }
 
 TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsReported) {
@@ -168,12 +168,13 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
                 Features owed;
                 for (const Approximation& a : d->approximates)
                     if (needed_by(scene).has(a.feature)) owed = owed | a.feature;
-                Features told;
+                Features reported;
                 for (const Approximation& a : d->approximates)
                     if (reported.contains(a.fact.name))
-                        told = told | a.feature, met.emplace(d->name, a.fact.name);
-                EXPECT_TRUE((owed - told).empty()) << d->name << " on " << scene.name
-                                                   << " says nothing of " << names_of(owed - told);
+                        reported = reported | a.feature, met.emplace(d->name, a.fact.name);
+                EXPECT_TRUE((owed - reported).empty())
+                    << d->name << " on " << scene.name << " says nothing of "
+                    << names_of(owed - reported);
             }
         }
     }

@@ -133,11 +133,11 @@ TEST(SeveralStrings, AreTheSumOfRunsOfOneInEverySchemeToTheLastBit) {
         for (int k = 0; k < strings; ++k)
             for (const Fact& f : single[k].facts) {
                 ASSERT_LT(facts, whole.facts.size()) << d->name;
-                const Fact& told = whole.facts[facts++];
-                EXPECT_EQ(told.name, "string." + std::to_string(k) + "." + f.name) << d->name;
+                const Fact& fact = whole.facts[facts++];
+                EXPECT_EQ(fact.name, "string." + std::to_string(k) + "." + f.name) << d->name;
                 if (f.value == f.value)
-                    expect(std::span(&told.value, 1), std::span(&f.value, 1), told.name);
-                else EXPECT_TRUE(told.value != told.value) << d->name << " " << told.name;
+                    expect(std::span(&fact.value, 1), std::span(&f.value, 1), fact.name);
+                else EXPECT_TRUE(fact.value != fact.value) << d->name << " " << fact.name;
             }
         EXPECT_EQ(facts, whole.facts.size()) << d->name;
         int dofs = 0;
@@ -176,8 +176,8 @@ TEST(SeveralStrings, OneStringIsTheSchemeItself) {
     for (const Descriptor* d : all_descriptors()) {
         const Scene scene = scene_for(*d);
         Settings own = settings;
-        const auto made = make_scheme(*d, scene, own), itself = d->make(*d, scene, own);
-        const Scheme &a = *made, &b = *itself;
+        const auto checked = make_scheme(*d, scene, own), itself = d->make(*d, scene, own);
+        const Scheme &a = *checked, &b = *itself;
         EXPECT_EQ(typeid(a).name(), typeid(b).name()) << d->name;
     }
 }

@@ -54,7 +54,7 @@ private:
     double row_ = 0;
 };
 
-Descriptor held() {
+Descriptor held_descriptor() {
     Descriptor d = whole();
     d.name = "held_two_point";
     d.make = [](const Descriptor&, const Scene& scene,
@@ -63,7 +63,7 @@ Descriptor held() {
     };
     return d;
 }
-const Descriptor table[] = {held()};
+const Descriptor table[] = {held_descriptor()};
 }  // namespace
 
 JVARI_PLUGIN(table)

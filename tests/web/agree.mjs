@@ -57,15 +57,15 @@ function natively({
     encoding: "utf8",
     maxBuffer: 1 << 28,
   });
-  const said = JSON.parse(run.stdout);
-  if (said.message !== undefined) return {refused: said.message};
+  const result = JSON.parse(run.stdout);
+  if (result.message !== undefined) return {refused: result.message};
   const [head, ...rows] = readFileSync(join(scratch, "trace.csv"), "utf8")
     .trim()
     .split("\n")
     .filter(line => !line.startsWith("#"));
   const table = rows.map(row => row.split(",").map(Number));
   return {
-    outcome: said.status,
+    outcome: result.status,
     columns: head
       .split(",")
       .slice(1)
@@ -73,10 +73,10 @@ function natively({
   };
 }
 
-function in_the_page(asked) {
+function in_the_page(request) {
   let run;
   try {
-    run = jvari.run({duration: 0.02, ...asked, energy: true});
+    run = jvari.run({duration: 0.02, ...request, energy: true});
   } catch (error) {
     return {refused: error.message};
   }
@@ -114,9 +114,9 @@ let failures = 0,
   ran = 0,
   refused = 0,
   largest = 0;
-function compare(what, asked) {
-  const program_ = natively(asked),
-    page = in_the_page(asked),
+function compare(what, request) {
+  const program_ = natively(request),
+    page = in_the_page(request),
     d = apart(page, program_);
   if (program_.refused !== undefined) ++refused;
   else (++ran, (largest = Math.max(largest, d)));
@@ -156,10 +156,10 @@ const wrong = {
     overrides: ['string.0.damping.law="table"', 'string.0.damping.file="none.csv"'],
   }),
 };
-for (const [what, asked] of Object.entries(wrong)) compare(what, asked);
+for (const [what, request] of Object.entries(wrong)) compare(what, request);
 
 // What the program never sees in this form: its own sentence, and a module that goes on.
-const refusal = asked => in_the_page(with_c3(asked)).refused ?? "";
+const refusal = request => in_the_page(with_c3(request)).refused ?? "";
 const own = {
   "a megabyte": [
     {scene: c3 + "#".repeat(1 << 20)},
@@ -169,14 +169,14 @@ const own = {
   sundials: [{scheme: "sundials"}, /use the program/],
   "a rate that is no multiple": [{rate: 50000}, /no whole multiple/],
 };
-for (const [what, [asked, sentence]] of Object.entries(own))
-  if (!sentence.test(refusal(asked)))
-    console.log(`FAILED: ${what}: "${refusal(asked)}"`, ++failures);
+for (const [what, [request, sentence]] of Object.entries(own))
+  if (!sentence.test(refusal(request)))
+    console.log(`FAILED: ${what}: "${refusal(request)}"`, ++failures);
 compare("C3 after all refusals", with_c3({}));
 
 // What the program says of a cell: sound, and how far its third octaves are from those of the
 // reference.
-const asked = [
+const words = [
   "compare",
   "tanpura_c3_release",
   "--schemes",
@@ -198,7 +198,7 @@ const asked = [
   "--json",
 ];
 const {cells} = JSON.parse(
-    spawnSync(resolve(program), asked.map(String), {
+    spawnSync(resolve(program), words.map(String), {
       cwd: scratch,
       encoding: "utf8",
       maxBuffer: 1 << 28,

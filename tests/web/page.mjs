@@ -122,7 +122,7 @@ const parts = {
     const points = await see("chart.points"),
       own = [...new Set(points.map(p => p.scheme))],
       rates = [...new Set(points.map(p => p.rate))];
-    const told = JSON.parse(
+    const result = JSON.parse(
       spawnSync(
         program,
         [
@@ -150,7 +150,7 @@ const parts = {
       ).stdout,
     );
     const cell_of = p =>
-      told.cells.find(
+      result.cells.find(
         c =>
           c.scheme === p.scheme &&
           c.rate === p.rate &&
@@ -165,7 +165,7 @@ const parts = {
     );
     expect(compared === 20 && apart < 1e-6, `${compared} errors agree to ${apart}`);
     const certificate_of = c => c.errors[c.headline_nut].error_l2_50ms.certificate;
-    const known_to = [points[0].uncertainty, certificate_of(told.cells[0])];
+    const known_to = [points[0].uncertainty, certificate_of(result.cells[0])];
     expect(
       Math.abs(known_to[0] / known_to[1] - 1) < 1e-4,
       `the reference is known to ${known_to[0]} here, to ${known_to[1]} there`,
@@ -173,7 +173,7 @@ const parts = {
 
     // The rule: on the program's own errors and costs the page's verdict is the program's, ties
     // and all.
-    const of_program = told.cells
+    const of_program = result.cells
       .filter(c => c.status === "ok" && c.flags === "")
       .map(c => ({
         scheme: c.scheme,
@@ -193,7 +193,7 @@ const parts = {
         .map(run => run.split(" ")[0])
         .sort()
         .join();
-    for (const c of told.cheapest.filter(c => c.measure === "error_l2_50ms")) {
+    for (const c of result.cheapest.filter(c => c.measure === "error_l2_50ms")) {
       const v = await see(`verdict(${JSON.stringify(of_program)}, ${c.target})`),
         here = [v.best ? `${v.best.scheme} ${v.best.rate}` : " ", v.ties, v.perhaps].map(x =>
           Array.isArray(x)
@@ -259,7 +259,7 @@ const parts = {
         `within ${target}: here ${meets(page_cells)}\n    there ${meets(theirs)}`,
       );
       const found = await see(`verdict(chart.points, ${target})`),
-        c = told.cheapest.find(c => c.measure === "error_l2_50ms" && c.target === target);
+        c = result.cheapest.find(c => c.measure === "error_l2_50ms" && c.target === target);
       const here = [found.best, ...found.ties].map(p => `${p.scheme} at ${p.rate / 1e3} kHz`);
       console.log(
         `  within ${100 * target} %: ${here.join(", a tie with ")} ` +
@@ -294,15 +294,15 @@ const parts = {
         name,
         10,
       );
-      const {title, said, cards, count} = await see(
-        "({title: by_id('title').textContent, said: by_id('said').textContent, " +
+      const {title, status, cards, count} = await see(
+        "({title: by_id('title').textContent, status: by_id('said').textContent, " +
           "cards: by_id('answers').textContent, count: chart.points.length})",
       );
-      console.log(`  ${name}, ${Date.now() - from} ms: ${title} ${said}`);
+      console.log(`  ${name}, ${Date.now() - from} ms: ${title} ${status}`);
       const verdict =
         / % (wrong over the first|from an exact solution of)|cannot be judged here|at step \d/;
-      expect(ended && (verdict.test(title) || /\.$/.test(said)), `${name}: ${title}; ${said}`);
-      expect(verdict.test(title) !== Boolean(said), `${name}, one of them: ${title}; ${said}`);
+      expect(ended && (verdict.test(title) || /\.$/.test(status)), `${name}: ${title}; ${status}`);
+      expect(verdict.test(title) !== Boolean(status), `${name}, one of them: ${title}; ${status}`);
       expect(verdict.test(title) || (!/ %,/.test(cards) && count === 0), `${name}: ${cards}`);
       console.log(`    ${await see("state.scheme")}`);
     }
@@ -411,13 +411,13 @@ const parts = {
         ++k
       )
         await pause(50);
-      const told = await look.evaluate(
-        "({said: by_id('said').textContent, " +
+      const view = await look.evaluate(
+        "({notice: by_id('said').textContent, " +
           "live: ['live', 'scene', 'stage', 'hear'].filter(id => by_id(id).checkVisibility())})",
       );
       expect(
-        sentence.test(told.said) && /\.\/demo$/.test(told.said) && told.live.length === 0,
-        `${what}: two sentences and nothing that does not work: ${JSON.stringify(told)}`,
+        sentence.test(view.notice) && /\.\/demo$/.test(view.notice) && view.live.length === 0,
+        `${what}: two sentences and nothing that does not work: ${JSON.stringify(view)}`,
       );
     };
     const bare = await open(["--js-flags=--jitless"]);
@@ -512,7 +512,7 @@ const parts = {
         "the verdict on a scheme",
       );
       return {
-        said: await see("by_id('own_said').textContent"),
+        answer: await see("by_id('own_said').textContent"),
         errors: await see("chart.own.map(p => p.error)"),
       };
     };
@@ -530,11 +530,11 @@ const parts = {
     expect(
       honest.errors.length === 2 &&
         honest.errors.every((e, k) => Math.abs(e - built_in[k]) < 1e-3 * built_in[k]),
-      `the example is modal_two_point: ${honest.said}`,
+      `the example is modal_two_point: ${honest.answer}`,
     );
     expect(
       planted.errors.some((e, k) => Math.abs(e - built_in[k]) > 0.05 * built_in[k]),
-      `a planted mistake is seen: ${planted.said}`,
+      `a planted mistake is seen: ${planted.answer}`,
     );
     expect(
       await see(
@@ -550,8 +550,8 @@ const parts = {
       ["document.title = 'x'; return [];", /document is not defined/],
     ])
       expect(
-        sentence.test((await judge(text)).said),
-        `${text} says ${sentence}: ${(await judge(text)).said}`,
+        sentence.test((await judge(text)).answer),
+        `${text} says ${sentence}: ${(await judge(text)).answer}`,
       );
     complaints.splice(0, Infinity);
   },
@@ -632,7 +632,7 @@ const parts = {
       await there("/refused|stopped/.test(by_id('own_said').textContent)");
       await pause(500);
       return {
-        said: await look.evaluate("by_id('own_said').textContent"),
+        answer: await look.evaluate("by_id('own_said').textContent"),
         reached: reached.splice(0),
       };
     };
@@ -640,11 +640,11 @@ const parts = {
       const kept = await asked_by(page),
         free = await asked_by(pathToFileURL(bare).href);
       console.log(
-        `  ${kept.said}\n  without the page's policy the listener hears ${free.reached.join(", ")}`,
+        `  ${kept.answer}\n  without the page's policy the listener hears ${free.reached.join(", ")}`,
       );
       expect(
-        names.length === 12 && names.every(name => kept.said.includes(`${name} refused`)),
-        `each attempt is refused: ${kept.said}`,
+        names.length === 12 && names.every(name => kept.answer.includes(`${name} refused`)),
+        `each attempt is refused: ${kept.answer}`,
       );
       expect(kept.reached.length === 0, `the listener hears nothing: ${kept.reached}`);
       for (const path of ["/fetch", "/xhr", "/socket", "/events", "/nested"])
@@ -668,10 +668,10 @@ const parts = {
           `by_id("said").textContent = ""; by_id("apply").click(); 0`,
       );
       await until("by_id('said').textContent.length > 8", "a sentence about a bad scene");
-      const said = await see("by_id('said').textContent");
+      const message = await see("by_id('said').textContent");
       expect(
-        sentence.test(said) && said.length < 600,
-        `${text.slice(0, 20)} is refused by ${sentence}: ${said.slice(0, 200)}`,
+        sentence.test(message) && message.length < 600,
+        `${text.slice(0, 20)} is refused by ${sentence}: ${message.slice(0, 200)}`,
       );
     }
     await visit(
@@ -751,11 +751,11 @@ const parts = {
       "--quiet",
     ]);
     const plain = statSync(join(folder, "report.html")).size,
-      made = spawnSync(program, ["report", folder, "--playground", "--quiet"], {encoding: "utf8"});
+      ended = spawnSync(program, ["report", folder, "--playground", "--quiet"], {encoding: "utf8"});
     const bytes = statSync(join(folder, "report.html")).size;
     expect(
-      made.status === 0 && bytes > plain + 1e6 && bytes < 4.9e6,
-      `report --playground: ${made.status}, ${bytes} bytes, ${made.stderr}`,
+      ended.status === 0 && bytes > plain + 1e6 && bytes < 4.9e6,
+      `report --playground: ${ended.status}, ${bytes} bytes, ${ended.stderr}`,
     );
     await browser.page("Page.navigate", {url: pathToFileURL(join(folder, "report.html")).href});
     await until(

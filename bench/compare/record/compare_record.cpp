@@ -49,9 +49,9 @@ study::Cells cells_of(const Comparison& c) {
 
 Json json_of(const Advice& a, const Verdict& v) {
     Json j = json_of(a);
-    j["says"] = v.says == Verdict::Says::held       ? "held"
-                : v.says == Verdict::Says::not_held ? "not_held"
-                                                    : "not_known";
+    j["says"] = v.says == Verdict::Says::confirmed ? "held"
+                : v.says == Verdict::Says::refuted ? "not_held"
+                                                   : "not_known";
     j["error"] = v.bound.error, j["certificate"] = v.bound.certificate;
     j["verdict"] = v.text;
     return j;

@@ -238,23 +238,23 @@ Verdict verdict_on(const Advice& a, const study::Cells& cells) {
     const bool waveform = study::is_waveform(t.measure);
     const double most = waveform ? v.bound.most() : v.bound.error,
                  least = waveform ? v.bound.least() : v.bound.error;
-    const std::string asked = fmt::format("{}, where {} {}", t.text(v.bound.error),
-                                          a.within ? "at most" : "the nearest to",
-                                          t.text(t.most) + (a.within ? " was promised" : ""));
+    const std::string condition = fmt::format("{}, where {} {}", t.text(v.bound.error),
+                                              a.within ? "at most" : "the nearest to",
+                                              t.text(t.most) + (a.within ? " was promised" : ""));
     if (!std::isfinite(v.bound.error)) {
         v.text = "the advice was not verified: the cell has no such error";
     } else if (most <= t.most) {
-        v.says = Verdict::Says::held;
-        v.text = "the advice held: an error of " + asked;
+        v.says = Verdict::Says::confirmed;
+        v.text = "the advice held: an error of " + condition;
     } else if (least > t.most) {
-        v.says = a.within ? Verdict::Says::not_held : Verdict::Says::held;
-        v.text =
-            fmt::format("the advice {}: an error of {}", a.within ? "did not hold" : "held", asked);
+        v.says = a.within ? Verdict::Says::refuted : Verdict::Says::confirmed;
+        v.text = fmt::format("the advice {}: an error of {}", a.within ? "did not hold" : "held",
+                             condition);
     } else {
         v.text = fmt::format(
             "whether the advice holds is not known: an error of {}, and the "
             "reference is known to {}",
-            asked, t.text(v.bound.certificate, "no figure"));
+            condition, t.text(v.bound.certificate, "no figure"));
     }
     return v;
 }

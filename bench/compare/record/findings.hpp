@@ -82,7 +82,7 @@ std::vector<std::string> warnings_of(const study::Cells&);  // all warnings that
 
 // Verdict: whether the cell with the advised settings has the promised error.
 struct Verdict {
-    enum class Says { held, not_held, not_known } says = Says::not_known;
+    enum class Says { confirmed, refuted, not_known } says = Says::not_known;
     std::optional<std::size_t> cell{};
     Bound bound{};       // bound for the cell's error
     std::string text{};  // "the advice held: 0.38 % where at most 1 % was asked"

@@ -110,7 +110,7 @@ function answer_of(section, heard) {
   const sub = element("p", {className: "sub"}),
     measure = element("select", {ariaLabel: "what is to be kept"}),
     tolerance = element("label", {htmlFor: "within", className: "handle", title: "drag it"}),
-    said = element("span"),
+    ending = element("span"),
     slider = element("input", {type: "range", id: "within", max: 1000, ariaLabel: "tolerance"}),
     tag = element("span", {className: "tag", ariaHidden: "true"}),
     lists = element("div"),
@@ -139,7 +139,7 @@ function answer_of(section, heard) {
     tag.textContent = text + " \u2195";
     slider.value = at(within);
     slider.ariaValueText = text;
-    said.textContent = finding_of(found);
+    ending.textContent = finding_of(found);
     document.title = `${scene.replaceAll("_", " ")}: within ${text}${finding_of(found)}`;
     sub.replaceChildren(...bold(consequences(found, rows).join(" ")));
     ranking.firstChild.textContent = `The cheapest run of each scheme within ${text}`;
@@ -157,8 +157,8 @@ function answer_of(section, heard) {
   function set(t) {
     answer.within = Number(Math.min(ends.to, Math.max(ends.from, t)).toPrecision(2));
     clearTimeout(later);
-    const told = answer.within === ends.first ? null : answer.within;
-    later = setTimeout(() => choose("within", told), 200);
+    const in_address = answer.within === ends.first ? null : answer.within;
+    later = setTimeout(() => choose("within", in_address), 200);
     show();
   }
   // Drags a handle by the pointer. `value(move, from)`: tolerance for a move from a start.
@@ -218,7 +218,7 @@ function answer_of(section, heard) {
   const take = take_it();
   on_scene.push(fill);
   dark.addEventListener("change", show);
-  document.querySelector("h1").replaceChildren("To keep ", measure, " within ", tolerance, said);
+  document.querySelector("h1").replaceChildren("To keep ", measure, " within ", tolerance, ending);
   fill(scene_shown());
   const chart = {
     ...section.charts[0],

@@ -72,7 +72,7 @@ function chart_of(chart, section) {
     id: "chart-" + drawings.length,
   });
   const menus = element("div", {className: "menus"}),
-    said = element("p", {className: "soft"}),
+    notice = element("p", {className: "soft"}),
     legend = element("div", {className: "legend"});
   menus.dataset.chart = frame.id;
   legend.setAttribute("role", "group");
@@ -181,7 +181,7 @@ function chart_of(chart, section) {
   on_scene.push(async name => {
     const there = !chart.scenes || chart.scenes.includes(name);
     scene = there ? name : chart.scenes[0];
-    said.textContent = there || !name ? "" : `No runs of ${name} here: this is ${scene}.`;
+    notice.textContent = there || !name ? "" : `No runs of ${name} here: this is ${scene}.`;
     fill_menus();
     if (vega_view) await draw();
   });
@@ -205,5 +205,5 @@ function chart_of(chart, section) {
   every.onchange = draw;
   const below = element("div", {className: "below"}, legend);
   if (chart.main) below.append(element("label", {className: "soft"}, every, " every scheme"));
-  return {parts: [menus, frame, below, said], draw};
+  return {parts: [menus, frame, below, notice], draw};
 }

@@ -65,8 +65,8 @@ function run_spec(choice, print) {
   if (page.levels.length) {
     const sound = {title: `spectrogram of ${heard}`, levels: levels_of(page.levels[0])},
       frame = tiled([sound], 2800),
-      made = panel_spec(sound, frame, {left: "", lowest: true, size: {width, height: 160}});
-    panels.push({...made, title: {text: sound.title, anchor: "start", fontSize: 12}});
+      panel = panel_spec(sound, frame, {left: "", lowest: true, size: {width, height: 160}});
+    panels.push({...panel, title: {text: sound.title, anchor: "start", fontSize: 12}});
   }
   const ledger = of("ledger", ["t", "stored", "supplied", "dissipated"]),
     names = {stored: "stored", supplied: "supplied so far", dissipated: "dissipated so far"};

@@ -297,11 +297,11 @@ function line_labels(names, points, view) {
   const [x, y] = [view.scale("x"), view.scale("y")],
     [width, height] = [view.width(), view.height()],
     first = points.find(p => p.n === view.signal("best")),
-    asked = y(view.signal("within") ?? 0);
+    tolerance_y = y(view.signal("within") ?? 0);
   const placed = points.map(p => ({...p, x: p.x === null ? width - 10 : x(p.x), y: y(p.y)})),
     box = (p, r) => ({left: p.x - r, right: p.x + r, top: p.y - r, bottom: p.y + r}),
     boxes = [
-      {left: 0, right: width, top: asked - 3, bottom: asked + 3},
+      {left: 0, right: width, top: tolerance_y - 3, bottom: tolerance_y + 3},
       ...placed.map(p => box(p, p.n === first?.n ? 13 : 5)),
     ],
     labels = [];

@@ -171,15 +171,15 @@ Said run_program(std::vector<std::string> words, const std::function<bool()>& un
     if (!group.runs()) return {-errno, ""};
     pipe.close_in();
     const Watcher watcher(group.leader());
-    Said said{};
+    Said output{};
     const WaitsForAnother counted;
     while (!group.has_ended() && !(unwanted && unwanted())) {
         pipe.wait();
-        pipe.take(said.text);
+        pipe.take(output.text);
     }
-    said.code = group.end();
-    pipe.take(said.text);
-    return said;
+    output.code = group.end();
+    pipe.take(output.text);
+    return output;
 }
 
 }  // namespace jvari::bench::store
