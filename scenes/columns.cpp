@@ -46,34 +46,70 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     return cells;
 }
 
+// Column of a table: its place in a row, and the spelling in the header.
+struct Found {
+    std::size_t at = 0;
+    const char* name = nullptr;
+    double (*in_si)(double, double) = nullptr;  // nullptr: in SI units as it is
+};
+
+char lower(char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 'a' - 'A' : c); }
+
+// Words that differ at most in capital letters are alike.
+bool alike(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
+
 struct ColumnLine {
     std::string place;  // "modes.csv:12"
 
-    std::optional<std::size_t> find(const std::vector<std::string_view>& header, const Column& c,
-                                    bool may_lack) const {
-        for (const char* name : {c.name, c.alias}) {
-            const auto at = std::find(header.begin(), header.end(), name);
+    std::optional<Found> find(const std::vector<std::string_view>& header, const Column& c) const {
+        std::vector<Spelling> known{{c.name, nullptr}, {c.alias, nullptr}};
+        known.insert(known.end(), c.others.begin(), c.others.end());
+        for (const Spelling& s : known) {
+            const auto same = [&s](std::string_view cell) { return alike(cell, s.name); };
+            const auto at = std::find_if(header.begin(), header.end(), same);
             if (at == header.end()) continue;
-            if (std::find(at + 1, header.end(), name) != header.end())
-                throw SceneFileError(place + ": header: found two columns " + quote(name) +
+            if (std::find_if(at + 1, header.end(), same) != header.end())
+                throw SceneFileError(place + ": header: found two columns " + quote(s.name) +
                                      ", expected one");
-            return static_cast<std::size_t>(at - header.begin());
+            return Found{static_cast<std::size_t>(at - header.begin()), s.name, s.in_si};
         }
-        if (may_lack) return {};
-        const bool semicolons =
-            header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos;
+        return {};
+    }
+    // All columns of a header, or a refusal that names every absent one and its other spellings.
+    std::vector<std::optional<Found>> find(const std::vector<std::string_view>& header,
+                                           std::span<const ColumnTo> columns) const {
+        std::vector<std::optional<Found>> all;
+        std::string absent;
+        int lacking = 0;
+        for (const ColumnTo& c : columns) {
+            all.push_back(find(header, c.column));
+            if (all.back() || c.may_lack) continue;
+            std::vector<std::string> others;
+            if (std::string_view(c.column.alias) != c.column.name) others = {c.column.alias};
+            for (const Spelling& s : c.column.others) others.emplace_back(s.name);
+            absent += (lacking++ ? ", " : "") + quote(c.column.name) +
+                      (others.empty() ? "" : " (or " + list_of(others) + ")");
+        }
+        if (!lacking) return all;
+        if (header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos)
+            throw SceneFileError(
+                place + ": header: found " + found_text(header[0]) +
+                ", expected commas between columns, and points in numbers, as 0.5");
         throw SceneFileError(
-            place + ": header: found no column " + quote(c.name) +
-            (semicolons ? "; expected commas between columns, and points in numbers, as 0.5"
-             : header.size() > 12 ? ""
-                                  : " among " + list_of({header.begin(), header.end()})));
+            place + ": header: found no " + (lacking > 1 ? "columns " : "column ") + absent +
+            (header.size() > 12 ? "" : " among " + list_of({header.begin(), header.end()})));
     }
 
-    void read(const std::vector<std::string_view>& cells, std::size_t i, const ColumnTo& c) const {
-        const std::string_view cell = i < cells.size() ? cells[i] : "";
+    // first: the number in the row's first column
+    void read(const std::vector<std::string_view>& cells, const Found& found, const ColumnTo& c,
+              double& first) const {
+        const std::string_view cell = found.at < cells.size() ? cells[found.at] : "";
         const auto check = [&](bool holds, const char* expected) {
             if (!holds)
-                throw SceneFileError(place + ": " + c.column.name + ": found " + found_text(cell) +
+                throw SceneFileError(place + ": " + found.name + ": found " + found_text(cell) +
                                      ", expected " + expected);
         };
         if (auto* const* words = std::get_if<std::vector<std::string>*>(&c.to)) {
@@ -82,8 +118,11 @@ struct ColumnLine {
         }
         auto* const* perhaps = std::get_if<std::vector<std::optional<double>>*>(&c.to);
         if (perhaps && cell.empty()) return (*perhaps)->emplace_back(), void();
-        const auto x = number_of(cell);
+        auto x = number_of(cell);
         check(x && c.column.range.holds(*x), c.column.range.says);
+        if (found.in_si) x = found.in_si(*x, first);
+        check(std::isfinite(*x), positive.says);
+        if (std::isnan(first)) first = *x;
         if (perhaps) (*perhaps)->push_back(x);
         else std::get<std::vector<double>*>(c.to)->push_back(*x);
     }
@@ -92,8 +131,7 @@ struct ColumnLine {
 
 std::vector<int> read_columns(const std::string& path, const std::string& text,
                               std::span<const ColumnTo> columns) {
-    constexpr std::size_t lacking = -1;
-    std::vector<std::size_t> places;
+    std::vector<std::optional<Found>> places;
     std::vector<int> lines;
     int line = 0;
     for (std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
@@ -108,13 +146,14 @@ std::vector<int> read_columns(const std::string& path, const std::string& text,
             throw SceneFileError(at.place +
                                  ": found no end of the line, expected one behind each row. Is "
                                  "the file cut off?");
-        const bool header = places.empty();
-        if (!header) lines.push_back(line);
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            const ColumnTo& c = columns[k];
-            if (header) places.push_back(at.find(cells, c.column, c.may_lack).value_or(lacking));
-            else if (places[k] != lacking) at.read(cells, places[k], c);
+        if (places.empty()) {
+            places = at.find(cells, columns);
+            continue;
         }
+        lines.push_back(line);
+        double first = std::nan("");
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            if (places[k]) at.read(cells, *places[k], columns[k], first);
     }
     if (!places.empty()) return lines;
     std::vector<std::string> names;
@@ -202,7 +241,7 @@ void force_from(const std::string& path, const std::string& text, Pluck& p) {
     const ColumnTo columns[] = {{{"time_s", "time", not_negative}, &p.time},
                                 {{"force_N", "newtons", any}, &p.share}};
     std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 'a' - 'A' : c);
+    for (char& c : ending) c = lower(c);
     if (ending == ".wav" || text.starts_with("RIFF")) samples_of(path, text, p);
     else read_columns(path, text, columns);
     for (const double F : p.share) p.peak = std::max(p.peak, std::abs(F));

@@ -17,9 +17,10 @@ namespace jvari {
 // larger than ...").
 std::string text_of_file(const std::string& path, std::size_t limit);
 
-// Reads columns, found by their names or aliases in the header. Other columns and lines that begin
-// with # are skipped. Throws SceneFileError with the line in the CSV file, also if the last line
-// has no end: a file truncated there has a wrong last number.
+// Reads columns, found by their names, aliases or other spellings in the header, in small or
+// capital letters. Other columns and lines that begin with # are skipped. Throws SceneFileError
+// with the line in the CSV file, also if the last line has no end: a file truncated there has a
+// wrong last number.
 struct ColumnTo {
     Column column;
     // numbers; numbers whose cell may be empty; words, none of them empty

@@ -9,9 +9,9 @@
 
 namespace jvari {
 
-// The frequency of a note in equal temperament with A4 = 440 Hz: "C3", "F#2", "Bb4", from C-1 to
-// B9. Nothing for any other text.
-std::optional<double> frequency_of_note(std::string_view note);  // [Hz]
+// The frequency of a note in equal temperament: "C3", "F#2", "Bb4", from C-1 to B9, perhaps with a
+// deviation: "A2 -14c", "C3 +1.5 cents". Nothing for any other text.
+std::optional<double> frequency_of_note(std::string_view note, double a4 = 440);  // [Hz]
 
 // Tension at which the first mode, without damping and with bending stiffness, has this frequency:
 // T = mu (2 L f)^2 - EI (pi/L)^2. The result is not positive if the stiffness alone gives that

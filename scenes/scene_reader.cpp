@@ -56,6 +56,7 @@ struct Names : Pass<Names> {
     void tension(auto&) {
         for (const char* key : tension_keys) seen(key);
     }
+    void concert_pitch() { seen("A4"); }
     void part(const char* key, auto&) { seen(key); }
     void parts(const char* key, auto&) { seen(key); }
     template <class... T>
@@ -158,10 +159,12 @@ public:
         else {
             std::string note;
             text(chosen, note);
-            const auto frequency = frequency_of_note(note);
+            Reader top(document_, document_.root, "");
+            const auto frequency = frequency_of_note(note, top.concert_pitch());
             if (!frequency)
-                fail(v, at(chosen), v.found(),
-                     "a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\" or \"Bb4\"");
+                fail(
+                    v, at(chosen), v.found(),
+                    "a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\", \"Bb4\" or \"A2 -14c\"");
             hertz = *frequency;
         }
         if (!positive.holds(hertz))
@@ -176,6 +179,14 @@ public:
             fail(v, at(chosen), v.found(),
                  "a pitch that a tension gives: the bending stiffness alone gives " +
                      number_text(slack_pitch(s)) + " Hz");
+    }
+    double concert_pitch() {
+        double a4 = 440;
+        number("A4", a4, positive, "Hz", a4);
+        if (!positive.holds(a4))
+            fail(*table_.find("A4"), at("A4"), number_text(a4),
+                 std::string(positive.says) + " [Hz]");
+        return a4;
     }
     void count(const char* key, int& n) {
         n = integer(*required(key, "a whole number >= 1"), key, 1);

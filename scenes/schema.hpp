@@ -6,12 +6,15 @@
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
 // scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), modes
 // (columns with numbered rows), one_of (a variant and its choosing key), material (with a diameter,
-// in place of two numbers), tension (or a pitch), start ("rest" or a CSV file, in place of a
-// table), start_table (its columns), force (a file), part (a table) and parts (an array of tables).
+// in place of two numbers), tension (or a pitch), concert_pitch (A4 of those), start ("rest" or a
+// CSV file, in place of a table), start_table (its columns), force (a file), part (a table) and
+// parts (an array of tables).
 #pragma once
 
 #include <concepts>
 #include <limits>
+#include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -40,11 +43,31 @@ inline constexpr Range not_negative{"a number >= 0", 0};
 inline constexpr Range one_or_more{"a number >= 1", 1};
 inline constexpr Range fraction{"a number above 0 and at most 1", 0, 1, true};
 
+// Column with another name and unit: a cell's number in SI units, perhaps by the number in the
+// first column of its row.
+struct Spelling {
+    const char* name;
+    double (*in_si)(double x, double first);
+};
 struct Column {  // column in a CSV file
     const char* name;
     const char* alias;
     Range range;
+    std::span<const Spelling> others = {};
 };
+inline constexpr Spelling
+    hertz_spellings[] = {{"f_hz", [](double f, double) { return f; }},
+                         {"frequency_khz", [](double f, double) { return 1000 * f; }},
+                         {"f_khz", [](double f, double) { return 1000 * f; }}},
+    // T60 = 3 ln(10)/sigma, sigma = pi f/Q = 2 pi f zeta; first: f
+    decay_spellings[] = {{"t60_s", [](double t, double) { return 3 * std::numbers::ln10 / t; }},
+                         {"tau_s", [](double t, double) { return 1 / t; }},
+                         {"q", [](double q, double f) { return std::numbers::pi * f / q; }},
+                         {"zeta",
+                          [](double zeta, double f) { return 2 * std::numbers::pi * f * zeta; }}},
+    x_spellings[] = {{"x_mm", [](double x, double) { return x / 1000; }}},
+    height_spellings[] = {{"height_mm", [](double h, double) { return h / 1000; }}},
+    displacement_spellings[] = {{"displacement_mm", [](double y, double) { return y / 1000; }}};
 
 inline constexpr const char* quantity_names[] = {"displacement", "velocity",     "nut_force",
                                                  "bridge_force", "thread_force", "driving_force"};
@@ -82,6 +105,7 @@ struct Pass {
     void force(const char* key, auto&) { self().seen(key); }
     void material() {}
     void tension(auto&) {}
+    void concert_pitch() {}
     void start_table(auto&) {}
     void one_of(const char*, auto& variant, auto&&...) {
         std::visit([this](auto& alternative) { fields(self(), alternative); }, variant);
@@ -118,8 +142,8 @@ void fields(auto& pass, Is<QualityFactorDamping> auto& d) {
     pass.number("thermoelastic_loss", d.thermoelastic_loss, not_negative, "");
 }
 void fields(auto& pass, Is<TableDamping> auto& d) {
-    pass.modes("file", d, Column{"frequency_hz", "frequency_hz", positive},
-               Column{"decay_rate_per_s", "sigma_per_s", not_negative});
+    pass.modes("file", d, Column{"frequency_hz", "frequency_hz", positive, hertz_spellings},
+               Column{"decay_rate_per_s", "sigma_per_s", not_negative, decay_spellings});
 }
 void fields(auto& pass, Is<PerPeriodDamping> auto& d) {
     pass.number("factor", d.factor, fraction, "");
@@ -136,8 +160,8 @@ void fields(auto& pass, Is<ParabolaCurve> auto& c) {
     pass.number("coefficient", c.coefficient, any, "1/m");
 }
 void fields(auto& pass, Is<TableCurve> auto& c) {
-    pass.columns("file", c.file, Column{"x_m", "x_m", any}, c.x,
-                 Column{"height_m", "height_m", any}, c.height);
+    pass.columns("file", c.file, Column{"x_m", "x_m", any, x_spellings}, c.x,
+                 Column{"height_m", "height_m", any, height_spellings}, c.height);
 }
 void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.number("position", b.position, any, "m");
@@ -263,6 +287,7 @@ void fields(auto& pass, Is<Scene> auto& s) {
     pass.text("name", s.name);
     pass.optional_text("source", s.source);
     pass.number("duration", s.duration, positive, "s");
+    pass.concert_pitch();
     pass.parts("string", s.strings);
     pass.parts("tap", s.taps);
     pass.part("body", s.body);

@@ -778,6 +778,21 @@ TEST(NewScene, ATableOfOnesOwnComesBeforeTheMakersAndItsCoreIsTheStiffness) {
         says(content(scratch / "mine.toml"), "E pi/64 d^4 of its steel core, d = 0.00046 m"));
     std::filesystem::remove(scratch / "mine.toml");
     EXPECT_TRUE(ends(sold(row, "'nickel wound' --diameter 0.046in"), 2,
+TEST(NewScene, AGaugeMayHaveTheSignOfAnInchAndAThickPlainWireIsDoubted) {
+    const Scratch scratch;
+    shell(scratch, "$J new guitar a --material 'nickel wound' --diameter '.054\"'");
+    shell(scratch, "$J new guitar b --material 'nickel wound' --diameter .054in");
+    for (const char* file : {"a.toml", "b.toml"})
+        EXPECT_NEAR(read_scene(scratch / file).strings.at(0).linear_density, 9.6144e-3, 1e-8);
+    EXPECT_TRUE(ends(shell(scratch, "$J new guitar c --material 'nickel wound' --diameter .054"), 2,
+                     "a gauge in inches is written 0.054in"));
+    const std::string phosphor = "$J new guitar d --material 'phosphor bronze' --diameter ";
+    EXPECT_TRUE(says(shell(scratch, phosphor + ".053in").err,
+                     "strings of that gauge are sold wound: --material \"phosphor bronze wound\""));
+    std::filesystem::remove(scratch / "d.toml");
+    EXPECT_EQ(shell(scratch, phosphor + "0.3mm").err, "");
+}
+
                      "unknown material \"nickel wound\""));
     EXPECT_TRUE(ends(sold(row, "'own wound' --diameter 0.05in"), 2,
                      "found no \"own wound\" of 0.05 in; the nearest: 0.046 in"));

@@ -17,6 +17,7 @@
 #include "scenes/modes.hpp"
 #include "scenes/schema.hpp"
 
+#include "tests/says.hpp"
 namespace jvari {
 namespace {
 
@@ -305,13 +306,20 @@ TEST(Tables, ErrorsNameTheLineOfTheTableOrOfTheSceneThatNamesIt) {
     EXPECT_EQ(with("frequency_hz,decay_rate_per_s\n100,-1\n"),
               "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
     EXPECT_EQ(with("# a\nfrequency,decay_rate_per_s\n"),
-              "modes.csv:2: header: found no column \"frequency_hz\" among \"frequency\", "
-              "\"decay_rate_per_s\"");
+              "modes.csv:2: header: found no column \"frequency_hz\" (or \"f_hz\", "
+              "\"frequency_khz\", \"f_khz\") among \"frequency\", \"decay_rate_per_s\"");
+    EXPECT_EQ(with("mode,f,T_60\n"),
+              "modes.csv:1: header: found no columns \"frequency_hz\" (or \"f_hz\", "
+              "\"frequency_khz\", \"f_khz\"), \"decay_rate_per_s\" (or \"sigma_per_s\", "
+              "\"t60_s\", \"tau_s\", \"q\", \"zeta\") among \"mode\", \"f\", \"T_60\"");
+    EXPECT_EQ(with("f_Hz,T60_s\n100,0\n"),
+              "modes.csv:2: t60_s: found \"0\", expected a positive number");
     EXPECT_EQ(with("frequency_hz,frequency_hz,decay_rate_per_s\n100,200,1\n"),
               "modes.csv:1: header: found two columns \"frequency_hz\", expected one");
-    EXPECT_EQ(with("frequency_hz;decay_rate_per_s\n100;0,5\n"),
-              "modes.csv:1: header: found no column \"frequency_hz\"; expected commas between "
-              "columns, and points in numbers, as 0.5");
+    EXPECT_EQ(
+        with("frequency_hz;decay_rate_per_s\n100;0,5\n"),
+        "modes.csv:1: header: found \"frequency_hz;decay_rate_per_s\", expected commas between "
+        "columns, and points in numbers, as 0.5");
     EXPECT_EQ(with("\xef\xbb\xbf"
                    "frequency_hz,decay_rate_per_s\n100,-1\n"),
               "modes.csv:2: decay_rate_per_s: found \"-1\", expected a number >= 0");
@@ -519,6 +527,39 @@ TEST(SoldStrings, WeighWhatTheirMakersSayAndWhatSteelAndTheirNeighboursDo) {
 }
 
 // ---- Pitch in place of tension
+TEST(Tables, AreReadInTheUnitsThatTheirColumnsName) {
+    const Directory d;
+    const std::string text = one + "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n",
+                      file = (d.path / "scene.toml").string();
+    const auto modes = [&](const std::string& csv) {
+        d.write("modes.csv", csv);
+        return std::get<TableDamping>(parse_scene(text, file).strings[0].damping);
+    };
+    const double pi = std::numbers::pi;
+    // an amplitude of exp(-sigma t) falls to a thousandth within T60
+    const TableDamping t60 = modes("f_Hz,T60_s\n100,2\n202,0.5\n");
+    EXPECT_EQ(t60.frequency_hz, (std::vector<double>{100, 202}));
+    EXPECT_NEAR(std::exp(-t60.decay_rate[0] * 2), 1e-3, 1e-17);
+    EXPECT_NEAR(std::exp(-t60.decay_rate[1] * 0.5), 1e-3, 1e-17);
+    const TableDamping q = modes("Q,frequency_kHz\n250,0.1\n");
+    EXPECT_EQ(q.frequency_hz[0], 100);
+    EXPECT_NEAR(q.decay_rate[0], pi * 100 / 250, 1e-15);
+    EXPECT_NEAR(modes("f_kHz,zeta\n0.1,0.002\n").decay_rate[0], q.decay_rate[0], 1e-15);
+    EXPECT_NEAR(modes("f_hz,tau_s\n100,0.25\n").decay_rate[0], 4, 1e-15);
+    // SI names first, whatever stands beside them
+    EXPECT_EQ(modes("q,frequency_hz,decay_rate_per_s\n1,100,3\n").decay_rate[0], 3);
+    d.write("bridge.csv", "height_mm,x_mm\n0,0\n-0.1,33\n");
+    const auto curve = [&](const std::string& to) {
+        const Scene s =
+            parse_scene(profile + "from = 0\nto = " + to + "\n", (d.path / "scene.toml").string(),
+                        {"string.0.barrier.0.curve=table",
+                         "string.0.barrier.0.file=" + (d.path / "bridge.csv").string()});
+        return std::get<TableCurve>(std::get<ProfileBarrier>(s.strings[0].barriers[0]).curve);
+    };
+    EXPECT_EQ(curve("0.033").x, (std::vector<double>{0, 0.033}));
+    EXPECT_EQ(curve("0.033").height, (std::vector<double>{0, -0.1e-3}));
+}
+
 
 // 3-6
 const std::string stiff =
@@ -547,6 +588,22 @@ TEST(Pitch, TheTensionIsThatAtWhichTheFirstModeHasIt) {
 }
 
 TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
+TEST(Pitch, OfANoteMayDeviateByCentsFromAConcertPitch) {
+    const auto pitch = [](const std::string& note, const std::vector<std::string>& set = {}) {
+        return first_mode(parse_scene(stiff + "note = \"" + note + "\"\n", "s.toml", set));
+    };
+    const double cent = std::exp2(1 / 1200.0);
+    EXPECT_NEAR(pitch("A2 -14c"), 110 * std::pow(cent, -14), 1e-10);
+    EXPECT_NEAR(pitch("A2 +1.5 cents"), 110 * std::pow(cent, 1.5), 1e-10);
+    EXPECT_NEAR(pitch("A3", {"A4=415"}), 207.5, 1e-10);
+    EXPECT_NEAR(first_mode(parse_scene("A4 = 442\n" + stiff + "note = \"A4 -3c\"\n", "s.toml")),
+                442 * std::pow(cent, -3), 1e-10);
+    for (const char* wrong : {"A2 14c", "A2 -14", "A2 -c", "A2 - 3 c", "A2-14 Hz", "A", "A2 "})
+        EXPECT_TRUE(says(message(stiff + "note = \"" + wrong + "\"\n"), "or \"A2 -14c\"")) << wrong;
+    EXPECT_EQ(message("A4 = 0\n" + stiff + "note = \"A2\"\n"),
+              "scene.toml:1: A4: found 0, expected a positive number [Hz]");
+}
+
     const Scene scene = parse_scene(stiff + "note = \"Eb3\"\n", "s.toml");
     const Scene again = parse_scene(write_scene(scene), "again.toml");
     EXPECT_TRUE(again == scene) << write_scene(scene);
