@@ -234,7 +234,8 @@ const Descriptor exact_linear = {.name = "exact_linear",
                                  .represents = Feature::bending_stiffness | Feature::damping |
                                                Feature::frequency_dependent_damping |
                                                Feature::measured_modes | Feature::initial_shape |
-                                               Feature::pluck | Feature::initial_velocity,
+                                               Feature::pluck | Feature::initial_velocity |
+                                               Feature::equilibrium,
                                  .balance = Balance::to_tolerance,
                                  .clock = Clock::continuous,
                                  .make = make_exact_linear};

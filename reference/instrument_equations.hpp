@@ -23,6 +23,7 @@
 #include "reference/readout.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/pitch.hpp"
 #include "schemes/contact/contact.hpp"
 
 namespace jvari {
@@ -68,8 +69,7 @@ struct InstrumentEquations final : Equations {
             if (s.pluck) {
                 own.g_e = footprint_weights(modes[k], s.pluck->position, s.pluck->width);
                 own.finger = 1 - s.pluck->position / s.length;
-                least_scale_ +=
-                    1e-3 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
+                least_scale_ += 1e-3 * std::abs(s.pluck->amplitude) / wave_impedance(s);
             }
             strings.push_back(std::move(own));
         }

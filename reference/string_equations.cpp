@@ -8,6 +8,7 @@
 #include "reference/masses.hpp"
 #include "reference/partial_sums.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/pitch.hpp"
 
 namespace jvari {
 
@@ -92,8 +93,7 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
     if (s.pluck) {
         pluck_.push_back(*s.pluck);
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        least_scale_ =
-            1e-2 * std::abs(s.pluck->amplitude) / std::sqrt(s.tension * s.linear_density);
+        least_scale_ = 1e-2 * std::abs(s.pluck->amplitude) / wave_impedance(s);
     }
     touched.assign(contacts, 0);
     inverse_.assign(padded, 0.0);

@@ -6,9 +6,24 @@
 #include <numbers>
 #include <string>
 
+#include "scenes/wording.hpp"
+
 namespace jvari {
 
-std::optional<double> frequency_of_note(std::string_view note) {
+namespace {
+// Reads "-14c", "+1.5 cents".
+std::optional<double> cents_of(std::string_view text) {
+    const auto unit = text.find('c');
+    if (unit == text.npos || (text.front() != '+' && text.front() != '-')) return {};
+    const std::string_view word = text.substr(unit);
+    if (word != "c" && word != "cent" && word != "cents") return {};
+    text = text.substr(0, unit);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+    return number_of(text);
+}
+}  // namespace
+
+std::optional<double> frequency_of_note(std::string_view note, double a4) {
     constexpr std::string_view letters = "CDEFGAB";
     constexpr int above_c[] = {0, 2, 4, 5, 7, 9, 11};  // [semitones]
     const auto take = [&note](char c) {
@@ -23,11 +38,18 @@ std::optional<double> frequency_of_note(std::string_view note) {
     if (take('#')) ++semitone;
     else if (take('b')) --semitone;
     const bool below_zero = take('-');
-    if (note.size() != 1 || note.front() < '0' || note.front() > '9') return {};
+    if (note.empty() || note.front() < '0' || note.front() > '9') return {};
     const int octave = note.front() - '0';
     if (below_zero && octave != 1) return {};
+    note.remove_prefix(1);
+    std::optional<double> cents = 0;
+    if (!note.empty()) {
+        while (take(' ')) {}
+        cents = cents_of(note);
+    }
+    if (!cents) return {};
     const int above_a4 = semitone - 9 + 12 * ((below_zero ? -1 : octave) - 4);
-    return 440 * std::exp2(above_a4 / 12.0);
+    return a4 * std::exp2(above_a4 / 12.0 + *cents / 1200);
 }
 
 double tension_for(const String& s, double hertz) {
@@ -51,6 +73,11 @@ double tuned_pitch(const String& s) {
     const double beta = std::numbers::pi / s.length;
     return beta / (2 * std::numbers::pi) *
            std::sqrt((s.tension + s.bending_stiffness * beta * beta) / s.linear_density);
+}
+
+double wave_impedance(const String& s) {
+    return s.tension > 0 ? std::sqrt(s.tension * s.linear_density)
+                         : s.linear_density * 2 * s.length * tuned_pitch(s);
 }
 
 double inharmonicity(const String& s) {

@@ -24,6 +24,8 @@ double slack_pitch(const String&);                // for a string without tensio
 double tuned_pitch(const String&);
 double pitch_of(const String&);
 double lowest_pitch(const Scene&);  // of all strings [Hz]
+// sqrt(T mu) [kg/s]; for a bar mu 2 L f_1
+double wave_impedance(const String&);
 // B = pi^2 EI/(T L^2) in f_n = n f_0 sqrt(1 + B n^2); infinite without tension
 double inharmonicity(const String&);
 // the nearest note and the deviation: "E2", "C3 -14 cents"; "" outside C-1 to B9

@@ -187,7 +187,7 @@ struct Polarisation {
 struct String {
     double length = 0;             // L [m]
     double linear_density = 0;     // mu [kg/m]
-    double tension = 0;            // T [N]
+    double tension = 0;            // T [N]; 0: a bar, which its bending stiffness alone holds
     double bending_stiffness = 0;  // EI [N m^2]
     // EA [N]: the tension grows when the string stretches (Kirchhoff, Carrier); 0: the tension is
     // constant

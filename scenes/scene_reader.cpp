@@ -152,7 +152,7 @@ public:
             if (!chosen || overridden) chosen = key;
         }
         if (!chosen || chosen == tension_keys[0])
-            return number(tension_keys[0], s.tension, positive, "N");
+            return number(tension_keys[0], s.tension, not_negative, "N");
         const Value& v = *table_.find(chosen);
         double hertz = 0;
         if (chosen == tension_keys[1]) number(chosen, hertz, positive, "Hz");

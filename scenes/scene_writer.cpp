@@ -32,7 +32,7 @@ struct Writer : Pass<Writer> {
     void stiffness(const char* key, double k, const char* unit) {
         k == rigid ? line(key, quote("rigid")) : number(key, k, positive, unit);
     }
-    void tension(const String& s) { number("tension", s.tension, positive, "N"); }
+    void tension(const String& s) { number("tension", s.tension, not_negative, "N"); }
     void count(const char* key, int n) { line(key, std::to_string(n)); }
     void string_index(const char* key, const std::optional<int>& n) {
         if (n) line(key, std::to_string(*n));

@@ -23,7 +23,7 @@ struct Ranges : Pass<Ranges> {
     void stiffness(const char* key, double k, const char* unit) {
         if (k != rigid) number(key, k, positive_or_rigid, unit);
     }
-    void tension(const String& s) { number("tension", s.tension, positive, "N"); }
+    void tension(const String& s) { number("tension", s.tension, not_negative, "N"); }
     void count(const char* key, int n) {
         if (n < 1) throw BadScene(at(key), std::to_string(n), "a whole number >= 1");
     }
@@ -136,7 +136,16 @@ struct On {
                            "a number above from, " + number_text(b.from) + " [m]");
         if (const auto* table = std::get_if<TableCurve>(&b.curve)) curve(part, b, *table);
     }
+    void without_tension() const {
+        if (string.bending_stiffness == 0)
+            throw BadScene(path + "tension", "0",
+                           "a positive number [N], or beside it a bending_stiffness: a bar");
+        if (std::holds_alternative<QualityFactorDamping>(string.damping))
+            throw BadScene(path + "damping.law", "\"quality_factor\" without tension",
+                           "another law: the bending loss of this one is a share of the tension");
+    }
     void all() const {
+        if (string.tension == 0) without_tension();
         for (std::size_t i = 0; i < string.barriers.size(); ++i) {
             const std::string part = "barrier." + std::to_string(i);
             std::visit([&](const auto& b) { barrier(part, b); }, string.barriers[i]);

@@ -61,8 +61,9 @@ std::string tuning_text(const String& s) {
     const auto measured = modes_measured(s);
     return fmt::format("f1 = {:.4g} Hz{}, tension {:.3g} N, {}", f1,
                        note.empty() ? "" : " (" + note + ")", s.tension,
-                       measured ? fmt::format("{} measured modes", *measured)
-                                : fmt::format("inharmonicity {:.2g}", inharmonicity(s)));
+                       s.tension == 0 ? "a bar"
+                       : measured     ? fmt::format("{} measured modes", *measured)
+                                      : fmt::format("inharmonicity {:.2g}", inharmonicity(s)));
 }
 
 std::string untouched_text(const Scene& scene, const Figures& run) {
@@ -107,8 +108,8 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
                       "N/m^exponent", "at most 1e13, or \"rigid\"");
             }
         }
-        doubt(plucked(s) && std::abs(s.pluck->amplitude) > s.tension, "pluck.amplitude",
-              plucked(s) ? s.pluck->amplitude : 0, "N", "less than the tension");
+        doubt(plucked(s) && s.tension > 0 && std::abs(s.pluck->amplitude) > s.tension,
+              "pluck.amplitude", plucked(s) ? s.pluck->amplitude : 0, "N", "less than the tension");
     }
     note_tables(scene, listener);
     const auto moves = [&](const String& s) { return set_in_motion(s, scene.duration); };

@@ -16,6 +16,9 @@ SitarString sitar_string(const Descriptor& scheme, const Scene& scene, const Set
                          const std::string& stiffness) {
     validate(scene);
     const String& string = scene.strings.front();
+    if (string.tension == 0)
+        throw Refusal(std::string(scheme.name) + " carries waves along a tension, and scene " +
+                      scene.name + " has none");
     SitarString s;
     s.shape = string;
     s.steps_per_row = steps_per_row(settings);

@@ -94,6 +94,29 @@ TEST(ExactLinear, AnUnskewedPluckIsThreeComplexExponentials) {
     }
 }
 
+// A force F at a lifts a stiff string by y(x) = sum g_i(a) v_i(x) F/(m omega_i^2), and holds it
+// still until it changes.
+TEST(ExactLinear, AStringAtRestUnderASideLoadStaysUntilTheLoadChanges) {
+    Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});
+    scene.strings[0].start = RestStart{};
+    Pluck load{};
+    load.position = 0.4, load.width = 0.01, load.file = "load.csv";
+    load.time = {0, 0.01, 0.012}, load.share = {1, 1, 0};
+    load.amplitude = load.peak = 0.5, load.duration = 0.012;
+    scene.strings[0].pluck = load;
+    const int count = 40;
+    const jvari::Run r = run(exact_linear, scene, linear_settings(count));
+    const Modes m = modes_of(scene.strings[0], count);
+    const auto g = footprint_weights(m, 0.4, 0.01), x = displacement_weights(m, 0.3);
+    double y = 0;
+    for (int i = 0; i < count; ++i) y += x[i] * g[i] * 0.5 / (m.mass * m.omega0[i] * m.omega0[i]);
+    for (long n = 0; n <= 441; ++n) {
+        EXPECT_NEAR(r.trace.column(0)[n], y, 1e-12 * y) << n;
+        EXPECT_NEAR(r.trace.column(1)[n], 0, 1e-9 * y * m.omega0[0]) << n;
+    }
+    EXPECT_GT(std::abs(r.trace.column(1)[600]), 0.1 * y * m.omega0[0]);
+}
+
 TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
     for (double skew : {0.0, 30.0, -30.0, 300.0}) {
         Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});

@@ -15,9 +15,10 @@
 #include "scenes/columns.hpp"
 #include "scenes/material.hpp"
 #include "scenes/modes.hpp"
+#include "scenes/pitch.hpp"
 #include "scenes/schema.hpp"
-
 #include "tests/says.hpp"
+
 namespace jvari {
 namespace {
 
@@ -526,7 +527,6 @@ TEST(SoldStrings, WeighWhatTheirMakersSayAndWhatSteelAndTheirNeighboursDo) {
     }
 }
 
-// ---- Pitch in place of tension
 TEST(Tables, AreReadInTheUnitsThatTheirColumnsName) {
     const Directory d;
     const std::string text = one + "[string.damping]\nlaw = \"table\"\nfile = \"modes.csv\"\n",
@@ -560,6 +560,7 @@ TEST(Tables, AreReadInTheUnitsThatTheirColumnsName) {
     EXPECT_EQ(curve("0.033").height, (std::vector<double>{0, -0.1e-3}));
 }
 
+// ---- Pitch in place of tension
 
 // 3-6
 const std::string stiff =
@@ -587,7 +588,6 @@ TEST(Pitch, TheTensionIsThatAtWhichTheFirstModeHasIt) {
     EXPECT_NEAR(first_mode(read_scene("tanpura_c3", {"string.0.note=G2"})), 97.9988589954, 1e-9);
 }
 
-TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
 TEST(Pitch, OfANoteMayDeviateByCentsFromAConcertPitch) {
     const auto pitch = [](const std::string& note, const std::vector<std::string>& set = {}) {
         return first_mode(parse_scene(stiff + "note = \"" + note + "\"\n", "s.toml", set));
@@ -604,10 +604,30 @@ TEST(Pitch, OfANoteMayDeviateByCentsFromAConcertPitch) {
               "scene.toml:1: A4: found 0, expected a positive number [Hz]");
 }
 
+TEST(Pitch, ASceneThatSaidItIsWrittenWithItsTensionAndReadsBackTheSame) {
     const Scene scene = parse_scene(stiff + "note = \"Eb3\"\n", "s.toml");
     const Scene again = parse_scene(write_scene(scene), "again.toml");
     EXPECT_TRUE(again == scene) << write_scene(scene);
     EXPECT_NE(write_scene(scene).find("tension = "), std::string::npos);
+}
+
+TEST(Pitch, ABarHasNoTensionAndABendingStiffness) {
+    const String bar = parse_scene(stiff + "tension = 0\n", "s.toml").strings[0];
+    const double pi = std::numbers::pi;
+    for (int i = 1; i <= 3; ++i)  // (i pi/L)^2 sqrt(EI/mu)
+        EXPECT_NEAR(modes_of(bar, 3).omega0[i - 1], i * i * pi * pi * std::sqrt(6.03e-5 / 4.83e-4),
+                    1e-12 * i * i);
+    EXPECT_NEAR(wave_impedance(bar), 4.83e-4 * modes_of(bar, 1).omega0[0] / pi, 1e-15);
+    EXPECT_EQ(
+        message(stiff + "tension = 0\n", {"string.0.bending_stiffness=0"}),
+        "scene.toml:7: string.0.tension: found 0, expected a positive number [N], or beside it "
+        "a bending_stiffness: a bar");
+    EXPECT_TRUE(
+        says(message(stiff + "tension = 0\n[string.damping]\nlaw = \"quality_factor\"\n"
+                             "diameter = 1e-3\nair_viscosity = 1.8e-5\nair_density = 1.2\n"
+                             "viscoelastic_angle = 1e-3\nthermoelastic_loss = 1e-4\n"),
+             "expected another law: the bending loss of this one is a share of the tension"));
+    EXPECT_TRUE(says(message(stiff + "tension = -1\n"), "found -1, expected a number >= 0 [N]"));
 }
 
 TEST(Pitch, TooLowForTheStiffnessIsAnError) {
