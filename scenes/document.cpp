@@ -222,7 +222,9 @@ Value& reach(Value& root, const std::vector<std::string>& path, const std::strin
             const auto index = is_index(part) ? index_in(part) : std::nullopt;
             if (!index || *index > array->size())
                 refuse(is_index(part) ? "index " + part : found_text(part),
-                       "an index from 0 to " + std::to_string(array->size()));
+                       is_index(part) || part.empty()
+                           ? "an index from 0 to " + std::to_string(array->size())
+                           : "an index, as in " + walked + ".0." + part);
             if (*index == array->size()) array->push_back({TomlTable{}, place});
             at = &(*array)[*index];
         } else if (auto* table = std::get_if<TomlTable>(&at->content)) {

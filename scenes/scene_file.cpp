@@ -39,7 +39,12 @@ std::string path_of(const std::string& name) {
         return (library() / (name + ".toml")).string();
     if (!plain || fs::path(name).extension() == ".toml" || fs::exists(name, error)) return name;
     const auto known = library_scenes();
-    const std::string near = nearest(name.substr(0, 100), known);
+    auto all = known;
+    for (const std::string& here : toml_names(fs::path(name).parent_path() / "."))
+        all.push_back(here + ".toml");
+    const std::string near = fs::is_regular_file(name + ".toml", error)
+                                 ? name + ".toml"
+                                 : nearest(name.substr(0, 100), all);
     throw SceneFileError(
         found_text(name) + ": neither a file nor a scene of the library; " +
         (near.empty() ? "the library has " + list_of(known) : "did you mean " + quote(near) + "?"));

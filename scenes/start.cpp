@@ -176,9 +176,9 @@ TableStart start_from(const std::string& path, const std::string& text) {
     TableStart t;
     std::vector<double> x, mode;
     const ColumnTo columns[] = {
-        {{"x_m", "x_m", any}, &x, true},
+        {{"x_m", "x_m", any, x_spellings}, &x, true},
         {{"mode", "mode", mode_number}, &mode, true},
-        {{"displacement_m", "displacement", any}, &t.displacement},
+        {{"displacement_m", "displacement", any, displacement_spellings}, &t.displacement},
         {{"velocity_m_per_s", "velocity", any}, &t.velocity, true},
     };
     read_columns(path, text, columns);

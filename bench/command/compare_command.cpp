@@ -85,7 +85,8 @@ std::string truth_text(const compare::Comparison& c) {
                                                     : c.against.doubling);
     const double from = free_from(c.scene());
     const auto until = [&](double t, const char* who) {
-        if (t < c.scene().duration - from - 1e-3)
+        const double whole = c.scene().duration - from;
+        if (t < whole && compare::time_text(t) != compare::time_text(whole))
             text += fmt::format("\n{} agree within 10 % for the first {}{} only", who,
                                 compare::time_text(t), from > 0 ? " after the last pluck" : "");
     };

@@ -1,7 +1,7 @@
 #include "bench/command/console.hpp"
 
 #include <fcntl.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -248,6 +248,24 @@ constexpr const char* welcome =
     "\n"
     "`jvari --help` lists every verb, `jvari help compare` teaches one.";
 
+// Names what unexpected words were meant for: the nearest options, a scheme, or a name in one word.
+std::string meant_by(const CLI::App& verb) {
+    std::vector<std::string> options, near;
+    for (const CLI::Option* o : verb.get_options())
+        for (const std::string& name : o->get_lnames()) options.push_back("--" + name);
+    std::string word;
+    for (const std::string& extra : verb.remaining()) {
+        const std::string option = nearest(extra.substr(0, extra.find('=')), options);
+        if (extra.starts_with("--") && !option.empty()) near.push_back(option);
+        else if (!extra.starts_with("-")) word = extra;
+    }
+    if (!near.empty()) return fmt::format("; did you mean {}?", fmt::join(near, " and "));
+    if (word.empty()) return "";
+    if (verb.get_name() == "new") return "; a name is one word, as my_" + word;
+    const bool runs = std::ranges::find(options, "--scheme") != options.end();
+    return runs ? fmt::format("; did you mean --scheme {}?", word) : "";
+}
+
 // `jvari help run` is the same request as `jvari run --help`.
 std::vector<std::string> words_of(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
@@ -294,8 +312,14 @@ int call(int argc, const char* const* argv) {
     }
     const std::string verb = words.front().starts_with("-") ? "" : words.front();
     const auto chosen = std::ranges::find(names, verb);
+    if (words.front() == "version" || words.front() == "-v")
+        throw store::UsageError(
+            fmt::format("unknown verb \"{}\"; did you mean --version?", words.front()));
     if (!verb.empty() && chosen == names.end())
-        throw store::UsageError(store::unknown("verb", verb, names));
+        throw store::UsageError(store::unknown("verb", verb, names) +
+                                (words.back() == "--help" && nearest(verb, names).empty()
+                                     ? fmt::format("; did you mean jvari list {}?", verb)
+                                     : ""));
     try {
         std::ranges::reverse(words);  // CLI11 expects reverse order
         program.parse(std::move(words));
@@ -308,7 +332,10 @@ int call(int argc, const char* const* argv) {
         const std::vector<std::string> all = words_of(argc, argv);
         const char* behind =
             std::ranges::find(all, "--") == all.end() ? "" : "; what stands behind -- is no option";
-        throw store::UsageError(fmt::format("{}{} (see jvari {}--help)", e.what(), behind,
+        const std::string meant = e.get_name() == "ExtrasError" && chosen != names.end()
+                                      ? meant_by(*program.get_subcommand(verb))
+                                      : "";
+        throw store::UsageError(fmt::format("{}{}{} (see jvari {}--help)", e.what(), behind, meant,
                                             verb.empty() ? "" : verb + " "));
     }
     return acts[static_cast<std::size_t>(chosen - names.begin())]();

@@ -365,6 +365,8 @@ int list_command(ListRequest r) {
     if (one) {
         json = {{name, named(json, name)}};
         text = described(json[name], name);
+        if (std::ranges::find(kinds, name + "s") != kinds.end())
+            text += fmt::format("\n`jvari list {}s` has all of them\n", name);
     } else
         for (const auto& [what, list] : json.items())
             text +=

@@ -53,7 +53,8 @@ constexpr const char* what_else = R"(
 #
 # A string's mass and stiffness are `linear_density` and `bending_stiffness`, or `material` and
 # `diameter` of a plain wire: "steel", "nickel", "brass", "bronze", "phosphor bronze", "nylon",
-# "fluorocarbon", "gut". Its pitch is a `tension`, a `frequency` or a `note` ("E2").
+# "fluorocarbon", "gut". Its pitch is a `tension`, a `frequency` or a `note` ("E2",
+# "A2 -14c"; `A4 = 415` above all tables tunes the notes to 415 Hz).
 #
 # Losses: the amplitude of a mode falls as exp(-sigma t). Its wavenumber is b, its frequency f [Hz].
 #   law = "none"            sigma = 0
@@ -135,6 +136,34 @@ std::string of_that_string(const NewRequest& r) {
                : "none is assumed, for its core is not known. A steel core of d m has 9.82e9 d^4");
 }
 
+// Refuses a gauge in inches without its unit, and warns of a plain wire as thick as a wound string.
+void note_gauge(const NewRequest& r, const Console& console) {
+    constexpr double inch = 0.0254, thickest = 0.01;  // [m]
+    if (r.diameter > thickest)
+        throw store::UsageError(
+            fmt::format("new: found --diameter {:g}, which is {:g} mm, expected at most 10 mm; a "
+                        "gauge in inches is written {:g}in",
+                        r.diameter, 1e3 * r.diameter, r.diameter));
+    if (std::find(std::begin(material_names), std::end(material_names), r.material) ==
+        std::end(material_names))
+        return;
+    for (const SoldString& s : sold_strings()) {
+        const bool wound = s.series.find(r.material) != std::string::npos &&
+                           s.series.find("wound") != std::string::npos;
+        if (!wound || r.diameter < s.gauge * inch * (1 - 1e-9)) continue;
+        console.note(fmt::format(
+            "warning: {:.4g} in of {} is a solid wire, {:.3g} kg/m; strings of that "
+            "gauge are sold wound: --material \"{}\"",
+            r.diameter / inch, r.material,
+            linear_density_of(materials[std::find(std::begin(material_names),
+                                                  std::end(material_names), r.material) -
+                                        std::begin(material_names)],
+                              r.diameter),
+            s.series));
+        return;
+    }
+}
+
 // Replaces each string of the scene by the requested string at the same pitch.
 std::string strung(const std::string& text, const Scene& scene, const NewRequest& r) {
     std::istringstream lines(text);
@@ -204,6 +233,7 @@ int new_command(NewRequest r) {
     const std::string end =
         replaced(replaced(what_else, "@FILE@", file.string()), "@NAME@", r.name);
     std::string text = renamed(library_text(chosen->scene + std::string(".toml")), r.name) + end;
+    if (r.diameter > 0) note_gauge(r, console);
     if (r.diameter > 0) text = strung(text, parse_scene(text, file.string()), r);
     const Scene scene = parse_scene(text, file.string());
     store::write_fresh(file, text);
@@ -229,7 +259,7 @@ Act new_verb(CLI::App& program) {
              fmt::format("its strings are plain wires of it, at the same pitch: {}; or as they are "
                          "sold: a series of gauges.csv, as \"nickel wound\"",
                          fmt::join(materials, ", ")));
-    v.option("--diameter", v.r.diameter, metres, "of these strings, as 0.7mm or 0.046in");
+    v.option("--diameter", v.r.diameter, metres, "of these strings, as 0.7mm, 0.046in or .046\"");
     return v.does(new_command, "Example: jvari new guitar my_guitar");
 }
 

@@ -68,7 +68,7 @@ const Value positive{"X", CLI::Validator([](std::string&text) { return a_number(
     counting_or_0{"N", CLI::Validator([](std::string&text) { return a_count(text, 0); }, "")},
     hertz{"HZ", in_units({{"kHz", 1e3}, {"Hz", 1}, {"k", 1e3}})},
     seconds{"S", in_units({{"ms", 1e-3}, {"us", 1e-6}, {"s", 1}})},
-    metres{"M", in_units({{"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}, {"m", 1}})};
+    metres{"M", in_units({{"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}, {"\"", 0.0254}, {"m", 1}})};
 
 void Arguments::group() {
     static const std::set<std::string> fine{

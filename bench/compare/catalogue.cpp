@@ -55,6 +55,8 @@ const Descriptor& Catalogue::find(const std::string& name) const {
             if (name == d->name) return *d;
             names.emplace_back(d->name);
         }
+    if (name == "all")
+        throw store::UsageError("unknown scheme \"all\"; without --schemes all of them run");
     throw store::UsageError(store::unknown("scheme or reference", name, names));
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
+#include "bench/store/usage.hpp"
 #include "scenes/barrier.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/pitch.hpp"
@@ -125,6 +126,14 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
                        : "nothing sets it in motion; give it [string.start] or [string.pluck]";
         listener.note(fmt::format("warning: string {} of {} stays silent: {}", i, scene.name, why));
     }
+}
+
+void refuse_slow_rate(const Scene& scene, double rate) {
+    if (const double pitch = lowest_pitch(scene); rate < 2 * pitch)
+        throw store::UsageError(
+            fmt::format("found the rate {:g} Hz, expected at least twice the pitch of {}, {:.4g} "
+                        "Hz. Is it in kHz? Those are written {:g}k",
+                        rate, scene.name, pitch, rate));
 }
 
 void note_force_files(const Scene& scene, double sample_rate, const store::Listener& listener) {

@@ -32,6 +32,9 @@ std::string grid_text(const Descriptor&, const std::string& modes);
 // Notes before a run: modes that the scheme leaves out, or modes in the start beyond the scheme's.
 void note_modes(const Descriptor&, const Scene&, const Settings&, const store::Listener&);
 
+// Throws UsageError if this sample rate [Hz] does not carry the lowest string's first mode.
+void refuse_slow_rate(const Scene&, double rate);
+
 // Notes force files with rows closer than a step at the lowest sample rate [Hz]: each step pushes
 // with the mean. 0: no rate.
 void note_force_files(const Scene&, double sample_rate, const store::Listener&);

@@ -24,10 +24,12 @@ inline std::string unknown(const std::string& kind, const std::string& word,
                            const std::vector<std::string>& known) {
     const std::string near = nearest(word, known);
     return "unknown " + kind + " " + found_text(word) + "; " +
-           (!near.empty()       ? "did you mean " + quote(near) + "?"
-            : known.empty()     ? "there is none"
-            : known.size() > 12 ? "`jvari list` has all that there are"
-                                : "there is " + list_of(known));
+           (!near.empty()   ? "did you mean " + quote(near) + "?"
+            : known.empty() ? "there is none"
+            : known.size() > 12
+                ? std::string(kind == "promise" ? "`jvari help check`" : "`jvari list`") +
+                      " has all that there are"
+                : "there is " + list_of(known));
 }
 
 }  // namespace jvari::bench::store

@@ -16,12 +16,13 @@ using std::numbers::pi;
 void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample_rate) {
     for (int i = 0; i < modes.count(); ++i) {
         const double square = omega_squared_damped(modes.omega0[i], modes.sigma[i]);
+        const double kHz = std::round(std::sqrt(square) / (2 * pi)) / 1000;
         if (square >= pi * pi * sample_rate * sample_rate)
             throw Refusal(std::string(d.name) + ": mode " + std::to_string(i + 1) + " at " +
-                          std::to_string(std::sqrt(square) / (2 * pi)) +
-                          " Hz is not below half the sample rate of " +
-                          std::to_string(sample_rate) +
-                          " Hz, where it would alias; ask for fewer modes or a higher rate");
+                          number_text(kHz) + " kHz is not below half the sample rate of " +
+                          number_text(sample_rate / 1000) + " kHz, where it would alias; " +
+                          (i > 0 ? "at most " + std::to_string(i) + " modes fit" : "none fits") +
+                          " at this rate");
     }
 }
 

@@ -31,6 +31,18 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
     const Scratch scratch;
     const std::pair<const char*, const char*> cases[] = {
         {"rum", "did you mean \"run\""},
+        {"version", "did you mean --version?"},
+        {"-v", "did you mean --version?"},
+        {"help modal_two_point", "did you mean jvari list modal_two_point?"},
+        {"run free_string modal_two_point", "did you mean --scheme modal_two_point?"},
+        {"new guitar my guitar", "a name is one word, as my_guitar"},
+        {"compare free_string --scheme modal_two_point --rate 44100",
+         "did you mean --schemes and --rates?"},
+        {"compare free_string --schemes all", "without --schemes all of them run"},
+        {"compare free_string --rates 44.1,88.2 --duration 0.05", "Those are written 44.1k"},
+        {"run free_string --scheme modal_two_point --rate 44.1", "Those are written 44.1k"},
+        {"run free_string --set string.tension=50", "expected an index, as in string.0.tension"},
+        {"check modal_two_point --only energy_of_it", "`jvari help check` has all"},
         {"run", "scene"},
         {"run free_string --rate 44100", "--rate and --modes go with --scheme"},
         {"run free_string --within 1% --modes 10", "chooses rate and modes"},
@@ -178,6 +190,11 @@ TEST(CommandLine, ListDescribesOneThingByItsName) {
     const auto json = nlohmann::json::parse(jvari(scratch, "list sitar_fdm --json").out);
     EXPECT_EQ(json.at("sitar_fdm")[0].at("list"), "schemes");
     EXPECT_TRUE(ends(jvari(scratch, "list sitar_fdn"), 2, "did you mean \"sitar_fdm\"?"));
+    shell(scratch, "$J new guitar own");
+    for (const char* near : {"own", "own.tml"})
+        EXPECT_TRUE(
+            ends(jvari(scratch, std::string("run ") + near), 2, "did you mean \"own.toml\"?"));
+    EXPECT_TRUE(says(jvari(scratch, "list scheme").out, "`jvari list schemes` has all of them"));
 }
 
 TEST(CommandLine, AWordOfAnotherKindIsMetWithWhatWasMeant) {
@@ -761,6 +778,21 @@ TEST(NewScene, AStringAsItIsSoldHasTheMakersWeightAndTheInstrumentsPitch) {
     EXPECT_NEAR(read_scene(scratch / "wire.toml").strings.at(0).linear_density, 3.97765e-4, 1e-9);
 }
 
+TEST(NewScene, AGaugeMayHaveTheSignOfAnInchAndAThickPlainWireIsDoubted) {
+    const Scratch scratch;
+    shell(scratch, "$J new guitar a --material 'nickel wound' --diameter '.054\"'");
+    shell(scratch, "$J new guitar b --material 'nickel wound' --diameter .054in");
+    for (const char* file : {"a.toml", "b.toml"})
+        EXPECT_NEAR(read_scene(scratch / file).strings.at(0).linear_density, 9.6144e-3, 1e-8);
+    EXPECT_TRUE(ends(shell(scratch, "$J new guitar c --material 'nickel wound' --diameter .054"), 2,
+                     "a gauge in inches is written 0.054in"));
+    const std::string phosphor = "$J new guitar d --material 'phosphor bronze' --diameter ";
+    EXPECT_TRUE(says(shell(scratch, phosphor + ".053in").err,
+                     "strings of that gauge are sold wound: --material \"phosphor bronze wound\""));
+    std::filesystem::remove(scratch / "d.toml");
+    EXPECT_EQ(shell(scratch, phosphor + "0.3mm").err, "");
+}
+
 TEST(NewScene, ATableOfOnesOwnComesBeforeTheMakersAndItsCoreIsTheStiffness) {
     const Scratch scratch;
     const auto sold = [&scratch](const char* row, const char* string) {
@@ -778,21 +810,6 @@ TEST(NewScene, ATableOfOnesOwnComesBeforeTheMakersAndItsCoreIsTheStiffness) {
         says(content(scratch / "mine.toml"), "E pi/64 d^4 of its steel core, d = 0.00046 m"));
     std::filesystem::remove(scratch / "mine.toml");
     EXPECT_TRUE(ends(sold(row, "'nickel wound' --diameter 0.046in"), 2,
-TEST(NewScene, AGaugeMayHaveTheSignOfAnInchAndAThickPlainWireIsDoubted) {
-    const Scratch scratch;
-    shell(scratch, "$J new guitar a --material 'nickel wound' --diameter '.054\"'");
-    shell(scratch, "$J new guitar b --material 'nickel wound' --diameter .054in");
-    for (const char* file : {"a.toml", "b.toml"})
-        EXPECT_NEAR(read_scene(scratch / file).strings.at(0).linear_density, 9.6144e-3, 1e-8);
-    EXPECT_TRUE(ends(shell(scratch, "$J new guitar c --material 'nickel wound' --diameter .054"), 2,
-                     "a gauge in inches is written 0.054in"));
-    const std::string phosphor = "$J new guitar d --material 'phosphor bronze' --diameter ";
-    EXPECT_TRUE(says(shell(scratch, phosphor + ".053in").err,
-                     "strings of that gauge are sold wound: --material \"phosphor bronze wound\""));
-    std::filesystem::remove(scratch / "d.toml");
-    EXPECT_EQ(shell(scratch, phosphor + "0.3mm").err, "");
-}
-
                      "unknown material \"nickel wound\""));
     EXPECT_TRUE(ends(sold(row, "'own wound' --diameter 0.05in"), 2,
                      "found no \"own wound\" of 0.05 in; the nearest: 0.046 in"));
