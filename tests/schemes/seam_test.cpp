@@ -155,12 +155,12 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
                 try {
                     scheme = make_scheme(*d, scene, settings_for(options));
                 } catch (const Refusal&) { continue; }
-                std::set<std::string> reported;
+                std::set<std::string> names;
                 for (const Fact& f : scheme->facts()) {
                     std::string name = f.name;
                     // of one of several strings
                     if (name.starts_with("string.")) name = name.substr(name.find('.', 7) + 1);
-                    reported.insert(name);
+                    names.insert(name);
                     ASSERT_TRUE(unit.contains(name))
                         << d->name << " on " << scene.name << ": " << name;
                     EXPECT_EQ(f.unit, unit[name]) << name;
@@ -170,7 +170,7 @@ TEST(Facts, EveryOneReportedOnAnySceneIsInTheTableAndEveryApproximatedFeatureIsR
                     if (needed_by(scene).has(a.feature)) owed = owed | a.feature;
                 Features reported;
                 for (const Approximation& a : d->approximates)
-                    if (reported.contains(a.fact.name))
+                    if (names.contains(a.fact.name))
                         reported = reported | a.feature, met.emplace(d->name, a.fact.name);
                 EXPECT_TRUE((owed - reported).empty())
                     << d->name << " on " << scene.name << " says nothing of "
