@@ -550,10 +550,10 @@ TEST(Plan, ASchemeWhosePointsOfContactAreItsNodesKeepsItsOwnOnAProfileAndANoteSa
                   std::string("modal_spatial_newton") == job.cell.scheme->name ? 0 : 94);
     ASSERT_EQ(plan.notes.size(), 1u);
     EXPECT_TRUE(says(plan.notes[0], "modal_spatial_newton carries 421 modes"));
-    const bench::study::Plan plan = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
-    EXPECT_TRUE(plan.notes.empty());
-    for (const bench::study::Job& job : plan.jobs) EXPECT_EQ(job.cell.settings.modes, 300);
-    EXPECT_EQ(plan.points.front().references.front().settings.modes, 300);
+    const bench::study::Plan of_300 = plan_for("sitar_parabola", {"modal_spatial_newton"}, 300);
+    EXPECT_TRUE(of_300.notes.empty());
+    for (const bench::study::Job& job : of_300.jobs) EXPECT_EQ(job.cell.settings.modes, 300);
+    EXPECT_EQ(of_300.points.front().references.front().settings.modes, 300);
 }
 
 TEST(Plan, RatesThatHaveRowsInCommonAreOnOnePoint) {

@@ -29,7 +29,7 @@ TEST(Bar, SoundsItsFirstModeInEverySchemeThatTakesIt) {
         settings.sample_rate = d->clock == Clock::continuous ? 0 : 44100;
         if (!represents(*d, scene) || !refusal(d->name, scene, settings).empty()) continue;
         ++took;
-        const Run r = play(d->name, scene, settings);
+        const auto r = play(d->name, scene, settings);
         double most = 0;
         for (long n = 0; n < r.trace.rows; ++n)
             most = std::max(
@@ -50,7 +50,7 @@ TEST(Bar, MeetsAStopAsTheExactContactSays) {
     Settings settings;
     settings.modes = 12;
     settings.tap_rate = 44100;
-    const Run exact = play("exact_contact", scene, settings);
+    const auto exact = play("exact_contact", scene, settings);
     for (const char* scheme : {"modal_two_point", "modal_three_point", "modal_two_moment"}) {
         double before = HUGE_VAL;
         for (const int times : {4, 16}) {
