@@ -115,12 +115,23 @@ double mean_about(const Pluck& e, double t, double dt) {
     return 0.5 * (before.mean + before.first + after.mean - after.first);
 }
 
+std::optional<double> steady_from(const Pluck& e, double until) {
+    if (e.time.empty() || e.time.back() < until) return {};
+    std::size_t k = line_at(e, until);
+    if (k > 0 && e.time[k] >= until) --k;
+    if (e.time[k] >= until || e.share[k] != e.share[k + 1]) return {};
+    while (k > 0 && e.share[k - 1] == e.share[k]) --k;
+    return e.time[k];
+}
+
 double free_from(const Scene& scene) {
-    double end = 0;
+    double from = 0;
     for (const String& s : scene.strings)
         if (s.pluck && s.pluck->amplitude != 0 && s.pluck->start < scene.duration)
-            end = std::max(end, s.pluck->start + s.pluck->duration);
-    return end;
+            from = std::max(
+                from,
+                steady_from(*s.pluck, scene.duration).value_or(s.pluck->start + s.pluck->duration));
+    return from;
 }
 
 double hann_smoothing(double beta, double s) {

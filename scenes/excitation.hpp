@@ -1,6 +1,8 @@
 // Force of a pluck, and bounds on the string motion that a scene's energy allows.
 #pragma once
 
+#include <optional>
+
 #include "scenes/scene.hpp"
 
 namespace jvari {
@@ -27,9 +29,13 @@ std::size_t line_at(const Pluck&, double t);
 // end, and each row in a file; infinite if there is none.
 double next_knot(const Pluck&, double t);
 
-// Instant [s] from which on nothing pushes any more: the end of the last pluck that begins before
-// the scene ends, 0 without one. All error windows begin there, because every model moves alike
-// while a finger holds the string.
+// Instant [s] from which on a force from a file does not change until the instant `until`, for
+// example a side load; nothing if it changes or ends.
+std::optional<double> steady_from(const Pluck&, double until);
+
+// Instant [s] from which on nothing pushes any more, or with a steady force: the end of the last
+// pluck that begins before the scene ends, 0 without one. All error windows begin there, because
+// every model moves alike while a finger holds the string.
 double free_from(const Scene&);
 
 // Coefficient of sin(beta x) [m] in the smoothed triangle: 2AL^2/(i^2 pi^2 x0 (L-x0)) sin(beta x0)

@@ -9,6 +9,7 @@
 #include "bench/compare/bound.hpp"
 #include "bench/store/usage.hpp"
 #include "scenes/barrier.hpp"
+#include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
 #include "scenes/pitch.hpp"
 #include "scenes/start.hpp"
@@ -129,6 +130,18 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
 }
 
 void refuse_slow_rate(const Scene& scene, double rate) {
+void note_lasting_forces(const Scene& scene, const store::Listener& listener) {
+    for (std::size_t i = 0; i < scene.strings.size(); ++i) {
+        const auto& p = scene.strings[i].pluck;
+        const auto from = p ? steady_from(*p, scene.duration) : std::nullopt;
+        if (from && force(*p, *from) != 0)
+            listener.note(
+                fmt::format("string {}: the force of {} stays to the end of the run and is steady "
+                            "from {:g} s on: errors are of the motion under it",
+                            i, p->file, *from));
+    }
+}
+
     if (const double pitch = lowest_pitch(scene); rate < 2 * pitch)
         throw store::UsageError(
             fmt::format("found the rate {:g} Hz, expected at least twice the pitch of {}, {:.4g} "

@@ -127,7 +127,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
         throw Refusal(fmt::format(
             "a pluck of {} ends at {:.6g} s, and the run at {:.6g} s: errors are measured once "
             "nothing pushes the string any "
-            "more, so there is nothing to measure; a --duration of {:.6g} covers the first 50 ms",
+            "more, or with a steady force, so there is nothing to measure; a --duration of {:.6g} "
+            "covers the first 50 ms",
             scene.name, from, scene.duration, from + 50e-3));
     std::string refusals;
     bool ordered = false;

@@ -93,5 +93,25 @@ TEST(MeanForce, OfStepsAddsUpToTheImpulseHoweverLongTheyAre) {
     }
 }
 
+TEST(FreeFrom, ALoadThatLastsIsWhereItBecomesSteady) {
+    Scene scene;
+    scene.duration = 1;
+    scene.strings.resize(1);
+    Pluck load{};
+    load.file = "load.csv", load.position = 0.4, load.peak = load.amplitude = 2;
+    const auto from = [&](std::vector<double> time, std::vector<double> share) {
+        load.time = std::move(time), load.share = std::move(share);
+        load.start = load.time.front(), load.duration = load.time.back() - load.start;
+        scene.strings[0].pluck = load;
+        return free_from(scene);
+    };
+    EXPECT_EQ(from({0, 1000}, {1, 1}), 0);
+    EXPECT_EQ(from({0, 0.1, 0.3, 0.7, 1}, {0, 1, 0.5, 0.5, 0.5}), 0.3);
+    EXPECT_EQ(from({0.2, 2, 3}, {1, 1, 0}), 0.2);  // later changes are not in the run
+    EXPECT_EQ(from({0, 0.01, 0.02, 5}, {0, 1, 0, 0}), 0.02);
+    EXPECT_EQ(from({0, 0.01, 0.5}, {1, 1, 1}), 0.5);  // it ends within the run
+    EXPECT_EQ(from({0, 0.01, 5}, {0, 0, 1}), 5);      // it changes to the end: nothing to measure
+}
+
 }  // namespace
 }  // namespace jvari
