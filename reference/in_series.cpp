@@ -27,7 +27,7 @@ void put_ladder(InSeries& series, const std::vector<double>& E, std::span<const 
     const auto mass = product_of(product_of(stiff, E, n), stiff, n), lighter = inverse_of(mass, n);
     std::vector<double> yields(mass.size());  // R^-1
     for (int a = 0; a < n; ++a) {
-        const auto g = footprint_weights(kept, points[a].position, points[a].width);
+        const auto g = footprint_weights(kept, points[a]);
         const double G = std::inner_product(g.begin(), g.end(), g.begin(), 0.0) / kept.mass,
                      light = lighter[a * n + a];
         const double rate = (a < series.C.contacts ? apart : wave) * kept.omega0.back();

@@ -17,7 +17,7 @@ double weighted_sum(const double* w, const double* y, int count) {
 
 Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count()) {
     for (const Mass& m : scene.strings.front().masses) {
-        mass_.push_back(m.mass);
+        mass_.push_back(m);
         share_.push_back(share_of(modes, m));
     }
     momentum_.resize(mass_.size());
@@ -37,22 +37,31 @@ Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count())
 
 void Readout::begin(const double* u, double rate, double tap_rate) {
     tap_rate_ = tap_rate;
+    started_ = false;
     for (int m = 0; m < masses(); ++m)
-        momentum_[m] = mass_[m] * share_[m] * u[modes_ - masses() + m] * rate;
+        momentum_[m] = mass_[m].mass * share_[m] * u[modes_ - masses() + m] * rate;
 }
 
 void Readout::write(const Block& out, int row, const double* y, const double* u, double rate,
-                    double bridge, double thread) const {
+                    double bridge, double thread, const std::vector<double>& impulse) const {
     for (int m = 0; m < masses(); ++m) {
-        const double now = mass_[m] * share_[m] * u[modes_ - masses() + m] * rate;
-        bridge -= force_[m] = tap_rate_ * (momentum_[m] - now);
+        const double now = mass_[m].mass * share_[m] * u[modes_ - masses() + m] * rate;
+        // row 0 has no interval before
+        const double weight = started_ ? mass_[m].weight : 0;
+        bridge -= force_[m] =
+            mass_[m].joined() ? tap_rate_ * impulse[m] : tap_rate_ * (momentum_[m] - now) + weight;
         momentum_[m] = now;
     }
+    started_ = true;
     for (int k = 0; k < out.taps; ++k) {
         const double* w = weights_.data() + static_cast<long>(k) * modes_;
         double v = 0;
         switch (quantity_[k]) {
             case Quantity::displacement:
+                v = weighted_sum(w, y, modes_);
+                if (of_mass_[k] >= 0 && mass_[of_mass_[k]].spring > 0)
+                    v += mass_[of_mass_[k]].rest();
+                break;
             case Quantity::nut_force: v = weighted_sum(w, y, modes_); break;
             case Quantity::velocity: v = weighted_sum(w, u, modes_) * rate; break;
             case Quantity::bridge_force: v = of_mass_[k] < 0 ? bridge : force_[of_mass_[k]]; break;

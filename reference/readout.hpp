@@ -19,18 +19,20 @@ struct Readout {
     int masses() const { return static_cast<int>(mass_.size()); }
 
     // Writes row `row` of the block; y [m] and u [m] are modal displacements and velocities/rate;
-    // forces are means over the interval [N]. bridge: including masses, whose own share is their
-    // change in momentum
+    // forces are means over the interval [N]. bridge: including masses, whose own share is the
+    // change in momentum less the weight, or for a mass on a spring its impulse [N s]
     void write(const Block& out, int row, const double* y, const double* u, double rate,
-               double bridge, double thread) const;
+               double bridge, double thread, const std::vector<double>& impulse = {}) const;
 
 private:
     std::vector<Quantity> quantity_;
-    std::vector<int> of_mass_;                      // -1: a tap on the string
-    std::vector<double> mass_, share_;              // [kg]; masses.hpp
+    std::vector<int> of_mass_;  // -1: a tap on the string
+    std::vector<Mass> mass_;
+    std::vector<double> share_;                     // masses.hpp
     mutable std::vector<double> momentum_, force_;  // at the last row [kg m/s]; mean up to it [N]
     double tap_rate_ = 0;
-    std::vector<double> weights_;  // [tap][mode], unused for a contact force
+    mutable bool started_ = false;  // a row was written
+    std::vector<double> weights_;   // [tap][mode], unused for a contact force
     int modes_;
 };
 

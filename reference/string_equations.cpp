@@ -65,6 +65,8 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
         pad(damping_, 2 * modes.sigma[i]);
         pad(loss_, 2 * modes.mass * modes.sigma[i]);
     }
+    falls_ = falling(modes, s);
+    for (double& f : falls_) f /= mass_;
     for (int i = 0; i < modes.count() && EA_ > 0; ++i)
         pad(reach_, std::pow((i + 1) * std::numbers::pi / (length_ * modes.omega0[i]), 2));
     for (auto* rows : {&omega_, &damping_, &loss_, &reach_}) fill(*rows);
@@ -82,7 +84,8 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
                           b.contact_loss,
                           0,
                           b.height,
-                          b.loss_law == LossLaw::clipped});
+                          b.loss_law == LossLaw::clipped,
+                          b.sign()});
     }
     contacts = static_cast<int>(point_.size());
     if (s.thread) {
@@ -151,7 +154,7 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
     double *dp = dz, *dv = dz + padded, *sum = dz + 2 * padded;
     std::fill_n(sum, sums, 0.0);
     oscillate(omega_.data(), damping_.data(), p, v, dp, dv, padded);
-    std::fill(dv + held_, dv + modes_, 0.0);
+    std::copy(falls_.begin() + held_, falls_.end(), dv + held_);
     sum[dissipated] = square(loss_.data(), v, padded);
     if (!reach_.empty()) {
         const double pull = 0.125 * EA_ * length_ * square(reach_.data(), p, padded) / mass_;
@@ -165,7 +168,7 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
         acting_[a] = f.F;
         const double speed = m.v + (a >= contacts ? series_.at_once(a) * f.F : 0);
         add(row(gains_, a), f.F, dv, padded);
-        sum[a < contacts ? bridge_impulse : thread_impulse] += f.F;
+        sum[a < contacts ? bridge_impulse : thread_impulse] += point_[a].sign * f.F;
         sum[dissipated] += f.drag * speed * speed;
     }
     series_.speed(states(z), acting_.data(), states(dz));
@@ -315,7 +318,7 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
     for (int a = 0; a < points; ++a) {
         if (!acts(a)) continue;
         const Motion d = motion(a, x);
-        sum[a < contacts ? bridge_impulse : thread_impulse] += gamma * force_[a];
+        sum[a < contacts ? bridge_impulse : thread_impulse] += point_[a].sign * gamma * force_[a];
         const double at_once_F = a >= contacts ? series_.at_once(a) : 0,
                      speed = motion_[a].v + at_once_F * pull_[a].F;
         lost += 2 * pull_[a].drag * speed * (d.v + at_once_F * force_[a]) -

@@ -79,6 +79,7 @@ private:
         ContactLaw law;
         double beta, r, height;
         bool clipped = false;
+        double sign = 1;
     };
     // force at a point, F, and its derivatives -K to y, -R to v; drag: its loss is drag v^2
     struct Pull {
@@ -106,6 +107,7 @@ private:
     std::vector<Point> point_;
     std::vector<Pluck> pluck_;                    // none or one
     std::vector<double> omega_, damping_, loss_;  // omega0, 2 sigma, 2 m sigma
+    std::vector<double> falls_;                   // accelerations by weights [m/s^2]
     // (beta/omega0)^2; empty if the string does not stretch
     std::vector<double> reach_;
     std::vector<double> reads_, weights_, gains_;  // g/omega0, g, g/m [point, then the pluck][mode]

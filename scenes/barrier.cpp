@@ -117,6 +117,20 @@ double contact_modulus(double young1, double poisson1, double young2, double poi
            ((1 - poisson1 * poisson1) / (2 * young1) + (1 - poisson2 * poisson2) / (2 * young2));
 }
 
+// With m w w' = -V'(eta) (1 + beta w), w = eta', the integral of w/(1 + beta w) from -e v to v is
+// 0: (1 + e) d = ln((1 + d)/(1 - e d)), d = beta v < 1/e. Near d = 0 both sides agree: bisection.
+double loss_for_rebound(double restitution, double speed) {
+    const double e = restitution;
+    if (e >= 1) return 0;
+    // the root lies above the minimum of the difference, at d = (1 - e)/e
+    double low = (1 - e) / e, high = 1 / e;
+    while (true) {
+        const double d = low + 0.5 * (high - low);
+        if (!(d > low && d < high)) return d / speed;
+        (std::log1p(d) - std::log1p(-e * d) < (1 + e) * d ? low : high) = d;
+    }
+}
+
 LumpedStiffness contact_stiffness(double contact_modulus, double width) {
     return {std::numbers::pi / 4 * contact_modulus * width};
 }

@@ -42,4 +42,8 @@ double contact_modulus(double young1, double poisson1, double young2, double poi
 // k = pi/4 E* w [N/m] for two parallel cylinders in contact over the width w [m]   (eq 54)
 LumpedStiffness contact_stiffness(double contact_modulus, double width);
 
+// Contact loss beta [s/m] by which a free body that comes in at `speed` [m/s] leaves at
+// `restitution` times this speed, whatever its mass, the stiffness and the exponent.
+double loss_for_rebound(double restitution, double speed);
+
 }  // namespace jvari

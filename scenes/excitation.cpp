@@ -162,7 +162,7 @@ double at_start(const std::vector<double>& weights, const std::vector<double>& y
 }
 
 double stored(const Modes& modes, const std::vector<double>& y, const LumpedBarrier& b) {
-    const double eta = b.height - at_start(footprint_weights(modes, b.position, b.width), y);
+    const double eta = b.sign() * b.height - at_start(contact_weights(modes, b), y);
     return eta > 0 ? b.stiffness.k * std::pow(eta, b.exponent + 1) / (b.exponent + 1) : 0;
 }
 
@@ -194,6 +194,7 @@ double available_energy(const String& s, const Modes& modes) {
     for (const Barrier& barrier : s.barriers)
         energy += std::visit([&](const auto& b) { return stored(modes, y, b); }, barrier);
     for (const Mass& m : s.masses) {
+        if (m.weight > 0) return unknown;
         energy += 0.5 * m.mass * m.velocity * m.velocity;
         energy += stored(modes, y, {m.position, m.width, -m.gap, {m.stiffness}, m.exponent});
     }

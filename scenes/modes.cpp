@@ -106,6 +106,12 @@ std::vector<double> footprint_weights(const Modes& modes, double position, doubl
     return w;
 }
 
+std::vector<double> contact_weights(const Modes& modes, const LumpedBarrier& b) {
+    std::vector<double> g = footprint_weights(modes, b.position, b.width);
+    for (double& x : g) x *= b.sign();
+    return g;
+}
+
 std::vector<double> nut_force_weights(const Modes& modes, const String& s) {
     std::vector<double> w;
     for (int i = 0; i < modes.count(); ++i) {

@@ -37,6 +37,8 @@ double omega_squared_damped(double omega0, double sigma);
 std::vector<double> displacement_weights(const Modes&, double position);  // v_i(x)
 // g_i, eq 20, limit at beta_i w = pi
 std::vector<double> footprint_weights(const Modes&, double position, double width);
+// those of a barrier's contact, in its coordinate
+std::vector<double> contact_weights(const Modes&, const LumpedBarrier&);
 // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 std::vector<double> nut_force_weights(const Modes&, const String&);
 

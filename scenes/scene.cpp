@@ -70,6 +70,9 @@ const char* name_of(Feature f) {
         case Feature::equilibrium: return "static equilibrium";
         case Feature::clipped_loss: return "contact loss that does not pull";
         case Feature::free_mass: return "free mass";
+        case Feature::joined_mass: return "mass on a spring or damper";
+        case Feature::weighed_mass: return "mass with a weight";
+        case Feature::barrier_above: return "barrier above the string";
     }
     return "?";
 }
@@ -124,6 +127,17 @@ Features needed_by(const Barrier& barrier) {
            std::visit([](const auto& b) { return needed_by_law(b); }, barrier);
 }
 
+Features needed_by(const Mass& m) {
+    Features f = Feature::free_mass | needed_by_law(m);
+    if (m.joined()) f = f | Feature::joined_mass;
+    return m.weight > 0 ? f | Feature::weighed_mass : f;
+}
+
+bool stands_above(const Barrier& barrier) {
+    const auto* b = std::get_if<LumpedBarrier>(&barrier);
+    return b && b->side == Side::above;
+}
+
 Features needed_by(const Start& start) {
     const auto* table = std::get_if<TableStart>(&start);
     const bool moves = table && std::any_of(table->velocity.begin(), table->velocity.end(),
@@ -141,7 +155,8 @@ Features needed_by(const Scene& scene) {
         if (s.axial_stiffness != 0) f = f | Feature::tension_modulation;
         f = f | std::visit(DampingNeeds{}, s.damping);
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
-        for (const Mass& m : s.masses) f = f | Feature::free_mass | needed_by_law(m);
+        for (const Mass& m : s.masses) f = f | needed_by(m);
+        if (std::ranges::any_of(s.barriers, stands_above)) f = f | Feature::barrier_above;
         if (s.barriers.size() + s.masses.size() > 1) f = f | Feature::several_barriers;
         if (s.thread) f = f | Feature::thread;
         if (s.start) f = f | needed_by(*s.start);

@@ -66,6 +66,8 @@ struct StiffnessDensity {
 // Effect of a contact loss on the spring's force F_s while the string leaves at the speed v: F_s (1
 // - beta v), which pulls if v > 1/beta, or with `clipped` 0 in place of a pull.
 enum class LossLaw { hunt_crossley, clipped };
+// Side of the string at which a barrier stands. One above pushes the string down, where y > height.
+enum class Side { below, above };
 // one force, averaged over a cosine footprint (van Walstijn et al. 2016, eqs 5-8)
 struct LumpedBarrier {
     double position = 0;  // centre [m]
@@ -75,6 +77,9 @@ struct LumpedBarrier {
     double exponent = 1;
     double contact_loss = 0;  // Hunt-Crossley beta [s/m]
     LossLaw loss_law = LossLaw::hunt_crossley;
+    Side side = Side::below;
+    // The law of a barrier below holds for one above in the coordinate -y.
+    double sign() const { return side == Side::above ? -1 : 1; }
     bool operator==(const LumpedBarrier&) const = default;
 };
 struct FlatCurve {  // g = 0
@@ -117,9 +122,9 @@ struct Thread {            // spring and damper, never detaches (van Walstijn et
     bool operator==(const Thread&) const = default;
 };
 
-// Moving barrier: a free mass on the barriers' side of the string, which meets the string at its
-// top. Its contact pushes the string by k [eta]^exponent, and the mass by the opposite force.
-// Gravity is not modelled.
+// Moving barrier: a mass on the barriers' side of the string, which meets the string at its top.
+// Its contact pushes the string by k [eta]^exponent, and the mass by the opposite force. A spring
+// and a damper may join it to the ground; the spring is relaxed at t = 0.
 struct Mass {
     double mass = 0;      // [kg]
     double position = 0;  // [m]
@@ -130,6 +135,11 @@ struct Mass {
     double exponent = 1;
     double contact_loss = 0;  // [s/m]
     LossLaw loss_law = LossLaw::hunt_crossley;
+    double spring = 0, damping = 0;  // to the ground [N/m], [kg/s]
+    double weight = 0;               // steady force towards the string [N]
+    bool joined() const { return spring > 0 || damping > 0; }
+    // place at which spring and weight are in balance [m]; without a spring, at t = 0
+    double rest() const { return spring > 0 ? weight / spring - gap : -gap; }
     bool operator==(const Mass&) const = default;
 };
 
@@ -285,8 +295,11 @@ enum class Feature : unsigned {
     equilibrium = 1u << 18,   // a start at rest under pressing barriers
     clipped_loss = 1u << 19,  // a contact loss that does not pull
     free_mass = 1u << 20,     // a mass that meets the string
+    joined_mass = 1u << 21,   // one on a spring or a damper
+    weighed_mass = 1u << 22,  // one with a weight
+    barrier_above = 1u << 23,
 };
-constexpr int feature_count = 21;
+constexpr int feature_count = 24;
 const char* name_of(Feature);
 
 struct Features {
@@ -307,7 +320,8 @@ constexpr Features operator-(Features a, Features b) {
 }  // in a and not in b
 std::string names_of(Features);  // "thread, pluck"
 constexpr Features any_rigid = Feature::rigid_barrier | Feature::rigid_profile,
-                   any_profile = Feature::profile_barrier | Feature::rigid_profile;
+                   any_profile = Feature::profile_barrier | Feature::rigid_profile,
+                   any_mass = Feature::free_mass | Feature::joined_mass | Feature::weighed_mass;
 
 Features needed_by(const Scene&);
 

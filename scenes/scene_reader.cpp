@@ -6,7 +6,9 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 
+#include "scenes/barrier.hpp"
 #include "scenes/columns.hpp"
 #include "scenes/document.hpp"
 #include "scenes/material.hpp"
@@ -35,6 +37,7 @@ void emplace(std::variant<T...>& v, std::size_t index) {
     }
 }
 
+constexpr const char* rebound_keys[] = {"restitution", "impact_speed"};
 constexpr const char* tension_keys[] = {"tension", "frequency", "note"};
 
 // ---- Keys allowed in this table. If the key that chooses an alternative is missing or wrong,
@@ -57,6 +60,9 @@ struct Names : Pass<Names> {
         for (const char* key : tension_keys) seen(key);
     }
     void concert_pitch() { seen("A4"); }
+    void rebound() {
+        for (const char* key : rebound_keys) seen(key);
+    }
     void part(const char* key, auto&) { seen(key); }
     void parts(const char* key, auto&) { seen(key); }
     template <class... T>
@@ -136,6 +142,25 @@ public:
                      "nothing beside material and diameter, which say as much");
             if (!beside || overridden) wire_[key] = value;
         }
+    }
+    // Reads a contact loss by a restitution at an impact speed. An override of the loss itself
+    // leaves both unread.
+    void rebound() {
+        const Value* loss = table_.find("contact_loss");
+        const Value* first = table_.find(rebound_keys[0]);
+        if (!first) first = table_.find(rebound_keys[1]);
+        if (!first || (loss && loss->place < 0 && first->place > 0)) return;
+        double e = 1, v = 0;
+        number(rebound_keys[0], e, fraction, "");
+        number(rebound_keys[1], v, positive, "m/s");
+        for (const auto& [key, x, range] :
+             {std::tuple{rebound_keys[0], e, fraction}, {rebound_keys[1], v, positive}})
+            if (!range.holds(x))
+                fail(*table_.find(key), at(key), table_.find(key)->found(), range.says);
+        if (loss && (loss->place < 0) == (first->place < 0))
+            fail(*loss, at("contact_loss"), loss->found(),
+                 "nothing beside restitution and impact_speed, which say as much");
+        wire_["contact_loss"] = loss_for_rebound(e, v);
     }
     // Reads exactly one among three keys. If an override brings one, the file's other keys stay
     // unread.
@@ -372,7 +397,7 @@ private:
     const Value& table_;
     std::string path_;
     bool overridden_ = false;  // an override brings the force: the file's keys stay unread
-    // numbers that follow from material and diameter, or a force
+    // numbers that follow from material and diameter, from a force, or from a restitution
     std::map<std::string, double, std::less<>> wire_;
 };
 }  // namespace

@@ -6,9 +6,9 @@
 // A pass has number, stiffness (a number or "rigid"), count, text, optional_text, file (beside the
 // scene), choice, string_index, refused (a key without meaning here), columns (a CSV file), modes
 // (columns with numbered rows), one_of (a variant and its choosing key), material (with a diameter,
-// in place of two numbers), tension (or a pitch), concert_pitch (A4 of those), start ("rest" or a
-// CSV file, in place of a table), start_table (its columns), force (a file), part (a table) and
-// parts (an array of tables).
+// in place of two numbers), rebound (a restitution, in place of a contact loss), tension (or a
+// pitch), concert_pitch (A4 of those), start ("rest" or a CSV file, in place of a table),
+// start_table (its columns), force (a file), part (a table) and parts (an array of tables).
 #pragma once
 
 #include <concepts>
@@ -75,6 +75,7 @@ inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_f
                                                 "per_period"};
 inline constexpr const char* barrier_names[] = {"lumped", "profile"};
 inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
+inline constexpr const char* side_names[] = {"below", "above"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* shape_names[] = {"mode", "triangle"};
 
@@ -104,6 +105,7 @@ struct Pass {
     void start(const char* key, auto&) { self().seen(key); }
     void force(const char* key, auto&) { self().seen(key); }
     void material() {}
+    void rebound() {}
     void tension(auto&) {}
     void concert_pitch() {}
     void start_table(auto&) {}
@@ -169,8 +171,10 @@ void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.number("height", b.height, any, "m", 0.0);
     pass.stiffness("stiffness", b.stiffness.k, "N/m^exponent");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
+    pass.rebound();
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
     pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
+    pass.choice("side", b.side, side_names, Side::below);
 }
 void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.one_of("curve", b.curve, curve_names);
@@ -178,6 +182,7 @@ void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.number("to", b.to, any, "m");
     pass.stiffness("stiffness_density", b.stiffness.K, "N/m^(exponent+1)");
     pass.number("exponent", b.exponent, one_or_more, "", 1.0);
+    pass.rebound();
     pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
     pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
 }
@@ -199,8 +204,12 @@ void fields(auto& pass, Is<Mass> auto& m) {
     pass.number("gap", m.gap, any, "m", 0.0);
     pass.number("stiffness", m.stiffness, positive, "N/m^exponent");
     pass.number("exponent", m.exponent, one_or_more, "", 1.0);
+    pass.rebound();
     pass.number("contact_loss", m.contact_loss, not_negative, "s/m", 0.0);
     pass.choice("loss_law", m.loss_law, loss_law_names, LossLaw::hunt_crossley);
+    pass.number("spring", m.spring, not_negative, "N/m", 0.0);
+    pass.number("damping", m.damping, not_negative, "kg/s", 0.0);
+    pass.number("weight", m.weight, not_negative, "N", 0.0);
 }
 
 // ---- Initial shape and excitation

@@ -89,8 +89,8 @@ void rest(const Modes& modes, const String& s, const Yield& yield, ModalStart& s
     std::vector<RestingPoint> points;
     std::vector<std::vector<double>> g;
     const auto add = [&](const LumpedBarrier& b) {
-        points.push_back({b.stiffness.k, b.exponent, b.height});
-        g.push_back(footprint_weights(modes, b.position, b.width));
+        points.push_back({b.stiffness.k, b.exponent, b.sign() * b.height});
+        g.push_back(contact_weights(modes, b));
     };
     for (const Barrier& b :
          without_profiles(s, [](const ProfileBarrier& p) { return lumped(p, parts); }))

@@ -136,6 +136,16 @@ struct On {
                            "a number above from, " + number_text(b.from) + " [m]");
         if (const auto* table = std::get_if<TableCurve>(&b.curve)) curve(part, b, *table);
     }
+    void mass(const std::string& part, const Mass& m) const {
+        footprint(part, m.position, m.width);
+        if (m.weight > 0 && m.damping > 0 && m.spring == 0)
+            throw BadScene(path + part + ".damping", number_text(m.damping),
+                           "none beside a weight without a spring");
+        if ((m.weight > 0 || m.joined()) && string.start &&
+            std::holds_alternative<RestStart>(*string.start))
+            throw BadScene(path + "start", "\"rest\"",
+                           "another start beside a mass with a spring, a damper or a weight");
+    }
     void without_tension() const {
         if (string.bending_stiffness == 0)
             throw BadScene(path + "tension", "0",
@@ -158,8 +168,7 @@ struct On {
                     string.barriers[i]);
         }
         for (std::size_t k = 0; k < string.masses.size(); ++k)
-            footprint("mass." + std::to_string(k), string.masses[k].position,
-                      string.masses[k].width);
+            mass("mass." + std::to_string(k), string.masses[k]);
         if (string.thread) footprint("thread", string.thread->position, string.thread->width);
         if (string.pluck) footprint("pluck", string.pluck->position, string.pluck->width);
         if (string.velocity) shape("velocity", *string.velocity);
@@ -255,6 +264,9 @@ void validate(const Scene& scene) {
         if (moves && s.start && std::holds_alternative<RestStart>(*s.start))
             throw BadScene("string." + std::to_string(i) + ".start", "\"rest\"",
                            "another start of a string that stretches or ends on a moving body");
+        if (moves && needed_by(scene).has(Feature::barrier_above))
+            throw BadScene("string." + std::to_string(i) + ".barrier", "one above",
+                           "none on a string that stretches or ends on a moving body");
         if (moves && !s.masses.empty())
             throw BadScene("string." + std::to_string(i) + ".mass", "a mass",
                            "none on a string that stretches or ends on a moving body");

@@ -117,6 +117,20 @@ Scene with(Feature feature, Scene scene) {
             if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
             s.masses = {{2e-3, 6 * s.length / (contract_modes + 1), 0, 2 * s.length, 0, 1e4, 1, 0}};
             break;
+        case Feature::joined_mass:
+        case Feature::weighed_mass:
+            scene = with(Feature::free_mass, scene);
+            for (Mass& m : scene.strings.back().masses)
+                if (feature == Feature::joined_mass) m.spring = 2e3, m.damping = 0.5;
+                else m.weight = 0.2;
+            break;
+        case Feature::barrier_above: {  // one of two jaws
+            if (needed_by(scene).any(Feature::moving_body | Feature::tension_modulation)) break;
+            LumpedBarrier jaw = soft_bridge(s, 3);
+            jaw.height = 1e-5 * s.length, jaw.side = Side::above;
+            s.barriers = {jaw};
+            break;
+        }
         case Feature::moving_body:
             scene.body = Body{"", "", {{0.02, 2.5e4, 0.5}, {0.05, 2e5, 2}}};
             break;
@@ -274,6 +288,18 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::free_mass:
             for (double Mass::*member : {&Mass::mass, &Mass::velocity})
                 add([member](String& s) { return s.masses[0].*member *= 2, true; });
+            break;
+        case Feature::joined_mass:
+            for (double Mass::*member : {&Mass::spring, &Mass::damping})
+                add([member](String& s) { return s.masses[0].*member *= 4, true; });
+            break;
+        case Feature::weighed_mass:
+            add([](String& s) { return s.masses[0].weight *= 4, true; });
+            break;
+        case Feature::barrier_above:
+            each_barrier([](auto& b) {
+                if constexpr (requires { b.side; }) b.side = Side::below;
+            });
             break;
         case Feature::moving_body:
             all.push_back(scene);

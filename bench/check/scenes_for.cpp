@@ -40,6 +40,15 @@ Scene as_far_as(const Descriptor& d, Scene scene) {
             std::ranges::fill(t->velocity, 0.0);
         if (!f.has(Feature::pluck)) s.pluck.reset();
         if (!f.has(Feature::free_mass)) s.masses.clear();
+        for (Mass& m : s.masses) {
+            if (!f.has(Feature::joined_mass)) m.spring = m.damping = 0;
+            if (!f.has(Feature::weighed_mass)) m.weight = 0;
+        }
+        if (!f.has(Feature::barrier_above))
+            std::erase_if(s.barriers, [](const Barrier& b) {
+                const auto* lumped = std::get_if<LumpedBarrier>(&b);
+                return lumped && lumped->side == Side::above;
+            });
         if (!f.has(Feature::polarisation)) s.polarisation.reset();
         std::erase_if(s.barriers, [f](const Barrier& b) {
             return !f.has(std::holds_alternative<LumpedBarrier>(b) ? Feature::lumped_barrier

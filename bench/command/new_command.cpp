@@ -73,7 +73,11 @@ constexpr const char* what_else = R"(
 #   quantity = "driving_force"  -(bridge_force + thread_force)
 #
 # A hammer or a bolt is a [[string.mass]]: `mass`, `position`, `stiffness` of its felt, `gap` below
-# the string, `velocity` towards it. A tap with `mass = 0` hears it.
+# the string, `velocity` towards it. `weight` presses a ring against the string, `spring` and
+# `damping` join a rattling foot to the ground. A tap with `mass = 0` hears it.
+#
+# A lumped barrier with side = "above" pushes the string down. `restitution` and `impact_speed`
+# [m/s] may stand in place of its `contact_loss`.
 #
 # Start: [string.start] is a shape that is let go, [string.velocity] the same of its velocity,
 # [string.pluck] the force of a finger or hammer.

@@ -29,7 +29,7 @@ constexpr double most_stiffness = 1e13;  // [N/m^exponent], a thousand times the
 
 bool plucked(const String& s) { return s.pluck && s.pluck->amplitude != 0; }
 bool pressed(const String& s) {  // true if a barrier or a thread pushes or pulls at rest
-    const auto above = [](const LumpedBarrier& b) { return b.height > 0; };
+    const auto above = [](const LumpedBarrier& b) { return b.sign() * b.height > 0; };
     const auto somewhere = [](const ProfileBarrier& b) {
         const auto* table = std::get_if<TableCurve>(&b.curve);
         const auto is_above = [&](double x) { return height(b.curve, x) > 0; };
@@ -51,8 +51,9 @@ double highest(const ProfileBarrier& b) {  // with its sign
 bool set_in_motion(const String& s, double before) {
     const bool table = s.start && std::holds_alternative<TableStart>(*s.start);
     return largest_displacement(s) != 0 || table || s.velocity || pressed(s) ||
-           std::ranges::any_of(s.masses,
-                               [](const Mass& m) { return m.velocity > 0 || m.gap < 0; }) ||
+           std::ranges::any_of(
+               s.masses,
+               [](const Mass& m) { return m.velocity > 0 || m.gap < 0 || m.weight > 0; }) ||
            (plucked(s) && s.pluck->start < before);
 }
 }  // namespace
@@ -129,7 +130,6 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
     }
 }
 
-void refuse_slow_rate(const Scene& scene, double rate) {
 void note_lasting_forces(const Scene& scene, const store::Listener& listener) {
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const auto& p = scene.strings[i].pluck;
@@ -142,6 +142,7 @@ void note_lasting_forces(const Scene& scene, const store::Listener& listener) {
     }
 }
 
+void refuse_slow_rate(const Scene& scene, double rate) {
     if (const double pitch = lowest_pitch(scene); rate < 2 * pitch)
         throw store::UsageError(
             fmt::format("found the rate {:g} Hz, expected at least twice the pitch of {}, {:.4g} "

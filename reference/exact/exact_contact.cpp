@@ -132,7 +132,10 @@ public:
           tolerance_(share_of(tolerance, window_share)),
           interval_(window_.per_row),
           steps_(0.1 * share_of(tolerance, step_share), exponent_of(law_)),
-          barrier_(std::move(barrier_of_each)) {
+          barrier_(std::move(barrier_of_each)),
+          falling_(falling(modes_, s)) {
+        for (const auto& [b, g] : touched_by(modes_, s)) sign_.push_back(b.sign());
+        mass_impulse_.resize(s.masses.size());
         if (s.pluck) pluck_.push_back(*s.pluck);
         ModalStart start = with_masses(
             start_of(modes, s, series ? Yield{{}, series->C.C, series->C.pluck} : Yield{}), modes,
@@ -183,6 +186,7 @@ public:
         leaves_ = HUGE_VAL;
         onward_ = false;
         bridge_impulse_ = thread_impulse_ = 0;
+        std::fill(mass_impulse_.begin(), mass_impulse_.end(), 0.0);
         energies_ = {};
         extremes_ = {};
     }
@@ -228,6 +232,7 @@ private:
     // to the next row
     bool interval(const Block& out) noexcept {
         bridge_impulse_ = thread_impulse_ = 0;
+        std::fill(mass_impulse_.begin(), mass_impulse_.end(), 0.0);
         energies_ = {};
         return parts_.each(
             row_ / tap_rate_, interval_, window_.seconds(),
@@ -270,7 +275,12 @@ private:
             now = step == left ? end : now + step;
         }
         w.state_at(end, moments_.data(), y_.data(), u_.data(), y_.data(), u_.data());
-        for (int a = 0; a < w.contacts; ++a) bridge_impulse_ += at(moments_, a)[0] * w.seconds();
+        for (int a = 0; a < w.contacts; ++a) {
+            const double impulse = at(moments_, a)[0] * w.seconds();
+            bridge_impulse_ += sign_[a] * impulse;
+            const int mass = a - w.contacts + static_cast<int>(mass_impulse_.size());
+            if (mass >= 0) mass_impulse_[mass] += impulse;
+        }
         thread_impulse_ += w.thread_impulse();
         if (w.series()) std::copy_n(w.series_state(), z_.size(), z_.begin());
         return std::isfinite(y_[0]);
@@ -549,6 +559,7 @@ private:
             kinetic += u_[i] * u_[i];
             potential += stiffness_[i] * y_[i] * y_[i];
         }
+        for (int i = 0; i < modes_.count(); ++i) potential -= 2 * falling_[i] * y_[i];
         double energy =
             0.5 * (potential + modes_.mass * kinetic / (window_.seconds() * window_.seconds()));
         const auto& series = window_.series();
@@ -563,7 +574,7 @@ private:
     }
     void write(const Block& out, int row) const noexcept {
         readout_.write(out, row, y_.data(), u_.data(), 1 / window_.seconds(),
-                       bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_);
+                       bridge_impulse_ * tap_rate_, thread_impulse_ * tap_rate_, mass_impulse_);
         const double F_e = pluck_.empty() ? 0 : force(pluck_[0], row_ / tap_rate_);
         if (window_.series()) add_series(out, row, *window_.series(), z_.data(), F_e);
         if (out.energy)
@@ -600,7 +611,10 @@ private:
     double rigid_stiffness_ = 0;  // stiffest spring that represents a rigid barrier [N/m]
     double leaves_ = HUGE_VAL;    // estimated time at which the first collocated point lets go
     Extremes extremes_;
-    std::vector<int> barrier_;    // for each contact
+    std::vector<int> barrier_;          // for each contact
+    std::vector<double> sign_;          // of its coordinate
+    std::vector<double> mass_impulse_;  // from each mass in the interval that ends here [N s]
+    std::vector<double> falling_;
     Impacts* impacts_ = nullptr;  // from the current block
     double clock_ = 0;            // when the window begins [s]
 
@@ -665,7 +679,7 @@ const Descriptor exact_contact = {
                   Feature::power_law_contact | Feature::contact_loss | Feature::thread |
                   Feature::initial_shape | Feature::pluck | Feature::rigid_barrier |
                   Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss |
-                  Feature::free_mass,
+                  any_mass | Feature::barrier_above,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -56,6 +56,7 @@ public:
         start_u_ = flight_.window.osc.pad(start.velocity);
         if (series) start_z_ = series->resting(start.force);
         untouched_.assign(equations_.contacts + 1, 0);
+        falling_ = falling(modes_, s);
         y_ = u_ = start_;
         reset();
     }
@@ -199,6 +200,7 @@ private:
             const double v = flight_.window.osc.rate * u_[i], p = modes_.omega0[i] * y_[i];
             kinetic += v * v + p * p;
             reach += equations_.reach(i) * p * p;
+            kinetic -= 2 * falling_[i] * y_[i] / modes_.mass;
         }
         energy = 0.5 * modes_.mass * kinetic + equations_.stretching(reach);
         if (series()) energy += series()->stored(flight_.z.data());
@@ -227,7 +229,7 @@ private:
     std::vector<Pluck> pluck_;  // none or one
     PluckParts parts_;
     double tap_rate_, interval_;
-    std::vector<double> start_, start_u_, start_z_;
+    std::vector<double> start_, start_u_, start_z_, falling_;
     std::vector<char> untouched_;
 
     std::vector<double> y_, u_;
@@ -283,13 +285,13 @@ const Descriptor sundials = {
     .name = "sundials",
     .source =
         "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-    .represents = Feature::bending_stiffness | Feature::damping |
-                  Feature::frequency_dependent_damping | Feature::measured_modes |
-                  Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
-                  Feature::power_law_contact | Feature::contact_loss | Feature::thread |
-                  Feature::initial_shape | Feature::pluck | Feature::moving_body |
-                  Feature::tension_modulation | Feature::initial_velocity | Feature::equilibrium |
-                  Feature::clipped_loss | Feature::free_mass,
+    .represents =
+        Feature::bending_stiffness | Feature::damping | Feature::frequency_dependent_damping |
+        Feature::measured_modes | Feature::lumped_barrier | Feature::profile_barrier |
+        Feature::several_barriers | Feature::power_law_contact | Feature::contact_loss |
+        Feature::thread | Feature::initial_shape | Feature::pluck | Feature::moving_body |
+        Feature::tension_modulation | Feature::initial_velocity | Feature::equilibrium |
+        Feature::clipped_loss | Feature::free_mass | Feature::weighed_mass | Feature::barrier_above,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "reference/exact/pluck_series.hpp"
+#include "reference/masses.hpp"
 #include "reference/readout.hpp"
 
 namespace jvari {
@@ -105,6 +106,16 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     }
     free_flow(1, flow_);
     make_kernel();
+    const std::vector<double> force = falling(modes, s);
+    for (int i = 0; i < modes.count(); ++i)
+        if (force[i] != 0) falls_.emplace_back(i, force[i] / modes.mass * seconds() * seconds());
+}
+
+void MacroWindow::fall(double at, double* y_out, double* u_out) const noexcept {
+    for (const auto& [mode, a] : falls_) {
+        y_out[mode] += 0.5 * a * at * at;
+        u_out[mode] += a * at;
+    }
 }
 
 void MacroWindow::make_base(const Modes& modes) {
@@ -304,6 +315,7 @@ void MacroWindow::open(const double* y, const double* u, bool plucked, double si
     for (int b = 0; b < contacts; ++b) {
         double* f = free_.data() + b * stride;
         std::fill(f + terms, f + size, 0.0);
+        for (const auto& [mode, a] : falls_) f[2] += s.weights[b * osc.padded + mode] * a;
         f[0] -= s.height[b];
         for (int n = 0; n < terms; ++n) largest = std::max(largest, std::abs(f[n]) * slower_[n]);
         most = std::max(most, reach_[b] + std::abs(s.height[b]) + s.pluck_reach);
@@ -389,6 +401,7 @@ void MacroWindow::state_at(double at, const double* M, const double* y, const do
         flow = flow_at_.data();
     }
     move(act(at, e, M), flow, y, u, y_out, u_out);
+    fall(at, y_out, u_out);
 }
 
 void MacroWindow::state_near(double at, const double* M, const double* y, const double* u,
@@ -404,6 +417,7 @@ void MacroWindow::state_near(double at, const double* M, const double* y, const 
     acting_[acting] = impulse_.data(), acting_moments_[acting++] = e;
     acting_[acting] = offset_.data(), acting_moments_[acting++] = e - 1;
     move(acting, zeros_.data(), y, u, y_out, u_out);
+    fall(at, y_out, u_out);
 }
 
 MacroWindow::Push MacroWindow::push_at(double at) const noexcept {

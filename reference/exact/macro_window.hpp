@@ -14,6 +14,7 @@
 // [m]. Leaves out: contact, which its users decide.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "reference/exact/modal_sweep.hpp"
@@ -108,6 +109,8 @@ private:
                           double* F) const;
     void make_base(const Modes&);
     void make_kernel();
+    // Adds the ways of falling masses, exact in any form of the modes' motion.
+    void fall(double at, double* y_out, double* u_out) const noexcept;
     void free_flow(double at, std::vector<double>& e) const noexcept;
     int act(double at, const double* e, const double* M) noexcept;
     void move(int forces, const double* flow, const double* y, const double* u, double* y_out,
@@ -130,7 +133,8 @@ private:
     // base_gain_: the gain for the last point's own force.
     std::vector<double> base_, over_base_, weights_, gains_, base_moments_;
     double base_gain_ = 0;
-    std::vector<double> slower_;  // reach^-n
+    std::vector<double> slower_;                 // reach^-n
+    std::vector<std::pair<int, double>> falls_;  // mode of a mass with a weight, its acceleration
     double tail_, modal_tail_, truncation_ = 0, rounding_ = 0, kernel_truncation_ = 0,
                                thread_impulse_ = 0, thread_force_ = 0, push_growth_ = 0;
     bool plucked_ = false;

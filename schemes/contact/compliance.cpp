@@ -84,9 +84,8 @@ double averaged(const Footprint& p, double layer, std::vector<double> breaks, co
 
 double over_modes(const String& s, int count, const Reading& r, const Footprint& force) {
     const Modes modes = modes_of(s, count);
-    const auto w = r.nut_force ? nut_force_weights(modes, s)
-                               : footprint_weights(modes, r.at.position, r.at.width);
-    const auto g = footprint_weights(modes, force.position, force.width);
+    const auto w = r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at);
+    const auto g = footprint_weights(modes, force);
     double sum = 0;
     for (int i = count - 1; i >= 0; --i)
         sum += w[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
@@ -95,6 +94,12 @@ double over_modes(const String& s, int count, const Reading& r, const Footprint&
 
 const TableDamping* measured(const String& s) { return std::get_if<TableDamping>(&s.damping); }
 }  // namespace
+
+std::vector<double> footprint_weights(const Modes& modes, const Footprint& f) {
+    std::vector<double> g = footprint_weights(modes, f.position, f.width);
+    for (double& x : g) x *= f.sign;
+    return g;
+}
 
 double static_deflection(const String& s, const Footprint& p, const Footprint& q) {
     if (const auto* table = measured(s))
@@ -109,20 +114,23 @@ double static_deflection(const String& s, const Footprint& p, const Footprint& q
             return pi * pi * std::cosh(0.5 * l * w) / (pi * pi + l * l * w * w);
         };
         const double x = std::min(p.position, q.position), z = std::max(p.position, q.position);
-        return (x * (L - z) / L - window(p.width) * window(q.width) * bent(l, L, x, z)) / s.tension;
+        return p.sign * q.sign *
+               (x * (L - z) / L - window(p.width) * window(q.width) * bent(l, L, x, z)) / s.tension;
     }
     const Footprint &inner = p.width < q.width ? q : p, &outer = p.width < q.width ? p : q;
-    return averaged(
-        outer, layer, {inner.position - 0.5 * inner.width, inner.position + 0.5 * inner.width},
-        [&](double x) {
-            return averaged(inner, layer, {x}, [&](double z) { return green(s, x, z); });
-        });
+    return p.sign * q.sign *
+           averaged(outer, layer,
+                    {inner.position - 0.5 * inner.width, inner.position + 0.5 * inner.width},
+                    [&](double x) {
+                        return averaged(inner, layer, {x},
+                                        [&](double z) { return green(s, x, z); });
+                    });
 }
 
 double static_nut_force(const String& s, const Footprint& force) {
     if (const auto* table = measured(s))
         return over_modes(s, static_cast<int>(table->frequency_hz.size()), {{}, true}, force);
-    return force.position / s.length;  // balance of moments about the other end
+    return force.sign * force.position / s.length;  // balance of moments about the other end
 }
 
 namespace {
@@ -210,8 +218,7 @@ CutModes cut_modes(const String& s, std::span<const Footprint> points, int kept,
     CutModes cut;
     const Modes& modes = cut.modes = modes_of(s, all);
     const std::size_t n = points.size();
-    for (const Footprint& p : points)
-        cut.g.push_back(footprint_weights(modes, p.position, p.width));
+    for (const Footprint& p : points) cut.g.push_back(footprint_weights(modes, p));
     for (std::size_t a = 0; a < n; ++a)
         for (std::size_t b = 0; b < n; ++b) {
             // below half the sample rate
@@ -256,7 +263,7 @@ std::vector<Footprint> footprints_of(const String& s) {
     std::vector<Footprint> all;
     for (const Barrier& barrier : s.barriers)
         if (const auto* b = std::get_if<LumpedBarrier>(&barrier))
-            all.push_back({b->position, b->width});
+            all.push_back({b->position, b->width, b->sign()});
     for (const Mass& m : s.masses) all.push_back({m.position, m.width});
     return all;
 }

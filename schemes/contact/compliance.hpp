@@ -37,7 +37,9 @@ inline constexpr Option compliance_option{
 struct Footprint {        // region in which a force acts and a displacement is read
     double position = 0;  // centre [m]
     double width = 0;     // width of the cosine [m]; 0: a point
+    double sign = 1;      // -1: both count downwards, at a barrier above
 };
+std::vector<double> footprint_weights(const Modes&, const Footprint&);
 
 // C_true [m/N]
 double static_deflection(const String&, const Footprint& at, const Footprint& force);

@@ -66,18 +66,20 @@ struct Contacts {  // the contacts on a string
     std::vector<double> loss;     // Hunt-Crossley beta [s/m]
     std::vector<LossLaw> loss_law;
     std::vector<BarrierOf> of;
+    std::vector<double> sign;  // -1: the contact's coordinate is -y
 
     int count() const { return static_cast<int>(laws.size()); }
     bool any_rigid() const {
         return std::any_of(laws.begin(), laws.end(), [](const ContactLaw& l) { return l.rigid(); });
     }
     void add(const ContactLaw& law, double height, double beta,
-             LossLaw loss_by = LossLaw::hunt_crossley, BarrierOf barrier = {}) {
+             LossLaw loss_by = LossLaw::hunt_crossley, BarrierOf barrier = {}, double way = 1) {
         laws.push_back(law);
         heights.push_back(height);
         loss.push_back(beta);
         loss_law.push_back(loss_by);
         of.push_back(barrier);
+        sign.push_back(way);
     }
     void add(const Contacts& more, int string) {
         for (int a = 0; a < more.count(); ++a)

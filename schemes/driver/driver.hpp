@@ -74,7 +74,7 @@ public:
             v->assign(static_cast<std::size_t>(moments) * points().count(), 0.0);
         for (std::size_t p = 0; p < points().start_velocity.size(); ++p)
             moving_[p] = points().dt * points().start_velocity[p];
-        masses_.subtract_way(moving_.data(), 1);
+        masses_.subtract_speed(moving_.data());
         std::copy(points().start_force.begin(), points().start_force.end(), resting_.begin());
         plucked_in_series_ = points().series && !points().series->pluck.empty();
         dt_ = points().dt;
@@ -192,10 +192,10 @@ private:
         if (impacts_) tell_impacts();
         means_.count(force_.data());
         const Spent spent = string_->pass(force_.data(), 0, probed);
-        masses_.pass(force_.data());
+        const double damped = masses_.pass(force_.data());
         if (probed) {
             supplied_ += spent.supplied - by_way_of_series(before, n + 1);
-            dissipated_ += spent.dissipated + dt_ * obstacle_.loss();
+            dissipated_ += spent.dissipated + damped + dt_ * obstacle_.loss();
         }
         if (string_->failed() && status_.outcome == Outcome::ok)
             status_ = {Outcome::diverged, done_};
@@ -290,7 +290,7 @@ private:
                 out.tap[k * out.stride + row] +=
                     points().series->on_tap(k, obstacle_.forces(0), F_e);
         }
-        masses_.write(out, row, means, force_.data());
+        masses_.write(out, row, means);
         if (out.energy) write_energy(out, row, stored(), supplied_, dissipated_);
         supplied_ = dissipated_ = 0;
     }

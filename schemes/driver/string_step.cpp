@@ -25,12 +25,14 @@ std::vector<Place> add_contacts(StringPoints& p, const String& s, int intervals)
         all.push_back(place);
         p.positions.push_back(place.at.position);
         p.contacts.add(law, height, b.contact_loss, b.loss_law,
-                       {0, of, static_cast<int>(s.barriers.size() + s.masses.size())});
+                       {0, of, static_cast<int>(s.barriers.size() + s.masses.size())},
+                       place.at.sign);
     };
     for (const Barrier& barrier : s.barriers) {
         ++of;
         if (const auto* b = std::get_if<LumpedBarrier>(&barrier)) {
-            add({{b->position, b->width}}, {b->stiffness.k, b->exponent}, b->height, *b);
+            add({{b->position, b->width, b->sign()}}, {b->stiffness.k, b->exponent},
+                b->sign() * b->height, *b);
             continue;
         }
         const auto& b = std::get<ProfileBarrier>(barrier);

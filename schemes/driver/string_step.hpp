@@ -68,7 +68,7 @@ void add_lumped(StringPoints&, const String&);
 // quantity.
 inline double heard_force(Quantity quantity, const StringPoints& p, const double* mean) {
     double bridge = 0, thread = 0;
-    for (int a = 0; a < p.contacts.count(); ++a) bridge += mean[a];
+    for (int a = 0; a < p.contacts.count(); ++a) bridge += p.contacts.sign[a] * mean[a];
     for (int k = p.contacts.count(); k < p.count(); ++k) thread += mean[k];
     switch (quantity) {
         case Quantity::bridge_force: return bridge;

@@ -235,6 +235,12 @@ std::vector<double> at_nodes(const std::vector<double>& a, const Grid& g) {
     return u;
 }
 
+Stencil stencil_of(const Grid& g, const Footprint& f) {
+    Stencil s = footprint_stencil(g, f.position, f.width);
+    for (double& w : s.weight) w *= f.sign;
+    return s;
+}
+
 // Puts the compliance that the grid takes from the string in series (contact/compliance.hpp); the
 // time steps take none under a steady force.
 void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const String& s) {
@@ -243,13 +249,12 @@ void put_in_series(GridString& g, const Descriptor& d, const Scene& scene, const
     std::vector<std::vector<double>> shape;  // under 1 N from each force
     for (const Footprint& f : sites.forces) {
         shape.emplace_back(g.grid.intervals + 1, 0.0);
-        footprint_stencil(g.grid, f.position, f.width).add(1 / g.mass, shape.back().data());
+        stencil_of(g.grid, f).add(1 / g.mass, shape.back().data());
         stiffness.solve(shape.back().data());
     }
     std::vector<Stencil> reader;
     for (const Reading& r : sites.readings)
-        reader.push_back(static_cast<int>(reader.size()) < sites.points()
-                             ? footprint_stencil(g.grid, r.at.position, r.at.width)
+        reader.push_back(static_cast<int>(reader.size()) < sites.points() ? stencil_of(g.grid, r.at)
                          : r.nut_force ? nut_force_stencil(g.grid, s)
                                        : displacement_stencil(g.grid, r.at.position));
     g.points.series =
@@ -289,7 +294,7 @@ GridString on_grid(const Descriptor& descriptor, const Scene& scene, const Setti
     g.moves = needed_by(scene).has(Feature::initial_velocity);
     g.points = points_of(scene, dt);
     const auto lump = [&](const Footprint& f) {
-        g.stencils.push_back(footprint_stencil(grid, f.position, f.width));
+        g.stencils.push_back(stencil_of(grid, f));
         g.narrowest =
             g.narrowest == 0 ? f.width / grid.dx : std::min(g.narrowest, f.width / grid.dx);
     };

@@ -131,7 +131,7 @@ constexpr Features grid_features =
     Feature::bending_stiffness | Feature::damping | Feature::frequency_dependent_damping |
     Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
     Feature::power_law_contact | Feature::contact_loss | Feature::thread | Feature::initial_shape |
-    Feature::initial_velocity | Feature::pluck | Feature::free_mass | any_rigid;
+    Feature::initial_velocity | Feature::pluck | any_mass | Feature::barrier_above | any_rigid;
 inline constexpr Approximation grid_approximates[] = {
     {Feature::frequency_dependent_damping, facts::loss_fit_misfit}};
 

@@ -12,11 +12,9 @@ MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& sc
     const String& s = scene.strings.front();
     const Sites sites = sites_of(scene);
     std::vector<std::vector<double>> g, w;
-    for (const Footprint& f : sites.forces)
-        g.push_back(footprint_weights(modes, f.position, f.width));
+    for (const Footprint& f : sites.forces) g.push_back(footprint_weights(modes, f));
     for (const Reading& r : sites.readings)
-        w.push_back(r.nut_force ? nut_force_weights(modes, s)
-                                : footprint_weights(modes, r.at.position, r.at.width));
+        w.push_back(r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at));
     return missing_matrix(descriptor.name, s, sites, scene.taps.size(), modes.count(), step,
                           [&](int r, int f) {
                               double sum = 0;
@@ -43,7 +41,7 @@ void put_start(StringPoints& p, const String& s, const Modes& modes, const Modal
     std::vector<Footprint> points = footprints_of(s);
     if (s.thread) points.push_back({s.thread->position, s.thread->width});
     for (const Footprint& f : points) {
-        const auto g = footprint_weights(modes, f.position, f.width);
+        const auto g = footprint_weights(modes, f);
         p.start_velocity.push_back(modal_dot(g, start.velocity));
     }
 }

@@ -42,7 +42,7 @@ std::unique_ptr<Scheme> quadratised_modes(const Descriptor& descriptor, const Sc
 extern const Descriptor modal_quadratised = {
     .name = "modal_quadratised",
     .source = "Ducceschi et al. 2021, psi released in full where it would pull",
-    .represents = modal_features_of_points | Feature::free_mass,
+    .represents = modal_features_of_points | any_mass | Feature::barrier_above,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = quadratised_modes,

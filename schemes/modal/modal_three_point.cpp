@@ -24,7 +24,7 @@ extern const Descriptor modal_three_point, modal_quadratised, modal_explicit_pen
 const Descriptor modal_three_point = {
     .name = "modal_three_point",
     .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
-    .represents = modal_features_of_points | any_rigid | Feature::free_mass,
+    .represents = modal_features_of_points | any_rigid | any_mass | Feature::barrier_above,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make<GradientRule>,

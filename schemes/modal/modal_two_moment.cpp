@@ -23,7 +23,8 @@ extern const Descriptor modal_two_moment = {
     .name = "modal_two_moment",
     .source = "docs/two-moments.md; Betsch & Steinmann 2001, Gonzalez 1996",
     .represents = modal_features | Feature::several_barriers | Feature::contact_loss |
-                  Feature::clipped_loss | Feature::rigid_barrier | Feature::free_mass,
+                  Feature::clipped_loss | Feature::rigid_barrier | Feature::free_mass |
+                  Feature::barrier_above,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make,

@@ -44,21 +44,21 @@ std::unique_ptr<Scheme> make(const Descriptor& descriptor, const Scene& scene,
 
 }  // namespace
 
-extern const Descriptor modal_two_point = {.name = "modal_two_point",
-                                           .source = "van Walstijn et al. 2016, eqs 16-52",
-                                           .represents = modal_features_of_points |
-                                                         Feature::moving_body | any_rigid |
-                                                         Feature::clipped_loss | Feature::free_mass,
-                                           .balance = Balance::exact,
-                                           .clock = Clock::stepped,
-                                           .make = make<GradientRule>,
-                                           .options = matched_options,
-                                           .approximates = modal_approximates,
-                                           .stand_in_rank = 2};
+extern const Descriptor modal_two_point = {
+    .name = "modal_two_point",
+    .source = "van Walstijn et al. 2016, eqs 16-52",
+    .represents = modal_features_of_points | Feature::moving_body | any_rigid |
+                  Feature::clipped_loss | any_mass | Feature::barrier_above,
+    .balance = Balance::exact,
+    .clock = Clock::stepped,
+    .make = make<GradientRule>,
+    .options = matched_options,
+    .approximates = modal_approximates,
+    .stand_in_rank = 2};
 extern const Descriptor modal_two_point_trapezoidal = {
     .name = "modal_two_point_trapezoidal",
     .source = "van Walstijn et al. 2016, eq 32: coefficients not replaced (dispersive control)",
-    .represents = modal_features_of_points | any_rigid | Feature::free_mass,
+    .represents = modal_features_of_points | any_rigid | any_mass | Feature::barrier_above,
     .balance = Balance::exact,
     .clock = Clock::stepped,
     .make = make<GradientRule, trapezoidal>,

@@ -71,8 +71,7 @@ ThreePointProblem problem_of_modes(const Descriptor& descriptor, const Scene& sc
     p.points = points_of(p.scene, p.dt);
     p.update.intervals = p.modes.count() + 1;
     for (const Place& place : add_contacts(p.points, p.string()))
-        p.update.ports.push_back(
-            {footprint_weights(p.modes, place.at.position, place.at.width), 0});
+        p.update.ports.push_back({footprint_weights(p.modes, place.at), 0});
     complete(p, descriptor, settings, gain);
     return p;
 }

@@ -133,7 +133,7 @@ void TwoMomentModes::put_points(const Modes& modes, const Scene& scene) {
     std::vector<std::vector<double>> g;
     for (int p = 0; p < P; ++p) {
         const Footprint& f = sites.forces[p];
-        g.push_back(footprint_weights(modes, f.position, f.width));
+        g.push_back(footprint_weights(modes, f));
         put(Moments::weights + p, [&](int i) { return g[p][i] * modes_[i].p_0(); });
         put(Moments::weights + P + p, [&](int i) { return g[p][i] * modes_[i].p_1(); });
         readings_.push_back(reading_of(g[p], false));

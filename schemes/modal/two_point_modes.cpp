@@ -88,8 +88,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     const ModalStart start = start_of(modes, s, yield_of(own, p_.series));
     put_start(p_, s, modes, start);
     for (const Footprint& f : sites_of(scene).forces)
-        if (g_.size() < p_.positions.size())
-            g_.push_back(scaled(footprint_weights(modes, f.position, f.width)));
+        if (g_.size() < p_.positions.size()) g_.push_back(scaled(footprint_weights(modes, f)));
     const bool on_body = needed_by(scene).has(Feature::moving_body);
     if (on_body) {
         const AlignedVector mu = scaled(end_inertia(modes, s));

@@ -148,6 +148,7 @@ void refuse_beyond_arrays(const Scene& scene) {
                          : needed.any(any_rigid)                 ? "a rigid barrier"
                          : needed.has(Feature::initial_velocity) ? "a velocity at the start"
                          : needed.has(Feature::free_mass)        ? "a free mass"
+                         : needed.has(Feature::barrier_above)    ? "a barrier above the string"
                          : needed.has(Feature::clipped_loss) ? "a contact loss that does not pull"
                          : needed.has(Feature::tension_modulation)
                              ? "a tension that grows as the string stretches"

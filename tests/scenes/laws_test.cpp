@@ -63,6 +63,30 @@ TEST(PerPeriod, TheAmplitudeLosesTheFactorInOnePeriodOfTheFirstModeInEveryMode) 
     EXPECT_EQ(decay_rate(PerPeriodDamping{1.0}, 523.25), 0);
 }
 
+// A free body against the contact, by Runge-Kutta steps.
+TEST(ContactLoss, OfARestitutionLetsAFreeBodyLeaveAtThatShareOfItsSpeed) {
+    for (const double e : {0.99, 0.8, 0.5, 0.1})
+        for (const auto& [speed, exponent, mass] : {std::tuple{0.3, 1.0, 2e-3}, {5.0, 1.5, 0.1}}) {
+            const double beta = loss_for_rebound(e, speed), k = 1e5, p = exponent;
+            // in the time of half a linear swing
+            const double dt = 1e-4 * std::sqrt(mass / k) / std::pow(speed, (p - 1) / 2) * 3;
+            double eta = 0, w = speed;
+            const auto push = [&](double x, double v) {
+                return x > 0 ? -k * std::pow(x, p) * (1 + beta * v) / mass : 0;
+            };
+            do {
+                const double a1 = push(eta, w), a2 = push(eta + 0.5 * dt * w, w + 0.5 * dt * a1),
+                             a3 = push(eta + 0.5 * dt * (w + 0.5 * dt * a1), w + 0.5 * dt * a2),
+                             a4 = push(eta + dt * (w + 0.5 * dt * a2), w + dt * a3);
+                eta += dt * w + dt * dt / 6 * (a1 + a2 + a3);
+                w += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+            } while (eta > 0);
+            EXPECT_NEAR(-w / speed, e, 1e-4) << exponent;
+        }
+    EXPECT_EQ(loss_for_rebound(1, 2), 0);
+    EXPECT_NEAR(loss_for_rebound(0.5, 2), 2 * loss_for_rebound(0.5, 4), 1e-15);
+}
+
 TEST(TableDamping, MeasuredModesReplaceFrequencyAndDecay) {
     String s = steel();
     s.damping = TableDamping{"modes.csv", {100, 210, 330}, {1, 2, 4}};

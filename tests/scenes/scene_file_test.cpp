@@ -560,6 +560,44 @@ TEST(Tables, AreReadInTheUnitsThatTheirColumnsName) {
     EXPECT_EQ(curve("0.033").height, (std::vector<double>{0, -0.1e-3}));
 }
 
+// ---- Contacts
+
+TEST(Contacts, MayHaveARestitutionInPlaceOfTheirLoss) {
+    const auto loss = [](const std::string& keys, const std::vector<std::string>& set = {}) {
+        return std::get<LumpedBarrier>(
+                   parse_scene(lumped + keys, "s.toml", set).strings[0].barriers[0])
+            .contact_loss;
+    };
+    const std::string both = "restitution = 0.6\nimpact_speed = 2\n";
+    const double d = 2 * loss(both);  // (1 + e) d = ln((1 + d)/(1 - e d))
+    EXPECT_NEAR(std::exp(1.6 * d), (1 + d) / (1 - 0.6 * d), 1e-12);
+    EXPECT_EQ(loss(both, {"string.0.barrier.0.contact_loss=0.25"}), 0.25);
+    EXPECT_LT(loss(both, {"string.0.barrier.0.restitution=0.9"}), loss(both));
+    EXPECT_EQ(message(lumped + both + "contact_loss = 1\n"),
+              "scene.toml:13: string.0.barrier.0.contact_loss: found 1, expected nothing beside "
+              "restitution and impact_speed, which say as much");
+    EXPECT_TRUE(message(lumped + "restitution = 0.6\n")
+                    .ends_with("impact_speed: found nothing, expected a positive number [m/s]"));
+    EXPECT_TRUE(message(lumped + "restitution = 0\nimpact_speed = 1\n")
+                    .ends_with("restitution: found 0, expected a number above 0 and at most 1"));
+}
+
+TEST(Contacts, AboveAndWithAWeightAreWrittenAndNeedTheirFeatures) {
+    const std::string text = lumped +
+                             "side = \"above\"\n[[string.mass]]\nmass = 2e-4\nposition = 0.4\n"
+                             "stiffness = 1e5\nspring = 300\ndamping = 0.02\nweight = 0.05\n";
+    const Scene scene = parse_scene(text, "s.toml");
+    EXPECT_TRUE(parse_scene(write_scene(scene), "again.toml") == scene) << write_scene(scene);
+    for (const Feature f : {Feature::barrier_above, Feature::joined_mass, Feature::weighed_mass})
+        EXPECT_TRUE(needed_by(scene).has(f)) << name_of(f);
+    EXPECT_NEAR(scene.strings[0].masses[0].rest(), 0.05 / 300, 1e-18);
+    EXPECT_TRUE(
+        says(message(text, {"string.0.mass.0.spring=0"}), "none beside a weight without a spring"));
+    EXPECT_TRUE(says(message(text, {"string.0.start=rest"}), "another start beside a mass"));
+    EXPECT_TRUE(
+        says(message(text, {"string.0.axial_stiffness=1"}), "none on a string that stretches"));
+}
+
 // ---- Pitch in place of tension
 
 // 3-6
