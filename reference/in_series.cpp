@@ -62,7 +62,6 @@ std::optional<InSeries> in_series(const Descriptor& descriptor, const Scene& sce
     for (const Barrier& barrier : s.barriers)
         if (!std::holds_alternative<LumpedBarrier>(barrier))
             refuse("takes lumped barriers and a thread; points of a profile are not solved for");
-    if (needed_by(scene).has(Feature::contact_loss)) refuse("leaves contact loss out");
     std::vector<double> own;
     for (double omega : modes.omega0) own.push_back(1 / (modes.mass * omega * omega));
     InSeries series;

@@ -10,7 +10,7 @@
 //
 //     z' = A z + B F,      z' Q z' is lost [W],      z' S z/2 is stored.
 //
-// docs/compliance-matching.md has the derivation. Leaves out: profiles, contact loss.
+// docs/compliance-matching.md has the derivation. Leaves out: profiles.
 #pragma once
 
 #include <optional>

@@ -33,8 +33,7 @@ const Descriptor* best_reference(const Scene& scene) {
 
 std::optional<OptionValues> matched(const Descriptor& reference, const Scene& scene,
                                     OptionValues options) {
-    constexpr Features never = Feature::profile_barrier | Feature::contact_loss |
-                               Feature::moving_body |
+    constexpr Features never = Feature::profile_barrier | Feature::moving_body |
                                // rigid: matched unasked
                                Feature::tension_modulation | Feature::rigid_barrier;
     const Features needed = needed_by(scene);

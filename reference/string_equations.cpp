@@ -135,7 +135,10 @@ StringEquations::Pull StringEquations::pull(int a, Motion m) const noexcept {
     const double slope = alpha == 1 ? k : k * std::pow(std::abs(eta), alpha - 1), f = slope * eta,
                  give = 1 - q.beta * m.v;
     if (q.clipped && give < 0) return {0, 0, 0, f / m.v, alpha * slope / m.v};
-    return {f * give, alpha * slope * give, q.beta * f, q.beta * f, q.beta * alpha * slope};
+    // F = f (1 - beta (v + at_once F))
+    const double own = 1 + q.beta * f * series_.at_once(a);
+    return {f * give / own, alpha * slope * give / (own * own), q.beta * f / own, q.beta * f,
+            q.beta * alpha * slope};
 }
 
 double StringEquations::penetration(int a, const double* z) const noexcept {
@@ -166,7 +169,7 @@ void StringEquations::slope(double t, const double* z, double* dz) const noexcep
         const Motion m = motion(a, z);
         const Pull f = pull(a, m);
         acting_[a] = f.F;
-        const double speed = m.v + (a >= contacts ? series_.at_once(a) * f.F : 0);
+        const double speed = m.v + series_.at_once(a) * f.F;
         add(row(gains_, a), f.F, dv, padded);
         sum[a < contacts ? bridge_impulse : thread_impulse] += point_[a].sign * f.F;
         sum[dissipated] += f.drag * speed * speed;
@@ -319,9 +322,8 @@ void StringEquations::solve(double t, double gamma, const double* z, const doubl
         if (!acts(a)) continue;
         const Motion d = motion(a, x);
         sum[a < contacts ? bridge_impulse : thread_impulse] += point_[a].sign * gamma * force_[a];
-        const double at_once_F = a >= contacts ? series_.at_once(a) : 0,
-                     speed = motion_[a].v + at_once_F * pull_[a].F;
-        lost += 2 * pull_[a].drag * speed * (d.v + at_once_F * force_[a]) -
+        const double at_once = series_.at_once(a), speed = motion_[a].v + at_once * pull_[a].F;
+        lost += 2 * pull_[a].drag * speed * (d.v + at_once * force_[a]) -
                 pull_[a].drag_slope * speed * speed * d.y;
     }
     for (int a = 0; a < points; ++a) {

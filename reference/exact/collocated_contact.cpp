@@ -121,10 +121,12 @@ void CollocatedContact::couple(double d) noexcept {
             };
             w.sweep().combined(columns, nodes * nodes, f, last, within_.data(), nodes * nodes);
             write(couple_);
-            if (!lossy_) continue;  // no series compliance: h^(0) = 0
+            if (!lossy_) continue;
             w.sweep().combined(columns, nodes * nodes, f + 1, last - 1, within_.data(),
                                nodes * nodes);
             for (double& x : columns) x /= d;
+            // A series compliance yields at once, at the speed h^(0) F.
+            for (int i = 0; i < nodes; ++i) columns[i * nodes + i] += h[0];
             write(couple_speed_);
         }
 }

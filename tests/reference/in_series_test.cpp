@@ -66,6 +66,47 @@ TEST(InSeries, TheyAgreeOnSeveralBarriers) {
     for (int k = 0; k < 4; ++k) EXPECT_LT(apart(a, b, k), 1e-9) << k;
 }
 
+// Barrier below the string, which strikes it at up to 1 m/s.
+Scene struck(double exponent, double damping, LossLaw law) {
+    Scene scene = with(exponent, damping, true);
+    scene.duration = 4e-3;
+    scene.strings.front().start = ModeShape{3, 5e-4};
+    auto& b = barrier(scene);
+    b.position = 0.2;
+    b.height = -2e-4;
+    b.contact_loss = 3;
+    b.loss_law = law;
+    return scene;
+}
+
+// The point's speed, which a loss takes its force from, is changed by that force at once.
+TEST(InSeries, TheyAgreeOnAContactThatLosesEnergy) {
+    for (const LossLaw law : {LossLaw::hunt_crossley, LossLaw::clipped})
+        for (const double exponent : {1.0, 1.4}) {
+            const Scene scene = struck(exponent, 1.2, law);
+            Scene lossless = scene;
+            barrier(lossless).contact_loss = 0;
+            const auto elastic = exact(lossless, 20);
+            const auto a = exact(scene, 20), b = matched_integrated(scene, 20);
+            ASSERT_EQ(a.status.outcome, Outcome::ok);
+            ASSERT_EQ(b.status.outcome, Outcome::ok);
+            EXPECT_GT(fact(a, "events"), 0);
+            for (std::size_t k = 0; k < scene.taps.size(); ++k)
+                EXPECT_LT(apart(a, b, k), 1e-7) << exponent << " " << scene.taps[k].name;
+            EXPECT_GT(apart(elastic, a, 0), 1e-4) << "the loss does nothing";
+            holds(LedgerClaim("", {exact_form, sundials_form}, {scene}, {{0}, 44100, 20}, {1e-9},
+                              {}, false, 1));
+        }
+}
+
+TEST(InSeries, WithMoreModesMatchedAndOwnApproachEachOtherWhereAContactLosesEnergy) {
+    const Scene scene = struck(1, -1, LossLaw::hunt_crossley);
+    for (const std::size_t tap : {0u, 1u})
+        EXPECT_LT(apart(own(scene, 320), exact(scene, 320), tap),
+                  0.5 * apart(own(scene, 80), exact(scene, 80), tap))
+            << tap;
+}
+
 // Each touching point has two decays then, and what each takes of the energy has its room: without
 // it the heap was written over.
 TEST(InSeries, TwoStiffBarriersKeepTheirLedger) {
