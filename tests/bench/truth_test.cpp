@@ -81,6 +81,25 @@ TEST(Truth, BeginsWithTheModesOfTheCellsAndNoneThatTheRowsDoNotHold) {
               modes_below(bar(1).strings[0], 64e3 * 20 / 44.1));
 }
 
+// Windows between contacts are most of a run's work, whatever the law and the number of barriers.
+TEST(Truth, HasTheBudgetForALumpedContactOfAnyLawThatItHasForASpring) {
+    Scene spring = read_scene("tanpura_c3_release"), power = spring, lossy = spring, three = spring;
+    auto& b = std::get<LumpedBarrier>(power.strings[0].barriers[0]);
+    b.exponent = 1.5;
+    std::get<LumpedBarrier>(lossy.strings[0].barriers[0]).contact_loss = 0.5;
+    for (const double x : {0.1, 0.2})
+        three.strings[0].barriers.push_back(LumpedBarrier{x, 0, -1e-4, {1e8}, 1, 0});
+    const auto allows = [](const Scene& scene, int modes, double effort) {
+        return bench::study::within_budget(exact_contact, scene, 44100, {modes, 0}, effort);
+    };
+    int most = 100;
+    while (allows(spring, most + 1, 0.1)) ++most;
+    for (const Scene& scene : {power, lossy, three}) {
+        EXPECT_TRUE(allows(scene, most, 0.2));
+        EXPECT_FALSE(allows(scene, most, 0.1));
+    }
+}
+
 TEST(Plan, WhereNoModeLiesBelow20KHzTheLowestRateSaysHowManyAllCarry) {
     bench::compare::CompareRequest r;
     r.schemes = {"modal_two_point"};
