@@ -11,8 +11,10 @@
 #include <string_view>
 #include <thread>
 
+#include "scenes/scene_file.hpp"
 #include "schemes/registry.hpp"
 #include "tests/c3.hpp"
+#include "tests/runs.hpp"
 
 namespace jvari {
 namespace {
