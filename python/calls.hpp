@@ -131,6 +131,7 @@ inline std::string uncertainty_of(const study::Trust& t, const Scene& scene) {
     nlohmann::ordered_json j{{"against", t.against}, {"doubled", t.doubled}};
     for (std::size_t tap = 0; tap < scene.taps.size(); ++tap)
         for (std::size_t w = 0; w < study::Trust::columns.size(); ++w) {
+            if (study::measures()[w].heard) continue;  // the trace has all modes
             const double known = t.of_scene(static_cast<int>(tap), w);
             auto& figure = j["taps"][scene.taps[tap].name][study::Trust::columns[w] + certificate];
             if (!std::isnan(known)) figure = known;

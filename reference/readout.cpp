@@ -1,5 +1,7 @@
 #include "reference/readout.hpp"
 
+#include <utility>
+
 #include "reference/masses.hpp"
 #include "reference/partial_sums.hpp"
 
@@ -31,6 +33,7 @@ Readout::Readout(const Scene& scene, const Modes& modes) : modes_(modes.count())
             w = displacement_weights(modes, tap.position);
         if (tap.quantity == Quantity::nut_force)
             w = nut_force_weights(modes, scene.strings.front());
+        w = weights_below(tap.below, std::move(w), modes);
         weights_.insert(weights_.end(), w.begin(), w.end());
     }
 }

@@ -244,6 +244,8 @@ std::vector<double> tap_bounds(const Scene& scene, int modes) {
             if (hears(scene.taps[k], scene, a))
                 squared[k] += bound_squared(scene.taps[k], s, m, energy);
     }
+    for (std::size_t k = 0; k < squared.size(); ++k)
+        if (std::isfinite(scene.taps[k].below)) squared[k] = unknown;  // the whole tap has a bound
     for (double& b : squared) b = std::isfinite(b) && b > 0 ? std::sqrt(b) : unknown;
     return squared;
 }

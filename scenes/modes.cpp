@@ -93,6 +93,12 @@ std::vector<double> displacement_weights(const Modes& modes, double position) {
     return w;
 }
 
+std::vector<double> weights_below(double hertz, std::vector<double> weights, const Modes& modes) {
+    for (int i = 0; i < modes.count(); ++i)
+        if (!(modes.omega0[i] < 2 * pi * hertz)) weights[i] = 0;
+    return weights;
+}
+
 std::vector<double> footprint_weights(const Modes& modes, double position, double width) {
     std::vector<double> w;
     for (double beta : modes.beta) {

@@ -42,6 +42,9 @@ std::vector<double> contact_weights(const Modes&, const LumpedBarrier&);
 // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 std::vector<double> nut_force_weights(const Modes&, const String&);
 
+// The same weights, and 0 for modes that are not below that frequency [Hz].
+std::vector<double> weights_below(double hertz, std::vector<double> weights, const Modes&);
+
 // Coupled mass between each mode and the end at x = 0 [kg], the integral of mu v_i (1 - x/L): it
 // multiplies the end's acceleration in the mode's equation, and the mode's acceleration in the
 // end's.

@@ -235,6 +235,9 @@ struct Tap {
     // Selects a mass on the string: the tap hears its displacement, its velocity or its force on
     // the string (bridge_force)
     std::optional<int> mass = {};
+    // Limit for the modes that the tap sums [Hz]. No file has it: modal schemes read so for the
+    // error of what is heard (bench/study/errors.hpp).
+    double below = std::numeric_limits<double>::infinity();
     bool operator==(const Tap&) const = default;
 };
 // an oscillator driven by the bridge; all strings pull at the sum of the displacements

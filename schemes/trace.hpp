@@ -17,12 +17,18 @@ struct Trace {
     long rows = 0;                   // valid rows
     long stride = 0;                 // rows allocated per column
     std::vector<std::string> names;  // one per tap
-    std::vector<double> tap;         // stride x taps
-    std::vector<double> energy;      // stride x 3 (stored, supplied, dissipated [J]) or empty
+    // stride x taps, or as many columns again, read by modes below 20 kHz
+    std::vector<double> tap;
+    std::vector<double> energy;  // stride x 3 (stored, supplied, dissipated [J]) or empty
 
     int taps() const { return static_cast<int>(names.size()); }
+    int columns() const { return stride > 0 ? static_cast<int>(tap.size() / stride) : 0; }
     std::span<const double> column(int k) const {
         return {tap.data() + k * stride, static_cast<std::size_t>(rows)};
+    }
+    // the tap's modes below 20 kHz; empty if the trace does not have them
+    std::span<const double> heard(int k) const {
+        return columns() == 2 * taps() ? column(taps() + k) : std::span<const double>();
     }
     std::span<const double> energy_column(int k) const {
         return {energy.data() + k * stride, static_cast<std::size_t>(rows)};

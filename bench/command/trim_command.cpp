@@ -167,7 +167,7 @@ Act trim_verb(CLI::App& program) {
              "the tolerance: 1%, or 1dB where the measure is in dB")
         ->required();
     v.option("--of", v.r.measure, {"MEASURE"},
-             "l2_50ms (absent), third_octave_db, stft, centroid or decay");
+             "l2_50ms (absent), heard, third_octave_db, stft, centroid or decay");
     v.option("--tap", v.r.tap, {"NAME"},
              "what is listened to; absent: the first nut force, else the first tap");
     v.option("--scheme", v.r.scheme, {"NAME|any"},

@@ -235,7 +235,10 @@ Advice advice_of(const Scene& whole, const AdviceRequest& r, const Catalogue& ca
                  const store::Listener& listener) {
     Advice a;
     a.target = target_of(r.measure.empty() ? "l2_whole" : r.measure, r.within);
-    if (!study::is_waveform(a.target.measure) && a.target.name != "third_octave_db")
+    // no population has tested what two runs tell of what is heard
+    const bool waveform =
+        study::is_waveform(a.target.measure) && !study::measures()[a.target.measure].heard;
+    if (!waveform && a.target.name != "third_octave_db")
         throw store::UsageError(
             fmt::format("--of {}: found no record of what two runs tell of it, expected a waveform "
                         "(l2_10ms, l2_50ms, l2_whole) or third_octave_db",

@@ -15,8 +15,10 @@ namespace {
 constexpr double most_without_unit = 0.5;  // a larger tolerance more likely means per cent
 
 std::string name_of(const std::string& column) {
-    for (const auto& [of, name] :
-         {std::pair{"stft_db", "stft"}, {"centroid_relative", "centroid"}, {"decay_db", "decay"}})
+    for (const auto& [of, name] : {std::pair{"stft_db", "stft"},
+                                   {"error_l2_heard", "heard"},
+                                   {"centroid_relative", "centroid"},
+                                   {"decay_db", "decay"}})
         if (column == of) return name;
     return column.starts_with("error_") ? column.substr(6) : column;
 }

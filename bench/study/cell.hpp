@@ -84,10 +84,11 @@ struct Cell {
     std::string status() const;
 };
 
-// Runs the cell with its energy probed; fills summary and reason. Throws Refusal. An exception from
-// `progress` ends the run.
+// Runs the cell with its energy probed; fills summary and reason. `heard`: the trace has each tap
+// twice if the scheme can do so (heard_too). Throws Refusal. An exception from `progress` ends the
+// run.
 using ProgressOf = std::function<void(long done, long rows)>;
-Trace run_cell(Cell&, const Scene& scene, const ProgressOf& progress);
+Trace run_cell(Cell&, const Scene& scene, bool heard, const ProgressOf& progress);
 // Stores the failure and its reason from the exception that the run threw.
 void fail(Cell&, const std::exception&);
 

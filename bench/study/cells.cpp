@@ -49,11 +49,13 @@ std::string Cell::status() const {
     return !ran() ? failure : !needed ? "not_needed" : name_of(summary.status.outcome);
 }
 
-Trace run_cell(Cell& cell, const Scene& scene, const ProgressOf& progress) {
-    const auto scheme = make_scheme(*cell.scheme, scene, cell.settings);
+Trace run_cell(Cell& cell, const Scene& scene, bool heard, const ProgressOf& progress) {
+    const Scene read = heard ? heard_too(*cell.scheme, scene) : scene;
+    const auto scheme = make_scheme(*cell.scheme, read, cell.settings);
     const double from = store::processor_seconds();
-    Run result = run(*scheme, scene, cell.settings, {.energy = true, .progress = progress});
+    Run result = run(*scheme, read, cell.settings, {.energy = true, .progress = progress});
     const double took = store::processor_seconds() - from;
+    result.trace.names.resize(scene.taps.size());
     cell.summary = summary_of(*cell.scheme, scene, cell.settings, result);
     cell.summary.processor_seconds = took;
     if (result.status.outcome != Outcome::ok)

@@ -94,7 +94,7 @@ Trace run_entry(Entry& e, const Certificate& c, const Scene& scene, const RunOpt
         r = std::move(o.run);
     } else {
         r = kept_run(runs, run_key(*e.scheme, scene, own),
-                     [&] { return run(*e.scheme, scene, own, options); });
+                     [&] { return run_heard(*e.scheme, scene, own, options); });
         e.wall_seconds = r.wall_seconds;
     }
     e.status = r.status;
@@ -160,7 +160,7 @@ Certificate certify(const Scene& scene, Certificate c, const store::Listener& li
             const Scene apart = moved(scene, 1 + floor_displacement);
             const Settings own = settings_of(c, first);
             const Run r = kept_run(runs, run_key(*first.scheme, apart, own),
-                                   [&] { return run(*first.scheme, apart, own, options); });
+                                   [&] { return run_heard(*first.scheme, apart, own, options); });
             c.floor = compared(c, r.trace, **ran);
             return;
         }

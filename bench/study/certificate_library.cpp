@@ -22,9 +22,12 @@ namespace fs = std::filesystem;
 namespace {
 constexpr double slack = 1e-6;  // tolerance for instants [s]: less than a row
 
-// Ends of the comparison's windows [s], NaN if the run is shorter.
-std::array<double, 3> window_ends(double until) {
-    return {10e-3 <= until + slack ? 10e-3 : nan, 50e-3 <= until + slack ? 50e-3 : nan, until};
+// Ends of the comparison's windows [s], NaN if the run is shorter. Certificates read all modes: the
+// figure over 50 ms stands for what is heard, too.
+Trust::ByWaveform window_ends(double until) {
+    const double early = 10e-3 <= until + slack ? 10e-3 : nan,
+                 headline = 50e-3 <= until + slack ? 50e-3 : nan;
+    return {early, headline, until, headline};
 }
 
 // Value for the shortest window that reaches `end`, in a run of length `reached`; NaN if there is
@@ -40,12 +43,12 @@ double covering(const Certificate::ByWindow& values, double end, double reached)
 
 }  // namespace
 
-double Trust::in_model(std::size_t tap, std::size_t window) const {
-    return tap < figure.size() ? figure[tap][window] : nan;
+double Trust::in_model(std::size_t tap, std::size_t waveform) const {
+    return tap < figure.size() ? figure[tap][waveform] : nan;
 }
 
-double Trust::of_scene(std::size_t tap, std::size_t window) const {
-    return in_model(tap, window) + (tap < left_out.size() ? left_out[tap][window] : 0);
+double Trust::of_scene(std::size_t tap, std::size_t waveform) const {
+    return in_model(tap, waveform) + (tap < left_out.size() ? left_out[tap][waveform] : 0);
 }
 
 bool Trust::any() const {
@@ -92,7 +95,7 @@ Trust trust_of(const Certificate& c, const std::string& reference,
         }
         return most;
     };
-    t.figure.assign(c.taps.size(), {nan, nan, nan});
+    t.figure.assign(c.taps.size(), Trust::unknown);
     std::vector<double> at_least(c.taps.size(), nan);
     // Agreement of other references with the same program and own compliance, before a sensitive
     // motion amplifies differences.
@@ -130,7 +133,7 @@ Trust trust_of(const Certificate& c, const std::string& reference,
         if (from == c.pairs.end() || step == c.pairs.end()) continue;
         const double further =
             (is_matched(e.options) ? matched_and_further_ones : and_further_ones) - 1;
-        t.left_out.resize(c.taps.size(), {0, 0, 0});
+        t.left_out.resize(c.taps.size(), {0, 0, 0, 0});
         for (std::size_t k = 0; k < c.taps.size(); ++k)
             for (std::size_t w = 0; w < ends.size(); ++w) {
                 const auto changed = [&](const Certificate::Pair& p) {
@@ -212,7 +215,7 @@ Trust trust_of(const Oversampled& o, double until) {
         for (std::size_t w = 0; w < ends.size(); ++w) figure[w] = covering(tap, ends[w], until);
     }
     // The estimate covers only the time step, not the modes left out.
-    t.left_out.assign(o.estimates.size(), {nan, nan, nan});
+    t.left_out.assign(o.estimates.size(), Trust::unknown);
     t.against = fmt::format("Richardson's rule from {:.6g}, {:.6g} and {:.6g} Hz", o.rate / 4,
                             o.rate / 2, o.rate);
     return t;

@@ -27,12 +27,16 @@
 namespace jvari::bench::study {
 
 struct Trust {
-    static constexpr std::array<const char*, 3> columns = {
-        "certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole"};
-    // by tap of the scene, by window; NaN: none. Empty: no certificate
-    std::vector<std::array<double, 3>> figure;
+    // for the waveforms, the first of measures()
+    static constexpr std::array<const char*, 4> columns = {
+        "certificate_l2_10ms", "certificate_l2_50ms", "certificate_l2_whole",
+        "certificate_l2_heard"};
+    using ByWaveform = std::array<double, columns.size()>;
+    static constexpr ByWaveform unknown = {nan, nan, nan, nan};
+    // by tap of the scene, by waveform; NaN: none. Empty: no certificate
+    std::vector<ByWaveform> figure;
     // effect of the modes and points left out, likewise
-    std::vector<std::array<double, 3>> left_out;
+    std::vector<ByWaveform> left_out;
     std::string against;  // "sundials rtol=1e-12"
     // "modes and points"; "": nothing, and left_out is empty
     std::string doubled;
@@ -40,8 +44,8 @@ struct Trust {
     // false: other sources, compiler, flags or vector instructions
     bool of_this_program = true;
     std::string missing;  // reason why there is none
-    double in_model(std::size_t tap, std::size_t window) const;
-    double of_scene(std::size_t tap, std::size_t window) const;
+    double in_model(std::size_t tap, std::size_t waveform) const;
+    double of_scene(std::size_t tap, std::size_t waveform) const;
     bool any() const;
 };
 

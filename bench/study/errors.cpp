@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "analysis/error.hpp"
 #include "analysis/spectrum.hpp"
 #include "bench/store/records.hpp"
 #include "reference/agreement.hpp"
+#include "reference/references.hpp"
 #include "scenes/excitation.hpp"
+#include "scenes/modes.hpp"
+#include "schemes/registry.hpp"
 
 namespace jvari::bench::study {
 
@@ -29,6 +33,8 @@ private:
 
 namespace {
 constexpr double quietest = 1e-6;  // 60 dB below the reference's strongest frame, or its start
+
+double over_50_ms(Pair& p) { return relative_l2(p.run, p.reference, p.rate, {0, 50e-3}); }
 
 // Decay error [dB]: root mean square difference between two curves of the energy still to come (M.
 // R. Schroeder 1965). The comparison covers the first nine tenths of the run, and ends earlier if
@@ -53,18 +59,37 @@ double decay(Pair& p) {
 }
 }  // namespace
 
+Scene heard_too(const Descriptor& d, const Scene& scene) {
+    constexpr double highest_heard = 20e3;  // [Hz]
+    const auto is_this = [name = std::string_view(d.name)](const Descriptor& other) {
+        return name == other.name;
+    };
+    const bool built_in =
+        std::ranges::any_of(schemes(), is_this) || std::ranges::any_of(references(), is_this);
+    // only a scheme that moves in modes takes measured ones
+    if (!built_in || !d.represents.has(Feature::measured_modes) ||
+        std::ranges::all_of(scene.strings,
+                            [](const String& s) { return modes_below(s, highest_heard) == 0; }))
+        return scene;
+    Scene twice = scene;
+    for (Tap tap : scene.taps) {
+        tap.name += " below 20 kHz", tap.below = highest_heard;
+        twice.taps.push_back(std::move(tap));
+    }
+    return twice;
+}
+
 const std::vector<Measure>& measures() {
     static const std::vector<Measure> all = {
         {"error_l2_10ms", "1", "relative L2 error, 0\u201310 ms", false, true, 10e-3,
          [](Pair& p) {
              return relative_l2(p.run, p.reference, p.rate, {0, 10e-3});
          }},
-        {"error_l2_50ms", "1", "relative L2 error, 0\u201350 ms", false, true, 50e-3,
-         [](Pair& p) {
-             return relative_l2(p.run, p.reference, p.rate, {0, 50e-3});
-         }},
+        {"error_l2_50ms", "1", "relative L2 error, 0\u201350 ms", false, true, 50e-3, over_50_ms},
         {"error_l2_whole", "1", "relative L2 error, whole run", false, true, HUGE_VAL,
          [](Pair& p) { return relative_l2(p.run, p.reference, p.rate); }},
+        {"error_l2_heard", "1", "heard: relative L2 error, 0\u201350 ms, modes below 20 kHz", false,
+         true, 50e-3, over_50_ms, true},
         {"horizon_s", "s", "predictability horizon [s]", false, false, HUGE_VAL,
          [](Pair& p) { return horizon(p.run, p.reference, p.rate); }},
         {"third_octave_db", "dB", "third-octave difference [dB rms]", true, true, HUGE_VAL,
@@ -93,6 +118,10 @@ bool is_waveform(std::size_t measure) {
     return measures()[measure].column.starts_with("error_l2_");
 }
 
+std::span<const double> rows_for(std::size_t measure, const Trace& reference, int tap) {
+    return measures()[measure].heard ? reference.heard(tap) : reference.column(tap);
+}
+
 double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,
                 double rate) {
     Pair pair(run, reference, rate);
@@ -108,11 +137,14 @@ Errors errors_of(const Trace& candidate, const Trace& reference, const Measures&
             std::ranges::find(candidate.names, reference.names.at(k)) - candidate.names.begin();
         if (own == candidate.taps()) continue;
         const double rate = reference.tap_rate;
-        Pair pair(rows_from(candidate.column(static_cast<int>(own)), from, rate),
-                  rows_from(reference.column(k), from, rate), rate);
+        const auto run = candidate.column(static_cast<int>(own)),
+                   by_run = candidate.heard(static_cast<int>(own));
+        Pair whole(rows_from(run, from, rate), rows_from(reference.column(k), from, rate), rate),
+            heard(rows_from(by_run.empty() ? run : by_run, from, rate),
+                  rows_from(reference.heard(k), from, rate), rate);
         for (std::size_t m = 0; m < measures().size(); ++m)
             if (only.empty() || std::ranges::find(only, m) != only.end())
-                of_tap[m] = measures()[m].of(pair);
+                of_tap[m] = measures()[m].of(measures()[m].heard ? heard : whole);
     }
     return errors;
 }

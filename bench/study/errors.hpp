@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/scene.hpp"
+#include "schemes/scheme.hpp"
 #include "schemes/trace.hpp"
 
 namespace jvari::bench::study {
@@ -20,11 +21,14 @@ struct Measure {
     bool less_is_better;
     double window;  // length [s], after the last excitation; infinite: to the end of the run
     double (*of)(Pair&);
+    bool heard = false;  // true: run and reference are read by their modes below 20 kHz
 };
 const std::vector<Measure>& measures();
 std::size_t measure(const std::string& column);  // place in measures()
 // true for a relative L2 error, which may have a certificate
 bool is_waveform(std::size_t measure);
+// Rows of a tap in a reference, as the measure reads them; empty if the reference has no such rows.
+std::span<const double> rows_for(std::size_t measure, const Trace& reference, int tap);
 double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,
                 double rate);
 
@@ -33,8 +37,14 @@ using Measures = std::vector<std::size_t>;  // places; empty: all
 // A row per tap, a column per measure. NaN if the reference does not cover the window, +inf for a
 // run that stopped inside the window.
 using Errors = std::vector<std::vector<double>>;
+// Scene whose taps come a second time, read by modes below 20 kHz (Trace::heard). All modes move.
+// Contact forces have no modes. The same scene for a grid, for a scheme from outside, and for
+// strings without modes below 20 kHz.
+Scene heard_too(const Descriptor&, const Scene&);
+
 // Errors on each tap of the reference, from the instant `from` [s] (free_from) on. The taps of the
-// run are found by name. NaN for a tap that the run lacks, and for measures outside `only`.
+// run are found by name. NaN for a tap that the run lacks, and for measures outside `only`. A run
+// that is not read by its modes below 20 kHz is compared as it is.
 Errors errors_of(const Trace& candidate, const Trace& reference, const Measures& only = {},
                  double from = 0);
 

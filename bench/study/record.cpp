@@ -35,11 +35,11 @@ Errors errors_in(const Json& j) {
     }
     return errors;
 }
-std::vector<std::array<double, 3>> figures_in(const Json& j) {
-    std::vector<std::array<double, 3>> figures;
+std::vector<Trust::ByWaveform> figures_in(const Json& j) {
+    std::vector<Trust::ByWaveform> figures;
     for (const Json& row : j)
-        figures.push_back({store::number_of(row.at(0)), store::number_of(row.at(1)),
-                           store::number_of(row.at(2))});
+        for (auto& of_tap = figures.emplace_back(); double& x : of_tap)
+            x = store::number_of(row.at(static_cast<std::size_t>(&x - of_tap.data())));
     return figures;
 }
 

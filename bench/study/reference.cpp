@@ -32,7 +32,7 @@ ProgressOf told_to(store::Done& done) {
 
 Run reference_run(const ReferenceChoice& choice, const Scene& scene, const ProgressOf& progress) {
     const auto make = [&] {
-        return run(*choice.scheme, scene, choice.settings, {.progress = progress});
+        return run_heard(*choice.scheme, scene, choice.settings, {.progress = progress});
     };
     if (!choice.kept) return make();
     const std::string key = run_key(*choice.scheme, scene, choice.settings);
@@ -77,6 +77,13 @@ void least_error_first(std::span<ReferenceChoice> choices, const Scene& scene,
     for (std::size_t i = 0; i < tried.size(); ++i) choices[i] = std::move(tried[i].second);
 }
 }  // namespace
+
+Run run_heard(const Descriptor& d, const Scene& scene, const Settings& settings,
+              const RunOptions& options) {
+    Run r = run(d, heard_too(d, scene), settings, options);
+    r.trace.names.resize(scene.taps.size());
+    return r;
+}
 
 int modes_held(const String& s, double rate) {
     constexpr double share = 20 / 44.1;
@@ -168,6 +175,8 @@ Reference run_reference(const std::vector<ReferenceChoice>& choices, const Scene
             if (!choice.oversampled && !alone)
                 r.trust =
                     trust_of(scene, choice.scheme->name, choice.settings, last_instant(r.run));
+            for (auto& figure : r.trust.figure)
+                if (r.run.trace.columns() == r.run.trace.taps()) figure.back() = nan;  // not heard
             return r;
         } catch (const Refusal& e) {
             refusals += std::string("; ") + e.what();
@@ -182,7 +191,7 @@ namespace fs = std::filesystem;
 namespace {
 using Json = nlohmann::ordered_json;
 // File layout: a checksum, a line of JSON, the columns in this machine's byte order.
-constexpr int file_format = 2;
+constexpr int file_format = 3;
 constexpr long most_values = 1L << 26;     // total over all columns: half a gigabyte
 constexpr std::size_t checksum_size = 32;  // hexadecimal digits
 }  // namespace
@@ -216,9 +225,10 @@ void write_run(const fs::path& path, const std::string& key, const Run& r) {
                     {"tap_rate", r.trace.tap_rate},
                     {"stride", r.trace.stride},
                     {"rows", r.trace.rows},
-                    {"names", r.trace.names}};
+                    {"names", r.trace.names},
+                    {"columns", r.trace.columns()}};
     std::string content = store::compact(head) + "\n";
-    for (int k = 0; k < r.trace.taps(); ++k)
+    for (int k = 0; k < r.trace.columns(); ++k)
         content.append(reinterpret_cast<const char*>(r.trace.column(k).data()),
                        r.trace.column(k).size_bytes());
     store::write_fresh(path, store::hash_of(content) + content);
@@ -248,12 +258,13 @@ std::optional<Run> read_run(const fs::path& path, const std::string& key) noexce
         t.stride = store::whole<long>(j.at("stride"));
         t.names = j.at("names").get<std::vector<std::string>>();
         if (t.stride < 1 || t.rows < 0 || t.rows > t.stride) return std::nullopt;
-        if (!t.names.empty() && t.stride > most_values / static_cast<long>(t.names.size()))
-            return std::nullopt;
+        const auto columns = store::whole<long>(j.at("columns"));
+        if (columns != t.taps() && columns != 2 * t.taps()) return std::nullopt;
+        if (columns > 0 && t.stride > most_values / columns) return std::nullopt;
         const std::size_t column = static_cast<std::size_t>(t.rows) * sizeof(double);
-        if (content.size() - head_size - 1 != column * t.names.size()) return std::nullopt;
-        t.tap.assign(t.stride * t.names.size(), 0.0);
-        for (int k = 0; k < t.taps(); ++k)
+        if (content.size() - head_size - 1 != column * columns) return std::nullopt;
+        t.tap.assign(t.stride * columns, 0.0);
+        for (int k = 0; k < t.columns(); ++k)
             std::memcpy(t.tap.data() + k * t.stride,
                         content.data() + head_size + 1 + static_cast<std::size_t>(k) * column,
                         column);

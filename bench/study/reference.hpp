@@ -49,6 +49,9 @@ std::vector<ReferenceChoice> references_of(const Scene&, const Settings& at,
 int modes_to_begin_with(const Scene&, double tap_rate, int cells);
 int modes_held(const String&, double rate);  // number of modes that rows of this rate hold
 
+// Runs a reference, whose trace has each tap twice if it can (heard_too).
+Run run_heard(const Descriptor&, const Scene&, const Settings&, const RunOptions&);
+
 struct TimeLimit {  // limit for processor time [s]
     double seconds = HUGE_VAL;
     // After this time, a run is ended if at its pace it would exceed `seconds`.

@@ -26,8 +26,12 @@ Record run_job(const Job& job, const References::Of& known, const ProgressOf& pr
     Cell& cell = r.cell;
     const Trace* truth = known.truth ? &known.truth->reference.run.trace : nullptr;
     try {
-        const Trace trace = run_cell(
-            cell, point.scene, store::within(std::min(point.time_limit, job.patience), progress));
+        const bool heard = job.errors.empty() || std::ranges::any_of(job.errors, [](auto m) {
+                               return measures()[m].heard;
+                           });
+        const Trace trace =
+            run_cell(cell, point.scene, heard && truth,
+                     store::within(std::min(point.time_limit, job.patience), progress));
         if (truth) {
             const auto errors_from = [&](const Trace& t) {
                 return errors_of(trace, t, job.errors, free_from(point.true_scene()));

@@ -9,10 +9,12 @@
 
 namespace jvari::bench::study {
 
-double change(const Trace& more, const Trace& fewer, int tap, double from, double window) {
+double change(const Trace& more, const Trace& fewer, int tap, double from, std::size_t waveform) {
     const double rate = more.tap_rate;
-    return relative_difference(rows_from(fewer.column(tap), from, rate),
-                               rows_from(more.column(tap), from, rate), rate, window);
+    const auto a = rows_for(waveform, fewer, tap), b = rows_for(waveform, more, tap);
+    if (a.empty() || b.empty()) return nan;
+    return relative_difference(rows_from(a, from, rate), rows_from(b, from, rate), rate,
+                               measures()[waveform].window);
 }
 
 // Accuracy of the solution: the certificate's figure, else the noise floor, because rounding errors
@@ -23,16 +25,16 @@ Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double f
     const Reference &last = truth.reference, &before = truth.coarser.back();
     const Trace &more = last.run.trace, &fewer = before.run.trace;
     const auto taps = static_cast<std::size_t>(more.taps());
-    if (!t.any()) t.figure.assign(taps, {nan, nan, nan});
+    if (!t.any()) t.figure.assign(taps, Trust::unknown);
     const double until =
         static_cast<double>(std::min(more.rows, fewer.rows) - 1) / more.tap_rate - from;
-    t.left_out.assign(taps, {nan, nan, nan});
+    t.left_out.assign(taps, Trust::unknown);
     for (std::size_t k = 0; k < taps; ++k)
-        for (std::size_t w = 0; w < trust_windows.size(); ++w) {
-            const double end = trust_windows[w];
-            if (w < 2 && end > until + 1e-6) continue;
+        for (std::size_t w = 0; w < Trust::columns.size(); ++w) {
+            const double end = measures()[w].window;
+            if (std::isfinite(end) && end > until + 1e-6) continue;
             const auto apart = [&](const Trace& a, const Trace& b) {
-                return change(b, a, static_cast<int>(k), from, end);
+                return change(b, a, static_cast<int>(k), from, w);
             };
             // also for windows beyond the certificate
             if (std::isnan(t.figure[k][w])) t.figure[k][w] = apart(more, last.moved.trace);
@@ -60,7 +62,7 @@ std::vector<Trace> own_motion(const ReferenceChoice& matched, const Scene& scene
     for (std::size_t k = 0; k < 2; ++k) {
         Trace& t = result.emplace_back(runs[k]);
         t.rows = std::min(runs[k].rows, runs[k + 1].rows);
-        for (int tap = 0; tap < t.taps(); ++tap)
+        for (int tap = 0; tap < t.columns(); ++tap)
             std::ranges::copy(extrapolated(runs[k].column(tap), runs[k + 1].column(tap)),
                               t.tap.begin() + tap * t.stride);
     }

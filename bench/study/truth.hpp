@@ -59,10 +59,9 @@ double left_out(const Truth&, const Apart&, double solved_to = 0);
 
 // ---- For truth_search.cpp
 
-constexpr std::array trust_windows = {10e-3, 50e-3, HUGE_VAL};  // [s], the windows of Trust
-
-// relative L2 over a window that begins at the instant `from` [s]
-double change(const Trace& more, const Trace& fewer, int tap, double from, double window);
+// difference of two references by that waveform, whose window begins at the instant `from` [s]; NaN
+// if they have no such rows
+double change(const Trace& more, const Trace& fewer, int tap, double from, std::size_t waveform);
 // Trust in a truth doubled to this size; `solved` comes from the certificate.
 Trust trust_of(const Trust& solved, const Truth&, const Size&, double from);
 // Motions with as many own modes as the matched reference has, and with half as many, both

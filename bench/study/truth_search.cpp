@@ -43,9 +43,9 @@ void confirm(Reference& r, Scene scene, const Size& size, int jobs, const store:
     for (int k = 0; k < run.trace.taps(); ++k) {
         auto& figure = r.trust.figure.emplace_back();
         for (std::size_t w = 0; w < figure.size(); ++w) {
-            const double end = trust_windows[w];
-            const bool covered = w == 2 ? whole : end <= until + 1e-6;
-            figure[w] = covered ? change(r.run.trace, run.trace, k, from, end) : nan;
+            const double end = measures()[w].window;
+            const bool covered = std::isinf(end) ? whole : end <= until + 1e-6;
+            figure[w] = covered ? change(r.run.trace, run.trace, k, from, w) : nan;
         }
     }
     r.trust.against = sundials.name;
@@ -214,7 +214,7 @@ void Search::describe() {
         fmt::format("; half of them change {} over {} by {:.1e}", scene_.taps.at(tap()).name,
                     std::isinf(end_) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end_),
                     change(t_.reference.run.trace, t_.coarser.back().run.trace,
-                           static_cast<int>(tap()), from_, end_));
+                           static_cast<int>(tap()), from_, window_));
     if (std::isnan(unsettled_))
         t_.description +=
             ". The last doubling changes it most, so what they leave out is unknown. A start with "

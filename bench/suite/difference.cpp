@@ -108,14 +108,19 @@ std::vector<Pair> in_both(const Named& before, const Named& after, Only& only) {
     return pairs;
 }
 
-// Names found in cells: facts, taps and swept keys.
+// Names found in cells: facts, taps, swept keys, and measures with a number.
 struct Names {
-    std::set<std::string> facts, taps, keys;
+    std::set<std::string> facts, taps, keys, measures;
     explicit Names(const study::Cells& cells) {
         for (const study::TabledCell& c : cells) {
             for (const auto& [name, value] : c.facts) facts.insert(name);
             for (const std::string& tap : c.taps) taps.insert(tap);
             for (const auto& [key, value] : c.swept) keys.insert(key);
+            for (const auto& of_tap : c.figures)
+                for (std::size_t m = 0; m < of_tap.size(); ++m)
+                    for (const auto& [name, part] : study::figure_parts)
+                        if (!std::isnan(of_tap[m].*part))
+                            measures.insert(study::measures()[m].column);
         }
     }
 };
@@ -124,10 +129,11 @@ struct CellDifference {
     bool same_digits = true;
     std::vector<std::string> references;  // differences between the references
 };
-// Findings for a cell, the headline's errors first. `facts`: from both folders.
+// Findings for a cell, the headline's errors first. `facts`: from both folders; `measures`: from
+// the earlier one.
 CellDifference compare_cell(const std::string& name, const study::TabledCell& before,
                             const study::TabledCell& after, const std::vector<std::string>& facts,
-                            Difference& d) {
+                            const std::set<std::string>& measures, Difference& d) {
     CellDifference own;
     const auto add = [&](const std::string& column, Turn turn, const std::string& was,
                          const std::string& is) {
@@ -142,8 +148,9 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
         for (const auto& [part_name, part] : study::figure_parts)
             for (std::size_t m = 0; m < study::measures().size(); ++m) {
                 const study::Measure& measure = study::measures()[m];
-                if (tap == (measure.bridge ? before.headline_bridge : before.headline_nut))
-                    continue;  // same value: the headline's
+                if (!measures.contains(measure.column) ||
+                    tap == (measure.bridge ? before.headline_bridge : before.headline_nut))
+                    continue;  // not measured, or same value: the headline's
                 add((part == &study::Figure::value ? "" : std::string(part_name) + " of ") +
                         measure.column + (tap.empty() ? "" : " of " + tap),
                     turn_of(part, m, tap, before, after),
@@ -180,11 +187,12 @@ void compare_cells(const Results& a, const Results& b, Difference& d) {
     only(&Names::keys, "");
     only(&Names::facts, "fact_");
     only(&Names::taps, "errors of ");
+    std::ranges::set_difference(are.measures, were.measures, std::back_inserter(d.columns.after));
     int other_truth = 0;
     std::string how;
     for (const Pair& p : pairs) {
         const CellDifference of =
-            compare_cell(p.name, a.cells[p.before], b.cells[p.after], facts, d);
+            compare_cell(p.name, a.cells[p.before], b.cells[p.after], facts, were.measures, d);
         other_truth += !of.references.empty();
         d.to_the_last_digit += of.same_digits;
         for (const std::string& change : of.references)

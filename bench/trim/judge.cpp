@@ -34,7 +34,7 @@ constexpr double worth_keeping = 5e-3;
 // known bound, so the estimate from the doublings is taken.
 double uncertainty(const study::Truth& t, std::size_t tap, std::size_t measure, double from) {
     const study::Reference& of = t.reference;
-    // The waveform's windows are the first measures.
+    // Waveforms are the first measures.
     if (measure < study::Trust::columns.size())
         return of.trust.any() ? of.trust.of_scene(tap, measure) : nan;
     const double rate = of.run.trace.tap_rate;
@@ -87,11 +87,14 @@ Judge::Judge(const Request& request, const compare::Catalogue& catalogue,
     compare::require_rows(scene_, {0, request.tap_rate, 0, {}});
     const int tap = compare::tap_named(scene_, request.tap);
     tap_ = static_cast<std::size_t>(request.tap.empty() ? study::headline_of(scene_).nut : tap);
-    const double window = study::measures()[target_.measure].window,
-                 judged = scene_.duration - free_from(scene_);
-    measure_ = std::isfinite(window) && judged < window * (1 - 1e-9)
-                   ? study::measure("error_l2_whole")
-                   : target_.measure;
+    const study::Measure& measure = study::measures()[target_.measure];
+    const double judged = scene_.duration - free_from(scene_);
+    const bool covered = std::isinf(measure.window) || judged >= measure.window * (1 - 1e-9);
+    if (measure.heard && !covered)
+        throw store::UsageError(fmt::format(
+            "--of {}: found {:.4g} ms after the last pluck, expected {:g} ms, its window",
+            target_.name, 1e3 * judged, 1e3 * measure.window));
+    measure_ = covered ? target_.measure : study::measure("error_l2_whole");
     if (!request_.out.empty()) {
         keep_.folder = fs::path(request_.out) / "cells";
         keep_.resume = true;
@@ -172,6 +175,10 @@ const Judge::Known& Judge::known(int start) {
     if (of.run.status.outcome != Outcome::ok)
         throw Refusal(fmt::format("reference {} {}: there is no truth to trim by", of.choice.name(),
                                   name_of(of.run.status.outcome)));
+    if (study::rows_for(measure_, of.run.trace, static_cast<int>(tap_)).empty())
+        throw Refusal(
+            fmt::format("--of {}: the reference {} cannot be read by its modes below 20 kHz",
+                        target_.name, of.choice.name()));
     const double unknown = uncertainty(*found.truth, tap_, measure_, free_from(whole.scene));
     return known_[start].emplace(Known{found, unknown});
 }

@@ -84,8 +84,7 @@ double averaged(const Footprint& p, double layer, std::vector<double> breaks, co
 
 double over_modes(const String& s, int count, const Reading& r, const Footprint& force) {
     const Modes modes = modes_of(s, count);
-    const auto w = r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at);
-    const auto g = footprint_weights(modes, force);
+    const auto w = reading_weights(r, modes, s), g = footprint_weights(modes, force);
     double sum = 0;
     for (int i = count - 1; i >= 0; --i)
         sum += w[i] * g[i] / (modes.mass * modes.omega0[i] * modes.omega0[i]);
@@ -99,6 +98,12 @@ std::vector<double> footprint_weights(const Modes& modes, const Footprint& f) {
     std::vector<double> g = footprint_weights(modes, f.position, f.width);
     for (double& x : g) x *= f.sign;
     return g;
+}
+
+std::vector<double> reading_weights(const Reading& r, const Modes& modes, const String& s) {
+    return weights_below(r.below,
+                         r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at),
+                         modes);
 }
 
 double static_deflection(const String& s, const Footprint& p, const Footprint& q) {
@@ -253,7 +258,7 @@ Sites sites_of(const Scene& scene, std::span<const Footprint> contacts) {
         const Tap& tap = scene.taps[k];
         const bool nut = tap.quantity == Quantity::nut_force;
         if (tap.mass || (!nut && tap.quantity != Quantity::displacement)) continue;
-        all.readings.push_back({{tap.position, 0}, nut});
+        all.readings.push_back({{tap.position, 0}, nut, tap.below});
         all.tap.push_back(k);
     }
     return all;
@@ -372,9 +377,11 @@ MissingMatrix difference(const String& s, const Sites& sites, std::size_t taps,
     for (int r = 0; r < static_cast<int>(sites.readings.size()); ++r)
         for (int f = 0; f < forces; ++f) {
             const Reading& reading = sites.readings[r];
-            const double truth = reading.nut_force
-                                     ? static_nut_force(s, sites.forces[f])
-                                     : static_deflection(s, reading.at, sites.forces[f]);
+            const double truth =
+                std::isfinite(reading.below)
+                    ? over_modes(s, modes_below(s, reading.below), reading, sites.forces[f])
+                : reading.nut_force ? static_nut_force(s, sites.forces[f])
+                                    : static_deflection(s, reading.at, sites.forces[f]);
             const double missing = truth - own(r, f);
             if (r >= points) m.taps[sites.tap[r - points]].push_back(missing);
             else (f < points ? m.C : m.pluck).push_back(missing);

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,7 +80,9 @@ double static_nut_force(const String&, const Footprint& force);  // for 1 N [1]
 struct Reading {
     Footprint at;
     bool nut_force = false;  // the force on the nut, in place of the displacement at `at`
+    double below = std::numeric_limits<double>::infinity();  // limit for the modes read [Hz]
 };
+std::vector<double> reading_weights(const Reading&, const Modes&, const String&);
 
 // Places at which a scene's only string is pushed and read. Forces are its contacts, thread and
 // pluck in this order, if present; readings are contacts and thread, then the displacement and

@@ -13,8 +13,7 @@ MissingMatrix modal_missing_matrix(const Descriptor& descriptor, const Scene& sc
     const Sites sites = sites_of(scene);
     std::vector<std::vector<double>> g, w;
     for (const Footprint& f : sites.forces) g.push_back(footprint_weights(modes, f));
-    for (const Reading& r : sites.readings)
-        w.push_back(r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at));
+    for (const Reading& r : sites.readings) w.push_back(reading_weights(r, modes, s));
     return missing_matrix(descriptor.name, s, sites, scene.taps.size(), modes.count(), step,
                           [&](int r, int f) {
                               double sum = 0;

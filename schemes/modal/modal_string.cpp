@@ -29,8 +29,10 @@ void refuse_above_nyquist(const Descriptor& d, const Modes& modes, double sample
 std::vector<double> tap_weights(const Tap& tap, const Modes& modes, const String& s) {
     switch (tap.quantity) {
         case Quantity::displacement:
-        case Quantity::velocity: return displacement_weights(modes, tap.position);
-        case Quantity::nut_force: return nut_force_weights(modes, s);
+        case Quantity::velocity:
+            return weights_below(tap.below, displacement_weights(modes, tap.position), modes);
+        case Quantity::nut_force:
+            return weights_below(tap.below, nut_force_weights(modes, s), modes);
         default: return {};
     }
 }

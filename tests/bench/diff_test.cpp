@@ -169,6 +169,16 @@ TEST(Cells, ThatCameBackToTheLastDigitAreCounted) {
     EXPECT_TRUE(says(text_of(d, was, is), "\n1 of 2 cells came back to the last digit"));
 }
 
+TEST(Errors, AMeasureThatTheEarlierFolderLacksIsAColumnAndOneThatIsGoneIsWorse) {
+    const Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
+    Results is = was;
+    is.cells[0].figures[0][bench::study::measure("error_l2_heard")].value = 0.04;
+    const Difference more = difference(was, is), less = difference(is, was);
+    EXPECT_TRUE(more.findings.empty());
+    EXPECT_EQ(more.columns.after, std::vector<std::string>{"error_l2_heard"});
+    EXPECT_EQ(turn_in(less, "error_l2_heard"), Turn::worse);
+}
+
 TEST(Errors, AreNotExcusedByACertificateThatGrew) {
     const Results was = cell("ok", "", 0.05, 1e-12, 1e-3);
     const Difference nine = difference(was, cell("ok", "", 0.45, 1e-12, 1e9));

@@ -20,7 +20,7 @@ const Settings kept_settings{0, 44100, 20, {{"tolerance", "1e-8"}}};
 Scene released() { return bench::compare::load_scene("tanpura_c3_release", {}, 5e-3); }
 
 jvari::Run a_run(double seconds = 1) {
-    jvari::Run r = run(exact_contact, released(), kept_settings);
+    jvari::Run r = bench::study::run_heard(exact_contact, released(), kept_settings, {});
     r.wall_seconds = seconds;
     return r;
 }
@@ -35,6 +35,7 @@ TEST(KeptRun, IsTheRunToTheLastBit) {
     ASSERT_TRUE(after);
     EXPECT_EQ(after->trace.tap, before.trace.tap);
     EXPECT_EQ(after->trace.names, before.trace.names);
+    EXPECT_EQ(after->trace.heard(0).size(), before.trace.column(0).size());
     EXPECT_EQ(after->trace.rows, before.trace.rows);
     EXPECT_EQ(after->trace.stride, before.trace.stride);
     EXPECT_EQ(after->trace.tap_rate, before.trace.tap_rate);
@@ -96,15 +97,19 @@ TEST(KeptRun, IsNotBelievedWhereItsChecksumIsRightAndItsContentIsNot) {
 TEST(KeptRun, OfSizesThatCannotBeIsNotBelievedWhateverItsChecksum) {
     const Scratch scratch;
     const auto believed = [&](const std::string& dofs, const std::string& stride,
-                              const std::string& rows) {
+                              const std::string& rows, const std::string& columns = "8") {
         const std::string content =
             R"({"key":"key","outcome":"ok","failed_step":0,"dofs":)" + dofs +
             R"(,"steps":0,"wall_seconds":1,"facts":[],"worst_block":0,"tap_rate":44100,"stride":)" +
-            stride + R"(,"rows":)" + rows + R"(,"names":["a","b","c","d","e","f","g","h"]})" + "\n";
+            stride + R"(,"rows":)" + rows +
+            R"(,"names":["a","b","c","d","e","f","g","h"],"columns":)" + columns + "}\n";
         overwrite(scratch / "a.run", bench::store::hash_of(content) + content);
         return bench::study::read_run(scratch / "a.run", "key").has_value();
     };
     EXPECT_TRUE(believed("4", "9", "0"));
+    EXPECT_TRUE(believed("4", "9", "0", "16"));  // read twice
+    for (const char* columns : {"0", "9", "-8", "24", "9223372036854775807"})
+        EXPECT_FALSE(believed("4", "9", "0", columns));
     // a run has its first row at least
     EXPECT_FALSE(believed("4", "0", "0"));
     // 2^61: eight columns of as many doubles are 0 bytes

@@ -480,6 +480,10 @@ test("an error is spoken of by what its tap measures", () => {
     "third octaves of the force on the nut",
   ]);
   assert.equal(spoken('{"suite": "x"}')[0], "the signal at nut, first 50 ms");
+  assert.equal(
+    sample()("spoken_error")({measure: "error_l2_heard", tap: "nut", title: "heard"}, []),
+    "the signal at nut, first 50 ms of its modes below 20 kHz",
+  );
 });
 const at = (of, scene, within, error = "error_l2_50ms") => {
   const rows = of("of_scene")(of("cells()"), scene),

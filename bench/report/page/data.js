@@ -125,7 +125,11 @@ function spoken_error({measure, tap, title}, [row = {}]) {
       ? `the force on the ${what}${name === what ? "" : ` (${name})`}`
       : `the ${what}${name ? ` at ${name}` : ""}`,
     whole = octaves ? "third octaves" : title.replace(/( \[| after the|, tap ).*/, "");
-  const window = {error_l2_10ms: "first 10 ms", error_l2_50ms: "first 50 ms"}[measure];
+  const window = {
+    error_l2_10ms: "first 10 ms",
+    error_l2_50ms: "first 50 ms",
+    error_l2_heard: "first 50 ms of its modes below 20 kHz",
+  }[measure];
   return (
     (window
       ? `${signal}, ${window}`

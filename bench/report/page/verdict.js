@@ -205,6 +205,7 @@ const first_columns = [
   "error_l2_10ms",
   "error_l2_50ms",
   "error_l2_whole",
+  "error_l2_heard",
   "horizon_s",
   "third_octave_db",
   "stft_db",
