@@ -99,13 +99,10 @@ void add_scene(py::module_& m) {
     m.def("scenes", &library_scenes, "Names of the scenes in the library.");
 }
 
-void add_run(py::module_& m) {
+using RunClass = py::class_<python::TakenRun, std::shared_ptr<python::TakenRun>>;
+
+void add_columns(RunClass& taken) {
     using python::TakenRun;
-    py::class_<TakenRun, std::shared_ptr<TakenRun>> taken(
-        m, "Run",
-        "What a run produced. run[\"nut\"] is the column of a tap, shape (rows,), in "
-        "units[\"nut\"]: the engine's memory, not a copy, and not to be written.");
-    has_no_constructor(taken);
     taken.def("__getitem__", &python::column, py::arg("tap"), "A column, shape (rows,).")
         .def(
             "keys",
@@ -127,7 +124,12 @@ void add_run(py::module_& m) {
         .def_property_readonly("time", &python::time_of, "Instants of the rows, shape (rows,) [s].")
         .def_property_readonly(
             "tap_rate", [](const TakenRun& r) { return r.run.trace.tap_rate; },
-            "Rows per second [Hz].")
+            "Rows per second [Hz].");
+}
+
+void add_outcome(RunClass& taken) {
+    using python::TakenRun;
+    taken
         .def_property_readonly(
             "status", [](const TakenRun& r) { return name_of(r.run.status.outcome); },
             "\"ok\", \"diverged\" or \"not_converged\".")
@@ -171,6 +173,15 @@ void add_run(py::module_& m) {
         .def("to_xarray", &python::to_xarray,
              "xarray.Dataset: a variable per column over `time` [s], each with its units, and the "
              "facts as attributes. Needs xarray.");
+}
+
+void add_run(py::module_& m) {
+    RunClass taken(m, "Run",
+                   "What a run produced. run[\"nut\"] is the column of a tap, shape (rows,), in "
+                   "units[\"nut\"]: the engine's memory, not a copy, and not to be written.");
+    has_no_constructor(taken);
+    add_columns(taken);
+    add_outcome(taken);
     m.def("run", &python::run_one, py::arg("scene"), py::arg("scheme") = "",
           py::arg("rate") = py::none(), py::arg("modes") = 0, py::arg("duration") = py::none(),
           py::arg("tap_rate") = py::none(), py::arg("energy") = false,

@@ -76,13 +76,7 @@ struct InstrumentEquations final : Equations {
         rest_ += inertia_;
         contacts = static_cast<int>(points.size());
         points.insert(points.end(), threads.begin(), threads.end());
-        body = static_cast<int>(omega_.size());
-        for (const BodyMode& m : body_modes) {
-            omega_.push_back(std::sqrt(m.stiffness / m.mass));
-            damping_.push_back(m.damping / m.mass);
-            mass_.push_back(m.mass);
-            give_ += 1 / m.mass;
-        }
+        add_body(body_modes);
         padded = static_cast<int>(omega_.size());
         sums = 2 * static_cast<int>(strings.size()) + 2;
         touched.assign(contacts, 0);
@@ -241,6 +235,16 @@ struct InstrumentEquations final : Equations {
     }
 
 private:
+    void add_body(const std::vector<BodyMode>& body_modes) {
+        body = static_cast<int>(omega_.size());
+        for (const BodyMode& m : body_modes) {
+            omega_.push_back(std::sqrt(m.stiffness / m.mass));
+            damping_.push_back(m.damping / m.mass);
+            mass_.push_back(m.mass);
+            give_ += 1 / m.mass;
+        }
+    }
+
     struct Motion {
         double y, v;
     };

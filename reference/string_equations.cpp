@@ -98,6 +98,13 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
         add_point(footprint_weights(modes, s.pluck->position, s.pluck->width));
         least_scale_ = 1e-2 * std::abs(s.pluck->amplitude) / wave_impedance(s);
     }
+    make_workspaces();
+    for (int a = 0; a < contacts; ++a)
+        for (int b = 0; b < contacts; ++b)
+            couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
+}
+
+void StringEquations::make_workspaces() {
     touched.assign(contacts, 0);
     inverse_.assign(padded, 0.0);
     compliance_.assign(static_cast<std::size_t>(points) * points, 0.0);
@@ -107,9 +114,6 @@ StringEquations::StringEquations(const Modes& modes, const String& s,
     pull_.resize(points);
     stiffness_.assign(contacts, 0.0);
     for (auto* v : {&acting_, &speed_, &change_}) v->assign(std::max(points, series_.count), 0.0);
-    for (int a = 0; a < contacts; ++a)
-        for (int b = 0; b < contacts; ++b)
-            couples_.push_back(std::abs(dot(row(weights_, a), row(gains_, b), padded)));
 }
 
 void StringEquations::read_series(const double* z, double* series) const noexcept {

@@ -75,6 +75,8 @@ struct StringEquations final : Equations {
                double* x) noexcept override;
 
 private:
+    void make_workspaces();
+
     struct Point {
         ContactLaw law;
         double beta, r, height;

@@ -269,15 +269,22 @@ long rows_of(const Scene& scene, const Settings& settings) {
     return std::lround(intervals) + 1;
 }
 
-// A scheme in continuous time has no rate: its rows count as steps.
-Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunOptions& options) {
-    Run result;
-    Trace& trace = result.trace;
+namespace {
+Trace empty_trace(const Scene& scene, const Settings& settings, bool energy) {
+    Trace trace;
     trace.tap_rate = settings.tap_rate;
     trace.stride = rows_of(scene, settings);
     for (const Tap& tap : scene.taps) trace.names.push_back(tap.name);
     trace.tap.assign(trace.stride * trace.names.size(), 0.0);
-    if (options.energy) trace.energy.assign(trace.stride * 3, 0.0);
+    if (energy) trace.energy.assign(trace.stride * 3, 0.0);
+    return trace;
+}
+}  // namespace
+
+// A scheme in continuous time has no rate: its rows count as steps.
+Run run(Scheme& scheme, const Scene& scene, const Settings& settings, const RunOptions& options) {
+    Run result;
+    Trace& trace = result.trace = empty_trace(scene, settings, options.energy);
     result.dofs = scheme.dofs();
     const bool continuous = settings.sample_rate == 0;
     const double steps_per_row = continuous ? 1 : settings.sample_rate / settings.tap_rate;

@@ -167,6 +167,19 @@ bool covers_more(const Certificate& old, const Certificate& fresh) {
     return old.duration > fresh.duration * (1 + 1e-9);
 }
 
+Json json_of(const Certificate& c, const Scene& scene, const fs::path& path, bool cached,
+             bool good) {
+    Json costs = Json::array();
+    for (const auto& e : c.entries) costs.push_back(e.wall_seconds);
+    return {{"scene", scene.name},
+            {"status", good ? "ok" : "failed"},
+            {"cached", cached},
+            {"file", path.string()},
+            {"cost_file", study::cost_path(path).string()},
+            {"certificate", store::parsed(study::json_of(c))},
+            {"wall_seconds", costs}};
+}
+
 int certify_command(const CertifyRequest& r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
@@ -223,15 +236,7 @@ int certify_command(const CertifyRequest& r) {
     const bool good = std::any_of(entries.begin(), entries.end(), [](const auto& e) {
         return e.reason.empty() && e.status.outcome == Outcome::ok;
     });
-    Json costs = Json::array();
-    for (const auto& e : entries) costs.push_back(e.wall_seconds);
-    console.print_json(store::indented({{"scene", scene.name},
-                                        {"status", good ? "ok" : "failed"},
-                                        {"cached", cached},
-                                        {"file", path.string()},
-                                        {"cost_file", study::cost_path(path).string()},
-                                        {"certificate", store::parsed(study::json_of(c))},
-                                        {"wall_seconds", costs}}));
+    console.print_json(store::indented(json_of(c, scene, path, cached, good)));
     return good ? exit_code::done : exit_code::run_failed;
 }
 }  // namespace

@@ -227,6 +227,80 @@ std::vector<compare::Advice> advised(const RunRequest& r, const Scene& scene,
     return all;
 }
 
+// Tests the outputs and the size of a run before it begins.
+void check_outputs(const RunRequest& r, const Scene& scene, double tap_rate, bool energy) {
+    if (!r.impacts.empty()) {
+        if (std::ranges::all_of(scene.strings, [](const String& s) { return !s.has_contacts(); }))
+            throw store::UsageError("--impacts: no string of the scene has a barrier or a mass");
+        store::must_be_writable(r.impacts);
+    }
+    if (scene.duration * tap_rate * (scene.taps.size() + 3.0 * energy) > 2e9)
+        throw store::UsageError(
+            fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, tap_rate));
+}
+
+Run run_with_progress(const RunRequest& r, const Descriptor& d, const Scene& scene,
+                      const Settings& settings, bool energy, std::vector<Impacts>& impacts,
+                      const Console& console) {
+    const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
+    RunOptions options;
+    options.energy = energy;
+    options.state = !r.state.empty();
+    if (!r.impacts.empty()) options.impacts = impacts.data();
+    options.progress = [&](long done, long rows) {
+        if (options.impacts && done > 0 && std::ranges::none_of(impacts, &Impacts::reported))
+            throw store::UsageError(
+                fmt::format("--impacts: {} does not tell what its contacts do; exact_contact, "
+                            "modal schemes and those of grids do",
+                            d.name));
+        progress->show(static_cast<double>(done) / static_cast<double>(rows));
+    };
+    options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
+        console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done,
+                                 rows, long_run, dearest(facts)));
+    };
+    return run(d, scene, settings, options);
+}
+
+void write_state(const RunRequest& r, const Scene& scene, const ModalState& state, Json& json,
+                 std::string& text) {
+    std::string rows =
+        fmt::format("# state of {}\nmode,displacement_m,velocity_m_per_s\n", scene.name);
+    for (std::size_t i = 0; i < state.displacement.size(); ++i)
+        rows += fmt::format("{},{},{}\n", i + 1, state.displacement[i], state.velocity[i]);
+    store::write_fresh(r.state, rows);
+    json["state"] = r.state;
+    text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
+}
+
+// Writes the trace or the sound. The picture's taps come before the sound's in a run for both.
+void write_out(const RunRequest& r, const std::optional<Player>& player, std::size_t drawn,
+               const Scene& sounding, const Trace& trace, Json& json, std::string& text) {
+    std::string level;
+    if (player && drawn > 0) level = player->write(part_of(trace, drawn, sounding));
+    else if (player) level = player->write(trace);
+    else store::write_trace(r.out, trace);
+    json["out"] = r.out;
+    if (!level.empty()) json["level"] = level;
+    text +=
+        fmt::format("\n  {:<28}{}{}", "written", r.out, level.empty() ? "" : "  (" + level + ")");
+}
+
+void write_impacts(const RunRequest& r, const std::vector<Impacts>& impacts, const Scene& scene,
+                   double seconds, Json& json, std::string& text) {
+    const store::Table table = impacts_table(impacts, scene, seconds);
+    store::write_fresh(r.impacts, store::csv(table));
+    json["impacts"] = store::rows_json(table);
+    text += fmt::format("\n  {:<28}{}  ({} contacts)", "written", r.impacts, table.rows.size());
+}
+
+int end_of(const Run& result, const Console& console) {
+    if (result.status.outcome == Outcome::ok) return exit_code::done;
+    console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome),
+                             result.status.step, result.trace.rows));
+    return exit_code::run_failed;
+}
+
 int run_command(RunRequest r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
@@ -262,69 +336,21 @@ int run_command(RunRequest r) {
     check_state(r, d, scene, settings);
     const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
     std::vector<Impacts> impacts(scene.strings.begin(), scene.strings.end());
-    if (!r.impacts.empty()) {
-        if (std::ranges::all_of(scene.strings, [](const String& s) { return !s.has_contacts(); }))
-            throw store::UsageError("--impacts: no string of the scene has a barrier or a mass");
-        store::must_be_writable(r.impacts);
-    }
-    if (scene.duration * settings.tap_rate * (scene.taps.size() + 3.0 * (r.energy || vega)) > 2e9)
-        throw store::UsageError(fmt::format("{} s at {} rows a second do not fit in memory",
-                                            scene.duration, settings.tap_rate));
+    check_outputs(r, scene, settings.tap_rate, r.energy || vega);
     if (r.rate && d.clock == Clock::continuous)
         console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
 
-    Run result;
-    {
-        const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
-        RunOptions options;
-        options.energy = r.energy || vega;
-        options.state = !r.state.empty();
-        if (!r.impacts.empty()) options.impacts = impacts.data();
-        options.progress = [&](long done, long rows) {
-            if (options.impacts && done > 0 && std::ranges::none_of(impacts, &Impacts::reported))
-                throw store::UsageError(
-                    fmt::format("--impacts: {} does not tell what its contacts do; exact_contact, "
-                                "modal schemes and those of grids do",
-                                d.name));
-            progress->show(static_cast<double>(done) / static_cast<double>(rows));
-        };
-        options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
-            console.note(fmt::format("{} on {}: {} of {} rows in {} s{}", d.name, scene.name, done,
-                                     rows, long_run, dearest(facts)));
-        };
-        result = run(d, scene, settings, options);
-    }
+    const Run result = run_with_progress(r, d, scene, settings, r.energy || vega, impacts, console);
     const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
     if (!advice.empty()) json["advice"] = compare::json_of(advice.back());
     std::string text = text_for(r, d, scene, summary);
-    if (!r.out.empty()) {
-        std::string level;
-        if (player && drawn > 0) level = player->write(part_of(result.trace, drawn, sounding));
-        else if (player) level = player->write(result.trace);
-        else store::write_trace(r.out, result.trace);
-        json["out"] = r.out;
-        if (!level.empty()) json["level"] = level;
-        text += fmt::format("\n  {:<28}{}{}", "written", r.out,
-                            level.empty() ? "" : "  (" + level + ")");
-    }
-    if (!r.state.empty() && result.status.outcome == Outcome::ok) {
-        std::string rows =
-            fmt::format("# state of {}\nmode,displacement_m,velocity_m_per_s\n", scene.name);
-        for (std::size_t i = 0; i < result.state.displacement.size(); ++i)
-            rows += fmt::format("{},{},{}\n", i + 1, result.state.displacement[i],
-                                result.state.velocity[i]);
-        store::write_fresh(r.state, rows);
-        json["state"] = r.state;
-        text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
-    }
-    if (!r.impacts.empty()) {
-        const store::Table table = impacts_table(
-            impacts, scene, static_cast<double>(result.trace.rows - 1) / settings.tap_rate);
-        store::write_fresh(r.impacts, store::csv(table));
-        json["impacts"] = store::rows_json(table);
-        text += fmt::format("\n  {:<28}{}  ({} contacts)", "written", r.impacts, table.rows.size());
-    }
+    if (!r.out.empty()) write_out(r, player, drawn, sounding, result.trace, json, text);
+    if (!r.state.empty() && result.status.outcome == Outcome::ok)
+        write_state(r, scene, result.state, json, text);
+    if (!r.impacts.empty())
+        write_impacts(r, impacts, scene,
+                      static_cast<double>(result.trace.rows - 1) / settings.tap_rate, json, text);
     if (vega) {
         if (drawn > 0) draw(r.plot, d, own, summary, part_of(result.trace, 0, own), *vega, r.width);
         else draw(r.plot, d, own, summary, result.trace, *vega, r.width);
@@ -333,10 +359,7 @@ int run_command(RunRequest r) {
     }
     console.print(text);
     console.print_json(store::indented(json));
-    if (result.status.outcome == Outcome::ok) return exit_code::done;
-    console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome),
-                             result.status.step, result.trace.rows));
-    return exit_code::run_failed;
+    return end_of(result, console);
 }
 }  // namespace
 

@@ -74,6 +74,65 @@ std::string window_name(const std::string& error) {
            : error == "error_l2_10ms" ? "the first 10 ms"
                                       : "the run";
 }
+
+TextTable::Row certificate_row(const study::Cells& cells, std::size_t columns) {
+    TextTable::Row row{' ', {"(uncertainty of the reference)", "", ""}};
+    for (const char* column : errors) {
+        const double x =
+            cells.empty() ? std::nan("") : cells[0].figure(study::measure(column)).certificate;
+        row.fields.push_back(std::isnan(x) ? "unknown" : fmt::format("{:.2e}", x));
+    }
+    row.fields.resize(columns);
+    return row;
+}
+
+TextTable::Row row_of(const study::TabledCell& c) {
+    TextTable::Row row{c.pareto == 1      ? '*'
+                       : !c.flags.empty() ? '!'
+                                          : ' ',
+                       {c.variant(), std::isnan(c.rate) ? "contin." : store::text_of(c.rate),
+                        store::text_of(c.modes)}};
+    for (const char* column : errors)
+        row.fields.push_back(
+            compare::error_text(compare::bound_of(c, study::measure(column)), "{:.2e}"));
+    const auto value = [&c](const char* measure) {
+        return c.figure(study::measure(measure)).value;
+    };
+    for (const std::string& text :
+         {std::isnan(value("horizon_s")) ? "-" : compare::time_text(value("horizon_s")),
+          formatted(value("third_octave_db"), "{:.2f} dB"),
+          formatted(c.energy_residual_accumulated, "{:.1e}"), formatted(c.cost_s_per_s, "{:.3g}"),
+          spread_text(c), formatted(c.times_real_time, "{:.3g}"),
+          formatted(c.ns_per_step, "{:.1f}")})
+        row.fields.push_back(text);
+    return row;
+}
+
+std::string flag_text(const study::TabledCell& c) {
+    return fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n", c.run(),
+                       c.flags, formatted(c.smallest_contact_force, "{:.2g} N"),
+                       formatted(c.energy_residual_accumulated, "{:.1e}"));
+}
+
+// Explains the signs beside errors that occur in the table.
+std::string legend_of_bounds(const study::Cells& cells) {
+    const auto says = [&cells](compare::Bound::Says what) {
+        return std::ranges::any_of(cells, [what](const study::TabledCell& c) {
+            return std::ranges::any_of(errors, [&](const char* column) {
+                return compare::bound_of(c, study::measure(column)).says() == what;
+            });
+        });
+    };
+    std::string text;
+    if (says(compare::Bound::Says::at_most))
+        text +=
+            "\n\u2264 upper bound: the error and the uncertainty of the reference, which is more "
+            "than a tenth of it";
+    if (says(compare::Bound::Says::unknown)) text += "\nnot known: together they reach 100 %";
+    if (says(compare::Bound::Says::unsure))
+        text += "\n? measured against a reference whose own uncertainty is unknown";
+    return text;
+}
 }  // namespace
 
 std::string headline_text(const study::Cells& cells, std::size_t width) {
@@ -96,14 +155,7 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
                      {"real time", false, 7},
                      {"ns/step", false, 8}},
                     {}};
-    TextTable::Row certificate{' ', {"(uncertainty of the reference)", "", ""}};
-    for (const char* column : errors) {
-        const double x =
-            cells.empty() ? std::nan("") : cells[0].figure(study::measure(column)).certificate;
-        certificate.fields.push_back(std::isnan(x) ? "unknown" : fmt::format("{:.2e}", x));
-    }
-    certificate.fields.resize(table.columns.size());
-    table.rows.push_back(std::move(certificate));
+    table.rows.push_back(certificate_row(cells, table.columns.size()));
     std::string missing, flagged, untimed;
     std::size_t left_out = 0;
     for (const study::TabledCell& c : cells) {
@@ -120,30 +172,8 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
         }
         if (c.status != "ok") missing += fmt::format("  {} {}\n", c.run(), c.reason);
         if (!c.untimed.empty()) untimed += fmt::format("\ncost of {}: {}", c.run(), c.untimed);
-        if (!c.flags.empty())
-            flagged +=
-                fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n", c.run(),
-                            c.flags, formatted(c.smallest_contact_force, "{:.2g} N"),
-                            formatted(c.energy_residual_accumulated, "{:.1e}"));
-        TextTable::Row row{c.pareto == 1      ? '*'
-                           : !c.flags.empty() ? '!'
-                                              : ' ',
-                           {c.variant(), std::isnan(c.rate) ? "contin." : store::text_of(c.rate),
-                            store::text_of(c.modes)}};
-        for (const char* column : errors)
-            row.fields.push_back(
-                compare::error_text(compare::bound_of(c, study::measure(column)), "{:.2e}"));
-        const auto value = [&c](const char* measure) {
-            return c.figure(study::measure(measure)).value;
-        };
-        for (const std::string& text :
-             {std::isnan(value("horizon_s")) ? "-" : compare::time_text(value("horizon_s")),
-              formatted(value("third_octave_db"), "{:.2f} dB"),
-              formatted(c.energy_residual_accumulated, "{:.1e}"),
-              formatted(c.cost_s_per_s, "{:.3g}"), spread_text(c),
-              formatted(c.times_real_time, "{:.3g}"), formatted(c.ns_per_step, "{:.1f}")})
-            row.fields.push_back(text);
-        table.rows.push_back(std::move(row));
+        if (!c.flags.empty()) flagged += flag_text(c);
+        table.rows.push_back(row_of(c));
     }
     std::string text = table.text(width);
     if (const double from = cells.empty() ? 0 : cells[0].free_from_s; from > 0)
@@ -151,24 +181,11 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
             "errors are of what follows the last pluck: their windows begin at {:.6g} s\n", from);
     text += fmt::format(
         "* on the Pareto front of {} and cost; +- is half the distance of the quartiles", headline);
-    const auto says = [&cells](compare::Bound::Says what) {
-        return std::ranges::any_of(cells, [what](const study::TabledCell& c) {
-            return std::ranges::any_of(errors, [&](const char* column) {
-                return compare::bound_of(c, study::measure(column)).says() == what;
-            });
-        });
-    };
     text += untimed;
     if (left_out > 0)
         text += fmt::format("\n{} further runs were ended after {}: a cheaper one is as accurate",
                             left_out, window_name(headline) + compare::after_pluck(cells[0]));
-    if (says(compare::Bound::Says::at_most))
-        text +=
-            "\n\u2264 upper bound: the error and the uncertainty of the reference, which is more "
-            "than a tenth of it";
-    if (says(compare::Bound::Says::unknown)) text += "\nnot known: together they reach 100 %";
-    if (says(compare::Bound::Says::unsure))
-        text += "\n? measured against a reference whose own uncertainty is unknown";
+    text += legend_of_bounds(cells);
     if (!flagged.empty())
         text += "\n! not to be trusted, whatever the error says\n" +
                 flagged.substr(0, flagged.size() - 1);

@@ -127,6 +127,34 @@ std::vector<Ratio> ratios_of(const Results& a, const Results& b, const std::vect
     }
     return ratios;
 }
+
+// Findings for cells that ran in the second folder without a cost: they have lost it, on any
+// machine.
+void find_missing_costs(const Results& a, const Results& b, const std::vector<Pair>& pairs,
+                        Difference& d) {
+    for (const Pair& p : pairs) {
+        const C &before = a.cells[p.before], &after = b.cells[p.after];
+        if (after.status != "ok") continue;
+        for (const Clock& c : {wall, processor})
+            if (before.*c.median > 0 && !(after.*c.median > 0))
+                d.findings.push_back({Turn::worse, p.name, c.column,
+                                      store::text_of(before.*c.median),
+                                      store::text_of(after.*c.median), "its cost is gone"});
+    }
+}
+
+using Series = std::vector<std::pair<std::string, std::vector<Ratio>>>;
+
+Series series_of(const std::vector<Ratio>& ratios) {
+    Series series;
+    for (const Ratio& r : ratios) {
+        auto it = std::find_if(series.begin(), series.end(),
+                               [&r](const auto& s) { return s.first == r.series; });
+        if (it == series.end()) it = series.insert(series.end(), {r.series, {}});
+        it->second.push_back(r);
+    }
+    return series;
+}
 }  // namespace
 
 void compare_costs(const Results& a, const Results& b, const std::vector<Pair>& pairs,
@@ -137,15 +165,7 @@ void compare_costs(const Results& a, const Results& b, const std::vector<Pair>& 
                 "no cell of the second folder has a cost: none was measured, or they are gone");
         return;
     }
-    for (const Pair& p : pairs) {  // a cell that ran has a cost, on any machine
-        const C &before = a.cells[p.before], &after = b.cells[p.after];
-        if (after.status != "ok") continue;
-        for (const Clock& c : {wall, processor})
-            if (before.*c.median > 0 && !(after.*c.median > 0))
-                d.findings.push_back({Turn::worse, p.name, c.column,
-                                      store::text_of(before.*c.median),
-                                      store::text_of(after.*c.median), "its cost is gone"});
-    }
+    find_missing_costs(a, b, pairs, d);
     const bool both = has(a.cells, processor.median) && has(b.cells, processor.median);
     const Clock& clock = both ? processor : wall;
     std::vector<Ratio> ratios = ratios_of(a, b, pairs, clock);
@@ -162,13 +182,7 @@ void compare_costs(const Results& a, const Results& b, const std::vector<Pair>& 
     for (const Ratio& r : ratios) names.insert(r.series);
     const bool few = names.size() < fewest_series;
     if (!few) take_off_drift(ratios);
-    std::vector<std::pair<std::string, std::vector<Ratio>>> series;
-    for (const Ratio& r : ratios) {
-        auto it = std::find_if(series.begin(), series.end(),
-                               [&r](const auto& s) { return s.first == r.series; });
-        if (it == series.end()) it = series.insert(series.end(), {r.series, {}});
-        it->second.push_back(r);
-    }
+    const Series series = series_of(ratios);
     const Noise noise = few ? Noise{} : noise_of(ratios);
     const auto drift_of = [](const std::vector<Ratio>& of) {
         return median_of(of, [](const Ratio& r) { return r.drift; });

@@ -90,6 +90,20 @@ void compare_with_theory(std::vector<Boundary>& all) {
         i = end;
     }
 }
+
+// Indices of points whose verdict differs from the next point's in the same row.
+std::vector<std::size_t> changes_in(const std::vector<PointPlace>& places,
+                                    const std::vector<Tried>& tried) {
+    std::vector<std::size_t> changes;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+        const PointPlace &p = places[i], &q = places[i + 1];
+        const bool same_row = p.map == q.map && p.scheme == q.scheme && p.y == q.y;
+        if (same_row && !p.map->x.at.empty() &&
+            tried[i].judgement.verdict != tried[i + 1].judgement.verdict)
+            changes.push_back(i);
+    }
+    return changes;
+}
 }  // namespace
 
 Trial trial_at(const PointPlace& p) {
@@ -122,14 +136,7 @@ MapRun run_maps(const std::vector<Map>& maps, const compare::Catalogue& catalogu
                             else done.postpone();
                         });
 
-    std::vector<std::size_t> changes;  // changes between a point and the next
-    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-        const PointPlace &p = places[i], &q = places[i + 1];
-        const bool same_row = p.map == q.map && p.scheme == q.scheme && p.y == q.y;
-        if (same_row && !p.map->x.at.empty() &&
-            tried[i].judgement.verdict != tried[i + 1].judgement.verdict)
-            changes.push_back(i);
-    }
+    const std::vector<std::size_t> changes = changes_in(places, tried);
     MapRun result;
     result.boundaries.resize(changes.size());
     std::vector<int> bisections(changes.size());

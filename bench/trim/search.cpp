@@ -72,25 +72,39 @@ std::vector<Variant> variants_of(const Descriptor& d, const Scene& scene,
     return all;
 }
 
+namespace {
+std::vector<std::string> names_of_able(const std::vector<const Descriptor*>& schemes,
+                                       const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Descriptor* d : schemes)
+        if (represents(*d, scene)) names.emplace_back(d->name);
+    if (names.empty())
+        throw Refusal("no scheme represents scene " + scene.name + ": it needs " +
+                      names_of(needed_by(scene)));
+    return names;
+}
+
+std::vector<int> unjudged_taps(const Judge& judge) {  // the motion is the same without them
+    std::vector<int> taps;
+    for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
+        if (judge.reductions()[k].part == Part::tap && judge.may_go(k)) taps.push_back(k);
+    return taps;
+}
+}  // namespace
+
 Path search(Judge& judge, const std::vector<const Descriptor*>& schemes,
             const std::vector<int>& starts, const store::Listener& listener,
             const compare::Advice* advised) {
     Path path;
     CheapestSettings s(judge, schemes, starts, listener);
-    for (const Descriptor* d : schemes)
-        if (represents(*d, judge.scene())) path.tried.emplace_back(d->name);
-    if (path.tried.empty())
-        throw Refusal("no scheme represents scene " + judge.scene().name + ": it needs " +
-                      names_of(needed_by(judge.scene())));
+    path.tried = names_of_able(schemes, judge.scene());
     const auto step = [&path](const std::string& change, const Found& f, bool within = true) {
         path.steps.push_back({change, f.model, f.error, f.cost, within});
     };
     bool within = false;
     if (const auto first = s.as_published(within))
         step("the whole scene, compliance its own", *first, within);
-    std::vector<int> unheard;  // taps that nobody judges: the motion is the same without them
-    for (int k = 0; k < static_cast<int>(judge.reductions().size()); ++k)
-        if (judge.reductions()[k].part == Part::tap && judge.may_go(k)) unheard.push_back(k);
+    const std::vector<int> unheard = unjudged_taps(judge);
     std::optional<Found> now;
     if (advised) {
         const Model m{unheard, advised->scheme, advised->settings};

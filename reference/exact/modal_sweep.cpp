@@ -51,6 +51,26 @@ constexpr double inverse_factorials[32] = {1.0 / 1,
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
+// Adds to the first outputs from the derivatives that were kept.
+template <int K>
+HWY_INLINE void add_kept(const ModalSweep& m, int i, int others, int terms,
+                         double* HWY_RESTRICT sum, const double* HWY_RESTRICT kept) {
+    const D d;
+    const int N = static_cast<int>(hn::Lanes(d)), stride = m.count;
+    V g[K];
+    for (int o = 0; o < others; ++o) {
+        for (int k = 0; k < K; ++k)
+            g[k] = hn::LoadU(d, m.weights + static_cast<long>(o) * m.modes + i + k * N);
+        for (int n = 0; n < terms; ++n) {
+            double* out = sum + (o * (stride + 1) + n) * N;
+            V total = hn::LoadU(d, out);
+            for (int k = 0; k < K; ++k)
+                total = hn::MulAdd(g[k], hn::LoadU(d, kept + (n * K + k) * N), total);
+            hn::StoreU(total, d, out);
+        }
+    }
+}
+
 // Reads K vectors of modes from i on, scaled by `base`: the last output is their sum. One or two
 // outputs are summed on the way; for more the derivatives are kept.
 template <int fixed_outputs, int K>
@@ -105,16 +125,7 @@ HWY_INLINE void read_block(const ModalSweep& m, int i, double* HWY_RESTRICT sum,
             d1[k] = next;
         }
     }
-    for (int o = 0; keep && o < others; ++o) {
-        load_weights(o, g[0]);
-        for (int n = 0; n < terms; ++n) {
-            double* out = sum + (o * (stride + 1) + n) * N;
-            V total = hn::LoadU(d, out);
-            for (int k = 0; k < K; ++k)
-                total = hn::MulAdd(g[0][k], hn::LoadU(d, kept + (n * K + k) * N), total);
-            hn::StoreU(total, d, out);
-        }
-    }
+    if (keep) add_kept<K>(m, i, others, terms, sum, kept);
 }
 template <int outputs>
 void read_blocks(const ModalSweep& m, double* HWY_RESTRICT sum, double* HWY_RESTRICT kept) {

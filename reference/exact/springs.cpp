@@ -56,10 +56,13 @@ Springs::Springs(const Modes& modes, const Oscillators& osc, const String& s,
             double* hab = kernel.data() + (static_cast<long>(a) * forces + b) * longest_series;
             for (int n = 0; n < longest_series; ++n) hab[n] += more[n];
         }
+    set_floor(std::max(2.0, in_series ? 2 * series_rate(*in_series) / osc.rate : 0));
+}
 
+void Springs::set_floor(double least) {
     sized_.assign(static_cast<long>(points) * forces, 0.0);
-    for (floor_ = std::max(2.0, in_series ? 2 * series_rate(*in_series) / osc.rate : 0);
-         ;) {  // |h^(i)| <= i |h^(1)| bound: beyond the series kept, i 2^-i is nothing
+    // |h^(i)| <= i |h^(1)| bound: beyond the series kept, i 2^-i is nothing
+    for (floor_ = least;;) {
         for (int a = 0; a < points; ++a)
             for (int b = 0; b < forces; ++b) {
                 double power = 1, sum = 0;

@@ -48,6 +48,8 @@ struct Springs {
                double* F) const;
 
 private:
+    void set_floor(double least);
+
     double floor_ = 0;           // growth is never below this
     std::vector<double> sized_;  // sum_i |h_ab^(i)| floor^(1-i) [point][force]
 };

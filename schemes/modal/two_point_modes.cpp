@@ -45,6 +45,54 @@ TwoPointCoefficients exact_two_point(double omega0, double sigma, double dt) {  
     return {m.A(), m.B()};
 }
 
+AlignedVector TwoPointModes::scaled(const std::vector<double>& weights) const {
+    AlignedVector w(weights.begin(), weights.end());
+    for (int i = 0; i < m_.modes; ++i) w[i] /= scale_[i];
+    w.resize(m_.size);
+    return w;
+}
+
+void TwoPointModes::put_pluck(const Pluck& pluck, const Modes& modes, double duration) {
+    g_e_ = scaled(footprint_weights(modes, pluck.position, pluck.width));
+    for (const AlignedVector& g : g_) pluck_.theta.push_back(gram(g, g_e_));
+    const PluckSteps steps = pluck_steps(pluck, dt_, duration);
+    pluck_.of = pluck;
+    pluck_.first = steps.first;
+    pluck_.steps = steps.count;
+    for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
+        pluck_.mean.push_back(mean_in_step(pluck_.of, n, dt_));
+}
+
+void TwoPointModes::put_body(const Modes& modes, const String& s, std::span<const double> A,
+                             std::span<const double> B) {
+    const AlignedVector mu = scaled(end_inertia(modes, s));
+    body_ = {mu, mu, mu};
+    for (int i = 0; i < m_.modes; ++i) {  // s - 2q = -(A + B) u - 2 A y
+        body_.on_y[i] *= -2 * A[i];
+        body_.on_u[i] *= -(A[i] + B[i]);
+    }
+    g_.push_back(mu);
+}
+
+void TwoPointModes::put_tap(const Tap& tap, const Modes& modes, const String& s,
+                            std::span<const double> A) {
+    TapOfModes t;
+    if (const auto w = tap_weights(tap, modes, s); !w.empty()) t.on_y = scaled(w);
+    if (tap.quantity == Quantity::velocity) {  // p/m = 2q/dt, q = J u/2 + A y
+        t.on_u = t.on_y;
+        for (int i = 0; i < m_.modes; ++i) {
+            t.on_u[i] *= J_[i] / dt_;
+            t.on_y[i] *= 2 * A[i] / dt_;
+        }
+    }
+    std::vector<double> one(p_.count());  // 1 N at each point
+    for (int p = 0; t.on_y.empty() && p < p_.count(); one[p++] = 0) {
+        one[p] = 1;
+        t.on_mean.push_back(heard_force(tap.quantity, p_, one.data()));
+    }
+    taps_.push_back(std::move(t));
+}
+
 TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
                              const Settings& settings, TwoPointLaw law)
     : dt_(1 / settings.sample_rate) {
@@ -56,7 +104,6 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     m_.size = (count + modal_padding - 1) / modal_padding * modal_padding;
     const bool matched = choice_option(settings, compliance_option) == "matched";
     std::vector<double> A, B, own;
-    std::vector<double>& scale = scale_;
     AlignedVector c(m_.size), loss(m_.size);
     for (AlignedVector* a : {&J_, &y0_, &u0_}) a->assign(m_.size, 0.0);
     for (int i = 0; i < count; ++i) {
@@ -70,17 +117,11 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
         // 4 m A/dt^2 is the true mode's.
         const double mass =
             modes.mass * (matched ? 0.5 * dt_ * modes.omega0[i] / std::sqrt(Ai) : 1);
-        scale.push_back(std::sqrt(J / (dt_ * dt_ / (2 * mass))));
+        scale_.push_back(std::sqrt(J / (dt_ * dt_ / (2 * mass))));
         own.push_back(dt_ * dt_ / (4 * mass * Ai));  // (42) with s = 0
         free_modes_.push_back(two_point_mode(Ai, Bi, dt_));
         offset_ = std::max(offset_, lead_at_start(modes.omega0[i], modes.sigma[i], Ai, Bi));
     }
-    const auto scaled = [&](const std::vector<double>& weights) {
-        AlignedVector w(weights.begin(), weights.end());
-        for (int i = 0; i < count; ++i) w[i] /= scale[i];
-        w.resize(m_.size);
-        return w;
-    };
 
     p_ = points_of(scene, dt_);
     add_lumped(p_, s);
@@ -90,15 +131,7 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     for (const Footprint& f : sites_of(scene).forces)
         if (g_.size() < p_.positions.size()) g_.push_back(scaled(footprint_weights(modes, f)));
     const bool on_body = needed_by(scene).has(Feature::moving_body);
-    if (on_body) {
-        const AlignedVector mu = scaled(end_inertia(modes, s));
-        body_ = {mu, mu, mu};
-        for (int i = 0; i < count; ++i) {  // s - 2q = -(A + B) u - 2 A y
-            body_.on_y[i] *= -2 * A[i];
-            body_.on_u[i] *= -(A[i] + B[i]);
-        }
-        g_.push_back(mu);
-    }
+    if (on_body) put_body(modes, s, A, B);
     const int points = m_.points = static_cast<int>(g_.size());
     stream_.assign(static_cast<std::size_t>(m_.size) * m_.columns(), 0.0);
     m_.stream = stream_.data();
@@ -106,36 +139,11 @@ TwoPointModes::TwoPointModes(const Descriptor& descriptor, const Scene& given,
     put(Column::loss, loss);
     for (int p = 0; p < points; ++p) put(Column::g, g_[p], p);
     for (int i = 0; i < count; ++i) begin(i, start.displacement[i], start.velocity[i]);
-    if (s.pluck) {
-        g_e_ = scaled(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        for (const AlignedVector& g : g_) pluck_.theta.push_back(gram(g, g_e_));
-        const PluckSteps steps = pluck_steps(*s.pluck, dt_, scene.duration);
-        pluck_.of = *s.pluck;
-        pluck_.first = steps.first;
-        pluck_.steps = steps.count;
-        for (long n = steps.first; n < steps.first + steps.tabulated; ++n)
-            pluck_.mean.push_back(mean_in_step(pluck_.of, n, dt_));
-    }
+    if (s.pluck) put_pluck(*s.pluck, modes, scene.duration);
     for (const AlignedVector& g : g_)  // theta in (43), (44)
         for (const AlignedVector& h : g_) p_.theta.push_back(gram(g, h));
 
-    for (const Tap& tap : scene.taps) {
-        TapOfModes t;
-        if (const auto w = tap_weights(tap, modes, s); !w.empty()) t.on_y = scaled(w);
-        if (tap.quantity == Quantity::velocity) {  // p/m = 2q/dt, q = J u/2 + A y
-            t.on_u = t.on_y;
-            for (int i = 0; i < count; ++i) {
-                t.on_u[i] *= J_[i] / dt_;
-                t.on_y[i] *= 2 * A[i] / dt_;
-            }
-        }
-        std::vector<double> one(p_.count());  // 1 N at each point
-        for (int p = 0; t.on_y.empty() && p < p_.count(); one[p++] = 0) {
-            one[p] = 1;
-            t.on_mean.push_back(heard_force(tap.quantity, p_, one.data()));
-        }
-        taps_.push_back(std::move(t));
-    }
+    for (const Tap& tap : scene.taps) put_tap(tap, modes, s, A);
     if (!matched && p_.contacts.count() == 1 && !on_body)
         compliance_ = relative_compliance(modes, s, own);
     for (auto* v : {&y_, &u_, &free_, &force_}) v->assign(2 * g_.size(), 0.0);

@@ -76,7 +76,14 @@ private:
         // scaled; weights for sum mu_i (s_i - 2 q_i) without forces, in y and u
         AlignedVector mu, on_y, on_u;
     };
+    // Weights of the modes, with scaled coordinates.
+    AlignedVector scaled(const std::vector<double>& weights) const;
     void put(TwoPointColumn, const AlignedVector&, int point = 0);
+    void put_pluck(const Pluck&, const Modes&, double duration);
+    // A, B: of (33), for each mode
+    void put_body(const Modes&, const String&, std::span<const double> A,
+                  std::span<const double> B);
+    void put_tap(const Tap&, const Modes&, const String&, std::span<const double> A);
     void pluck_modes() noexcept;
     double momentum_of(int i) const {  // q_i/J_i
         return 0.5 * at(TwoPointColumn::u, i) +

@@ -108,6 +108,38 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
     return (half != 0 && leaves(C / half)) || (A != 0 && leaves(half / A));
 }
 
+// x = e_0 by the law's tangent at the present penetration, in full contact.
+double MomentRule::first_guess(const MomentMatrix& T, double eta, double E_0,
+                               double E_1) const noexcept {
+    const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, low = std::min(E_0, 0.0);
+    const double at = eta > 0 ? eta : 0.5 * std::max(E_0, E_1);
+    const Powers l = powers(at);
+    const double k = l.slope, F = l.force - k * at;
+    const double a = 1 - 0.5 * k * A_1 + k * T.m11, b = -0.5 * k * A_1,
+                 c = 0.5 * k * A_0 - k * T.m01, d = 1 + 0.5 * k * A_0, R_0 = E_0 + T.m10 * F,
+                 R_1 = E_1 - T.m00 * F;
+    double x = (d * R_0 - b * R_1) / (a * d - b * c);
+    if (eta <= 0 && E_0 <= 0) {  // enters
+        const double out = E_0 + A_1 * E_1 / A_0;
+        if (out <= 0) x = low + 0.999 * (out - low);
+    }
+    if (!(x > low)) x = eta > low ? eta : low + std::max(1e-3 * std::abs(E_0 - E_1), 1e-14);
+    return x;
+}
+
+// Newton's steps for the end e_1 of a contact that enters, from the energy.
+void MomentRule::end_from_energy(double p, double x, MomentContact& s) const noexcept {
+    Powers b = powers(s.to);
+    for (int i = 0; i < 8; ++i) {
+        const double next = s.to - (b.V - p * (s.to - x)) / (b.force - p);
+        if (!(next > 0)) break;
+        const bool same = std::abs(next - s.to) <= half_bit * s.to;
+        s.to = next;
+        b = powers(next);
+        if (same) break;
+    }
+}
+
 // Solves one scalar equation in x = e_0: p = (x + T_11 V'(x) - E_0)/A_1, e_1 = E_1 - A_0 p + T_01
 // V'(x), g = p - DV(x, e_1) = 0.   (9)
 void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
@@ -117,21 +149,8 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         return;
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, by_A_1 = 1 / A_1;
-    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(), x = 0;
-    {  // first guess: the law's tangent at the present penetration, in full contact
-        const double at = eta > 0 ? eta : 0.5 * std::max(E_0, E_1);
-        const Powers l = powers(at);
-        const double k = l.slope, F = l.force - k * at;
-        const double a = 1 - 0.5 * k * A_1 + k * T.m11, b = -0.5 * k * A_1,
-                     c = 0.5 * k * A_0 - k * T.m01, d = 1 + 0.5 * k * A_0, R_0 = E_0 + T.m10 * F,
-                     R_1 = E_1 - T.m00 * F;
-        x = (d * R_0 - b * R_1) / (a * d - b * c);
-        if (eta <= 0 && E_0 <= 0) {  // enters
-            const double out = E_0 + A_1 * E_1 / A_0;
-            if (out <= 0) x = low + 0.999 * (out - low);
-        }
-        if (!(x > low)) x = eta > low ? eta : low + std::max(1e-3 * std::abs(E_0 - E_1), 1e-14);
-    }
+    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(),
+           x = first_guess(T, eta, E_0, E_1);
     double p = 0, to = 0;
     Powers a{}, b{};
     Quotient v{};
@@ -174,17 +193,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
     }
     // p, not DV: in a stiff contact DV has the rounding error of penetrations
     s.phi_0 = p, s.phi_1 = p - a.force, s.from = x, s.to = to;
-    if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) {  // enters: the end from the energy
-        b = powers(to);
-        for (int i = 0; i < 8; ++i) {
-            const double next = s.to - (b.V - p * (s.to - x)) / (b.force - p);
-            if (!(next > 0)) break;
-            const bool same = std::abs(next - s.to) <= half_bit * s.to;
-            s.to = next;
-            b = powers(next);
-            if (same) break;
-        }
-    }
+    if (x <= 0 && to > 0 && to < 0.1 * std::abs(E_1)) end_from_energy(p, x, s);  // enters
 }
 
 // Brackets p, between 0 and a force that is too large: slower, for cases in which rounding keeps

@@ -88,6 +88,8 @@ private:
     bool by_lines(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
     void by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
                    MomentContact&) const noexcept;
+    double first_guess(const MomentMatrix& T, double eta, double E_0, double E_1) const noexcept;
+    void end_from_energy(double p, double x, MomentContact&) const noexcept;
     void by_bracket(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
     void without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
                       MomentContact&) const noexcept;

@@ -84,11 +84,67 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
                 kept(std::uint64_t{1} << a).inverse[(k / 2 * n + a) * 2 * n + k % 2 * n + a];
 }
 
+namespace {
+using Real = long double;
+}
+
+// points_by_: b and the thread's pull, from x and free, through A: b and pull by F and Y_c.
+void MomentObstacle::put_points(std::span<const Real> theta, std::span<const Real> G,
+                                std::span<const Real> pull_by_free,
+                                std::span<const Real> pull_by_stretch) {
+    const int P = points_, n = n_, D = 2 * P, c = n, ladder = ladder_ ? D : 0,
+              S = ladder + (thread_ ? 1 : 0);
+    std::vector<Real> A(static_cast<std::size_t>(D) * D), A_Y(D);
+    for (int i = 0; i < 2; ++i)
+        for (int p = 0; p < P; ++p) {
+            const int row = i * P + p;
+            if (p < n) A[row * D + row] = 1;
+            for (int l = 0; thread_ && l < 2; ++l) {
+                const Real by = p < n ? theta[row * D + l * P + c] : (l == i ? 1 : 0);
+                A_Y[row] += by * pull_by_stretch[l];
+                for (int j = 0; j < 2; ++j) A[row * D + j * P + c] += by * pull_by_free[2 * l + j];
+            }
+        }
+    points_by_.assign(static_cast<std::size_t>(S + D) * D, 0.0);
+    for (int row = 0; row < D; ++row) {
+        for (int x = 0; x < ladder; ++x) {
+            Real sum = 0;
+            for (int f = 0; f < D; ++f) sum += A[row * D + f] * G[f * ladder + x];
+            points_by_[x * D + row] = static_cast<double>(sum);
+        }
+        if (thread_) points_by_[ladder * D + row] = static_cast<double>(A_Y[row]);
+        for (int f = 0; f < D; ++f)
+            points_by_[(S + f) * D + row] = static_cast<double>(A[row * D + f]);
+    }
+}
+
+// state_by_: the next x, from x and phi.
+void MomentObstacle::put_state(std::span<const Real> theta, std::span<const Real> G) {
+    const int P = points_, D = 2 * P, c = n_, ladder = ladder_ ? D : 0,
+              S = ladder + (thread_ ? 1 : 0);
+    state_by_.assign(static_cast<std::size_t>(S + D) * S, 0.0);
+    for (int k = 0; ladder_ && k < P; ++k)
+        for (int row = 0; row < 2; ++row) {  // d, v
+            const auto& by = ladder_->pattern(k).by[2 * row];
+            const int to = row * P + k;
+            for (int x = 0; x < 2; ++x)
+                state_by_[(x * P + k) * S + to] = by[x] + (x == row ? 1 : 0);
+            for (int j = 0; j < 2; ++j)
+                for (int p = 0; p < P; ++p)
+                    state_by_[(S + j * P + p) * S + to] = by[2 + j] * ladder_->w(k, p);
+        }
+    if (!thread_) return;
+    for (int x = 0; x < ladder; ++x)
+        state_by_[x * S + S - 1] = static_cast<double>(G[c * ladder + x]);
+    state_by_[ladder * S + S - 1] = 1;
+    for (int f = 0; f < D; ++f)
+        state_by_[(S + f) * S + S - 1] = static_cast<double>(theta[c * D + f]);
+}
+
 // The matrices of a step. F = free + G x, G the ladder's own motion; pull = K_f F_c + K_s Y_c.
 void MomentObstacle::put_linear_part() {
     const int P = points_, n = n_, D = 2 * P, c = n, ladder = ladder_ ? D : 0,
               S = ladder + (thread_ ? 1 : 0);
-    using Real = long double;
     std::vector<Real> theta(theta_.begin(), theta_.end()), G(static_cast<std::size_t>(D) * ladder);
     for (int k = 0; ladder_ && k < P; ++k)
         for (int i = 0; i < 2; ++i)
@@ -124,47 +180,8 @@ void MomentObstacle::put_linear_part() {
         }
     }
     pull_by_.assign(answer.begin(), answer.end());
-    // A: b and pull by F and Y_c
-    std::vector<Real> A(static_cast<std::size_t>(D) * D), A_Y(D);
-    for (int i = 0; i < 2; ++i)
-        for (int p = 0; p < P; ++p) {
-            const int row = i * P + p;
-            if (p < n) A[row * D + row] = 1;
-            for (int l = 0; thread_ && l < 2; ++l) {
-                const Real by = p < n ? theta[row * D + l * P + c] : (l == i ? 1 : 0);
-                A_Y[row] += by * pull_by_stretch[l];
-                for (int j = 0; j < 2; ++j) A[row * D + j * P + c] += by * pull_by_free[2 * l + j];
-            }
-        }
-    points_by_.assign(static_cast<std::size_t>(S + D) * D, 0.0);
-    for (int row = 0; row < D; ++row) {
-        for (int x = 0; x < ladder; ++x) {
-            Real sum = 0;
-            for (int f = 0; f < D; ++f) sum += A[row * D + f] * G[f * ladder + x];
-            points_by_[x * D + row] = static_cast<double>(sum);
-        }
-        if (thread_) points_by_[ladder * D + row] = static_cast<double>(A_Y[row]);
-        for (int f = 0; f < D; ++f)
-            points_by_[(S + f) * D + row] = static_cast<double>(A[row * D + f]);
-    }
-    state_by_.assign(static_cast<std::size_t>(S + D) * S, 0.0);
-    for (int k = 0; ladder_ && k < P; ++k)
-        for (int row = 0; row < 2; ++row) {  // d, v
-            const auto& by = ladder_->pattern(k).by[2 * row];
-            const int to = row * P + k;
-            for (int x = 0; x < 2; ++x)
-                state_by_[(x * P + k) * S + to] = by[x] + (x == row ? 1 : 0);
-            for (int j = 0; j < 2; ++j)
-                for (int p = 0; p < P; ++p)
-                    state_by_[(S + j * P + p) * S + to] = by[2 + j] * ladder_->w(k, p);
-        }
-    if (thread_) {
-        for (int x = 0; x < ladder; ++x)
-            state_by_[x * S + S - 1] = static_cast<double>(G[c * ladder + x]);
-        state_by_[ladder * S + S - 1] = 1;
-        for (int f = 0; f < D; ++f)
-            state_by_[(S + f) * S + S - 1] = static_cast<double>(theta[c * D + f]);
-    }
+    put_points(theta, G, pull_by_free, pull_by_stretch);
+    put_state(theta, G);
     for (int j = 0; j < 2; ++j)
         for (int b = 0; b < n; ++b)
             for (int i = 0; i < 2; ++i)

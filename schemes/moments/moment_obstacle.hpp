@@ -156,6 +156,10 @@ private:
     }
 
     void put_linear_part();
+    void put_points(std::span<const long double> theta, std::span<const long double> G,
+                    std::span<const long double> pull_by_free,
+                    std::span<const long double> pull_by_stretch);
+    void put_state(std::span<const long double> theta, std::span<const long double> G);
 
     Contacts contacts_;
     int n_, points_;

@@ -56,6 +56,44 @@ const char* const* Problem::keep(const std::vector<std::string>& words) {
     return list.data();
 }
 
+void Problem::put_contacts(const String& s, const Modes& modes) {
+    std::vector<double> weights;
+    for (const Footprint& f : footprints_of(s))
+        append(weights, footprint_weights(modes, f.position, f.width));
+    p_.contact_weights = keep(weights);
+    p_.contact_position = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.position; }));
+    p_.contact_width = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.width; }));
+    p_.contact_stiffness =
+        keep(of_contacts(s, [](const LumpedBarrier& b) { return b.stiffness.k; }));
+    p_.contact_exponent = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.exponent; }));
+    p_.contact_height = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.height; }));
+    p_.contact_loss = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.contact_loss; }));
+}
+
+void Problem::put_thread(const Thread& thread, const Modes& modes) {
+    p_.threads = 1;
+    p_.thread_position = thread.position, p_.thread_width = thread.width;
+    p_.thread_weights = keep(footprint_weights(modes, thread.position, thread.width));
+    p_.thread_stiffness = thread.stiffness, p_.thread_damping = thread.damping,
+    p_.thread_height = thread.height;
+}
+
+void Problem::put_pluck(const Pluck& pluck, const Modes& modes) {
+    p_.plucks = 1;
+    p_.pluck_position = pluck.position, p_.pluck_width = pluck.width;
+    p_.pluck_weights = keep(footprint_weights(modes, pluck.position, pluck.width));
+    std::vector<double> samples = pluck_samples(pluck, p_);
+    p_.pluck_samples = static_cast<std::int64_t>(samples.size());
+    p_.pluck_force = keep(std::move(samples));
+}
+
+void Problem::put_options(const OptionValues& options) {
+    std::vector<std::string> names, values;
+    for (const auto& [name, value] : options) names.push_back(name), values.push_back(value);
+    p_.options = static_cast<std::int64_t>(names.size());
+    p_.option_names = keep(names), p_.option_values = keep(values);
+}
+
 Problem::Problem(const Scene& scene, const Settings& settings) {
     const String s = with_profile_points(scene.strings.front(), settings);
     const Modes modes = modes_of(s, settings);
@@ -75,34 +113,13 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
     p_.start = keep(start_of(modes, s).displacement);
 
     std::vector<Footprint> points = footprints_of(s);
-    std::vector<double> weights;
-    for (const Footprint& f : points)
-        append(weights, footprint_weights(modes, f.position, f.width));
-    p_.contact_weights = keep(weights);
-    p_.contact_position = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.position; }));
-    p_.contact_width = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.width; }));
-    p_.contact_stiffness =
-        keep(of_contacts(s, [](const LumpedBarrier& b) { return b.stiffness.k; }));
-    p_.contact_exponent = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.exponent; }));
-    p_.contact_height = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.height; }));
-    p_.contact_loss = keep(of_contacts(s, [](const LumpedBarrier& b) { return b.contact_loss; }));
+    put_contacts(s, modes);
     p_.thread_weights = p_.pluck_weights = p_.pluck_force = keep(std::vector<double>{});
     if (s.thread) {
-        p_.threads = 1;
-        p_.thread_position = s.thread->position, p_.thread_width = s.thread->width;
-        p_.thread_weights = keep(footprint_weights(modes, s.thread->position, s.thread->width));
-        p_.thread_stiffness = s.thread->stiffness, p_.thread_damping = s.thread->damping,
-        p_.thread_height = s.thread->height;
+        put_thread(*s.thread, modes);
         points.push_back({s.thread->position, s.thread->width});
     }
-    if (s.pluck) {
-        p_.plucks = 1;
-        p_.pluck_position = s.pluck->position, p_.pluck_width = s.pluck->width;
-        p_.pluck_weights = keep(footprint_weights(modes, s.pluck->position, s.pluck->width));
-        std::vector<double> samples = pluck_samples(*s.pluck, p_);
-        p_.pluck_samples = static_cast<std::int64_t>(samples.size());
-        p_.pluck_force = keep(std::move(samples));
-    }
+    if (s.pluck) put_pluck(*s.pluck, modes);
 
     if (const auto* table = std::get_if<TableDamping>(&s.damping)) {
         p_.measured = static_cast<std::int64_t>(table->frequency_hz.size());
@@ -132,12 +149,7 @@ Problem::Problem(const Scene& scene, const Settings& settings) {
     p_.tap_weights = keep(tap_weights);
     p_.compliance = keep(compliance), p_.tap_compliance = keep(tap_compliance),
     p_.radiation = keep(radiation);
-
-    names.clear(), quantities.clear();
-    for (const auto& [name, value] : settings.options)
-        names.push_back(name), quantities.push_back(value);
-    p_.options = static_cast<std::int64_t>(names.size());
-    p_.option_names = keep(names), p_.option_values = keep(quantities);
+    put_options(settings.options);
 }
 
 void refuse_beyond_arrays(const Scene& scene) {

@@ -15,6 +15,8 @@
 
 namespace jvari {
 
+struct Modes;
+
 class Problem {
 public:
     Problem(const Scene&, const Settings&);  // throws Refusal, BadScene
@@ -23,6 +25,10 @@ public:
     const jvari_problem& arrays() const { return p_; }
 
 private:
+    void put_contacts(const String&, const Modes&);
+    void put_thread(const Thread&, const Modes&);
+    void put_pluck(const Pluck&, const Modes&);
+    void put_options(const OptionValues&);
     const double* keep(std::vector<double>);
     const char* const* keep(const std::vector<std::string>&);
     jvari_problem p_{};

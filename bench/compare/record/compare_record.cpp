@@ -57,11 +57,26 @@ Json json_of(const Advice& a, const Verdict& v) {
     return j;
 }
 
+namespace {
+Json schemes_json(const study::Plan& plan) {
+    Json schemes = Json::array();
+    for (const study::Job& job : plan.jobs) {
+        Json options = Json::object();
+        for (const auto& [name, value] : job.cell.settings.options) options[name] = value;
+        Json form{{"name", job.cell.scheme->name},
+                  {"source", job.cell.scheme->source},
+                  {"options", options}};
+        if (std::find(schemes.begin(), schemes.end(), form) == schemes.end())
+            schemes.push_back(std::move(form));
+    }
+    return schemes;
+}
+}  // namespace
+
 Json manifest_of(const Comparison& c, const CompareRequest& r) {
     const study::Cells cells = cells_of(c);
     const std::size_t error = headline_error(cells, study::all_rows(cells));
-    Json facts = Json::object(), floor = Json::object(), taps = Json::array(),
-         schemes = Json::array();
+    Json facts = Json::object(), floor = Json::object(), taps = Json::array();
     for (const Fact& f : c.reference_summary.facts) facts[f.name] = f.value;
     facts[facts::smallest_contact_force.name] = c.reference_summary.smallest_contact_force;
     facts[facts::largest_contact_force.name] = c.reference_summary.largest_contact_force;
@@ -75,15 +90,6 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
         for (std::size_t k = 0; k < study::measures().size(); ++k)
             append(floor, study::measures()[k].column + "_" + c.scene().taps[tap].name,
                    c.against.floor[tap][k]);
-    }
-    for (const study::Job& job : c.plan.jobs) {
-        Json options = Json::object();
-        for (const auto& [name, value] : job.cell.settings.options) options[name] = value;
-        Json form{{"name", job.cell.scheme->name},
-                  {"source", job.cell.scheme->source},
-                  {"options", options}};
-        if (std::find(schemes.begin(), schemes.end(), form) == schemes.end())
-            schemes.push_back(std::move(form));
     }
     Json reference{{"name", c.reference.name()},
                    {"source", c.reference.scheme->source},
@@ -115,7 +121,7 @@ Json manifest_of(const Comparison& c, const CompareRequest& r) {
     manifest.update({{"scene", scene},
                      {"tap_rate", c.reference.settings.tap_rate},
                      {"tap_rates", tap_rates},  // for each kind of rows; tap_rate is the first
-                     {"schemes", schemes},
+                     {"schemes", schemes_json(c.plan)},
                      {"reference", reference},
                      {"headline",
                       {{"nut", c.scene().taps.at(c.headline.nut).name},
