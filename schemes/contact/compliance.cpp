@@ -101,9 +101,8 @@ std::vector<double> footprint_weights(const Modes& modes, const Footprint& f) {
 }
 
 std::vector<double> reading_weights(const Reading& r, const Modes& modes, const String& s) {
-    return weights_below(r.below,
-                         r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at),
-                         modes);
+    return weights_below(
+        r.below, r.nut_force ? nut_force_weights(modes, s) : footprint_weights(modes, r.at), modes);
 }
 
 double static_deflection(const String& s, const Footprint& p, const Footprint& q) {

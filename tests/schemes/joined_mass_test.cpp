@@ -91,13 +91,14 @@ TEST(JoinedMass, FallsOnTheStringAtTheSquareRootOfItsWay) {
                                         {"modal_two_point", 5e-5},
                                         {"modal_three_point", 5e-5}}) {
         const Scene scene = with(m, 0.03);
-        std::vector<Impacts> told(scene.strings.begin(), scene.strings.end());
+        std::vector<Impacts> restituted(scene.strings.begin(), scene.strings.end());
         RunOptions how;
-        how.impacts = told.data();
+        how.impacts = restituted.data();
         play(form, scene, sampled(44100, 40), how);
-        ASSERT_FALSE(told[0].all().empty()) << form;
-        EXPECT_NEAR(told[0].all()[0].start, std::sqrt(2 * 1e-3 / 10), instant) << form;
-        EXPECT_NEAR(told[0].all()[0].speed_in, std::sqrt(2 * 1e-3 * 10), 20 * instant) << form;
+        ASSERT_FALSE(restituted[0].all().empty()) << form;
+        EXPECT_NEAR(restituted[0].all()[0].start, std::sqrt(2 * 1e-3 / 10), instant) << form;
+        EXPECT_NEAR(restituted[0].all()[0].speed_in, std::sqrt(2 * 1e-3 * 10), 20 * instant)
+            << form;
     }
 }
 
