@@ -45,6 +45,23 @@ constexpr double patience = 20;  // limit for all runs [s of processor]
 constexpr const char *with_a_record[] = {"modal_two_moment", "modal_two_point"},
                      *matched_alone[] = {"modal_spatial_newton", "modal_quadratised"};
 
+constexpr double known_to = 0.1;  // estimated error of a waveform that counts as known
+
+// Number of rows in the longest window, from the first row on, over which the estimate is at most
+// known_to; NaN: all rows.
+double agreement_until(const std::vector<double>& coarse, const std::vector<double>& fine) {
+    constexpr double share = known_to / margin;
+    const std::size_t rows = std::min(coarse.size(), fine.size());
+    double apart = 0, all = 0;
+    std::size_t until = 0;
+    for (std::size_t n = 0; n < rows; ++n) {
+        apart += (coarse[n] - fine[n]) * (coarse[n] - fine[n]);
+        all += fine[n] * fine[n];
+        if (apart <= share * share * all) until = n + 1;
+    }
+    return until < rows ? static_cast<double>(until) : nan;
+}
+
 bool is_among(std::span<const char* const> names, const Descriptor& d) {
     return std::ranges::find(names, std::string_view(d.name)) != names.end();
 }
@@ -188,6 +205,9 @@ private:
         a_.settings = pair.coarse, a_.finer = pair.fine;
         a_.difference = d, a_.counted = counted, a_.margin = margin;
         a_.within = within;
+        if (study::is_waveform(a_.target.measure))
+            a_.known_for =
+                agreement_until(rows_of(pair.coarse), rows_of(pair.fine)) / a_.settings.tap_rate;
     }
 
     void halve(Pair pair, double before) {
@@ -295,10 +315,21 @@ std::vector<Advice> advise(const Scene& scene, const AdviceRequest& request,
     if (all.back().within || !request.within.empty()) return all;
     r.within = "3dB", r.measure = "third_octave_db";
     all.push_back(advice_of(scene, r, catalogue, listener));
+    all.back().known_for = all.front().known_for;
     return all;
 }
 
-std::string text_of(const Advice& a) {
+namespace {
+std::string horizon_text(const Advice& a) {
+    if (std::isnan(a.known_for)) return "";
+    return fmt::format(
+        "the waveform of {} is known to {:g} % for the first {} only, over which two runs differ "
+        "by "
+        "{:g} %; ",
+        a.tap, 100 * known_to, time_text(a.known_for), 100 * known_to / margin);
+}
+
+std::string answer_text(const Advice& a) {
     const Target& t = a.target;
     std::string window =
         (a.periods ? fmt::format("{:g} periods, ", periods) : "") + time_text(a.window);
@@ -323,6 +354,12 @@ std::string text_of(const Advice& a) {
         settings, t.text(a.counted), window, finer, t.text(a.difference),
         a.counted > a.difference ? ", counted as a third of what the rate below moved by" : "",
         a.margin, t.text(t.most));
+}
+}  // namespace
+
+std::string text_of(const Advice& a) {
+    return a.within && study::is_waveform(a.target.measure) ? answer_text(a)
+                                                            : horizon_text(a) + answer_text(a);
 }
 
 std::string short_text(const Advice& a) {

@@ -156,6 +156,32 @@ TEST(Advice, AsksForThirdOctavesOfTheWholeRunWhereTheWaveformCannotBeHad) {
     EXPECT_EQ(all[1].window, 0.5);
     EXPECT_TRUE(says(compare::text_of(all[1]), "third-octave difference"));
 }
+
+TEST(Advice, BeginsWithHowLongTheWaveformIsKnownWhereItCannotBeHad) {
+    Scene guitar = read_scene("guitar_over_fret");
+    guitar.duration = 1;
+    const auto all = compare::advise(guitar, {.measure = "l2_whole"}, catalogue(), silent);
+    ASSERT_EQ(all.size(), 2);
+    const Advice& waveform = all.front();
+    ASSERT_FALSE(waveform.within);
+    const double known = waveform.known_for;
+    const Trace coarse = judged(waveform, guitar, *waveform.scheme, waveform.settings),
+                fine = judged(waveform, guitar, *waveform.scheme, waveform.finer);
+    const auto tap =
+        static_cast<int>(std::ranges::find(fine.names, waveform.tap) - fine.names.begin());
+    const auto over = [&](double window) {
+        return relative_difference(coarse.column(tap), fine.column(tap), 44100, window);
+    };
+    EXPECT_GT(known, 0.01);
+    EXPECT_LE(waveform.margin * over(known), 0.1);
+    for (double longer = 1.01 * known; longer < 1; longer += 0.01)
+        EXPECT_GT(waveform.margin * over(longer), 0.1);
+    for (const Advice& a : all)
+        EXPECT_EQ(
+            compare::text_of(a).find("the waveform of saddle is known to 10 % for the first "), 0)
+            << compare::text_of(a);
+}
+
 TEST(Within, AComparisonSeeksCellsNearTheAdviceAndSaysWhetherItHeld) {
     compare::CompareRequest r;
     r.scene = "tanpura_c3_release";
