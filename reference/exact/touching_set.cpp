@@ -25,7 +25,7 @@ void TouchingSet::solve(const double* r, double* path, std::complex<double>* amp
         double* out = path + points_[a] * stride;
         std::fill_n(out, size, 0.0);
         for (int b = 0; b < P; ++b)
-            combine(out, size, r + points_[b] * stride + 2, N - 2,
+            combine(out, size, r + points_[b] * stride + order_, N - order_,
                     inverse_.data() + (static_cast<std::size_t>(b) * P + a) * size,
                     static_cast<long>(P) * P * size);
     }
@@ -75,9 +75,9 @@ void TouchingSet::moments(int which, const double* path, const std::complex<doub
     const int a = points_[which], size = window_->size;
     double e[3 * most_terms];
     powers(u, 2 * size + 1, e);
-    window_->sweep().combined(m, size, path + a * window_->stride,
-                              pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms,
-                              e + 1, 1);
+    window_->sweep().combined(
+        m, size, path + a * window_->stride,
+        span_ == 1 && pairs_ > 0 ? std::min(window_->terms, count + 2) : window_->terms, e + 1, 1);
     // X_i = int (u - w)^i/i! e^(lambda w) dw = (X_(i-1) - u^i/i!)/lambda
     for (int k = 0; k < pairs_; ++k) {
         const std::complex<double> inverse = 1.0 / rate_[k], c = amplitude[a * pairs_ + k];

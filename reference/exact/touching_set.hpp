@@ -10,10 +10,15 @@
 // lambda^(1-j)) v = 0, and a polynomial as slow as the string, p_s = G (r'' + Re sum_k beta_k q_k),
 // with G the inverse of the operator on truncated vectors of derivatives and q_k,n = sum_{j >= n+2}
 // H_j K v_k lambda_k^(n+1-j). beta follows from p(0) = r(0) and p'(0) = r'(0) - H_0 K r(0). The
-// series in G is asymptotic: see longest_reach. Where some direction is not stiff nothing is split
-// off: p follows from r by the resolvent, over a window or a part of it. All of it is made once per
-// set of touching points. Leaves out: sets with such a direction beside one so stiff that spans are
-// short; solves() is false for them.
+// series in G is asymptotic: see longest_reach.
+//
+// Windows that follow a stiff thread may be short beside the slower of two decays. That decay then
+// stays in p_s. Of order 1, G is the inverse of p' + H_0 K p + H_1 K I p + ..., with r' in place of
+// r'', and beta follows from p(0). A solution spans as much as the slow part's growth allows.
+//
+// Where some direction is not stiff nothing is split off: p follows from r by the resolvent, over a
+// window or a part of it. All of it is made once per set of touching points. Leaves out: sets with
+// such a direction beside one so stiff that spans are short; solves() is false for them.
 #pragma once
 
 #include <complex>
@@ -57,11 +62,15 @@ public:
                  int count, double* m) const noexcept;
 
 private:
+    struct Operator;
+    struct Split;
+    bool split(const Operator&, int order);
+    void put_pairs(const Split&);
     void soften() noexcept;
     const MacroWindow* window_;
     std::vector<int> points_;
     std::vector<double> k_;
-    int pairs_ = 0;
+    int pairs_ = 0, order_ = 2;  // derivatives of r that give the slow part
     double growth_ = 0, span_ = 1;
     std::vector<std::complex<double>> rate_, shape_;  // [pair], [contact][pair]
     // for a soft set: r -> path over its span [contact][point][column: derivative][row]

@@ -53,106 +53,181 @@ LongMatrix economised(int N, int powers) {
 }
 }  // namespace
 
-TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
-                         std::span<const double> stiffness)
-    : window_(&w), points_(points.begin(), points.end()), k_(stiffness.begin(), stiffness.end()) {
-    const int P = static_cast<int>(points_.size()), N = w.terms, size = w.size;
-    const auto h = [&](int a, int b, int j) { return static_cast<LongReal>(w.kernel(a, b)[j]); };
-    std::vector<LongMatrix> A(N + 2, LongMatrix::Zero(P, P));  // H_j K
-    for (int j = 0; j < N; ++j)
-        for (int a = 0; a < P; ++a)
-            for (int b = 0; b < P; ++b) A[j](a, b) = h(points_[a], points_[b], j) * k_[b];
+struct TouchingSet::Operator {  // H_j K
+    std::vector<LongMatrix> A;
+    int points() const { return static_cast<int>(A.front().rows()); }
+    int terms() const { return static_cast<int>(A.size()); }
+    bool pushes_at_once() const { return !A[0].isZero(0); }
+};
 
-    // The fast invariant subspace: (p, p')' = L (p, p')' with I^i p = [1 0] L^-i (p, p')'.
-    LongMatrix symmetric(P, P);
-    // squared radians; a decay must be equally fast
-    const LongMatrix squares = A[0].isZero(0) ? A[1] : LongMatrix(A[0] * stiff);
-    for (int a = 0; a < P; ++a)
-        for (int b = 0; b < P; ++b)
-            symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<LongReal>(k_[a]) / k_[b]);
-    const Eigen::MatrixXd even = ((symmetric + symmetric.transpose()) / 2).cast<double>();
-    if (!(symmetric_parts(std::span(even.data(), even.size()), P).value.front() > stiff * stiff)) {
-        soften();
-        return;
-    }
-    LongMatrix first = LongMatrix::Zero(2 * P, 2 * P);
-    first.topRightCorner(P, P).setIdentity();
-    first.bottomLeftCorner(P, P) = -A[1];
-    first.bottomRightCorner(P, P) = -A[0];
+namespace {
+// Fast invariant subspace: (p, ..., p^(order - 1))' = L (p, ..., p^(order - 1)) with I^i p = [1 0]
+// L^-i (p, ...). Empty if no part is so much faster than the others.
+LongMatrix fast_part(const std::vector<LongMatrix>& A, int order) {
+    const long P = A.front().rows();
+    LongMatrix first = LongMatrix::Zero(order * P, order * P);
+    if (order == 2) first.topRightCorner(P, P).setIdentity();
+    for (int j = 0; j < order; ++j) first.block((order - 1) * P, (order - 1 - j) * P, P, P) = -A[j];
     LongMatrix L = first;
     LongReal change = 1;
     for (int i = 0; i < 200 && change >= 1e-18L; ++i) {
         const LongMatrix inverted = inverse(L);
         LongMatrix next = first, power = inverted;
-        for (int j = 2; j < N; ++j, power = power.lazyProduct(inverted).eval())
+        for (std::size_t j = order; j < A.size(); ++j, power = power.lazyProduct(inverted).eval())
             next.bottomRows(P) -= A[j].lazyProduct(power.topRows(P));
         change = (next - L).norm() / L.norm();
         L = next;
     }
-    if (!(change < 1e-15L)) return;  // no part is so much faster than the others
-    const Eigenpairs pairs = eigenpairs_of(numbers(L), 2 * P);
-    std::vector<LongComplex> rates;
-    LongComplexMatrix v(P, 2 * P);
-    for (int k = 0; k < 2 * P; ++k) {
-        const LongComplex rate = pairs.value[k];
-        if (rate.real() > 0 || std::abs(rate) < least) return;
-        if (rate.imag() < 0) continue;
-        const int now = static_cast<int>(rates.size());
-        for (int a = 0; a < P; ++a) v(a, now) = pairs.vector[2 * P * k + a];
-        v.col(now) /= v.col(now).norm();
-        rates.push_back(rate);
-    }
-    const int E = static_cast<int>(rates.size());
+    return change < 1e-15L ? L : LongMatrix();
+}
 
-    // G: rows and columns [derivative][point].
+struct FastMotion {  // pairs as rates, one of two conjugates, and unit shapes in columns
+    std::vector<LongComplex> rates;
+    LongComplexMatrix v;
+};
+// Empty if a rate grows or is slower than `slowest`.
+FastMotion fast_motion(const LongMatrix& L, int P, LongReal slowest) {
+    const int all = static_cast<int>(L.rows());
+    const Eigenpairs pairs = eigenpairs_of(numbers(L), all);
+    FastMotion fast{{}, LongComplexMatrix(P, all)};
+    for (int k = 0; k < all; ++k) {
+        const LongComplex rate = pairs.value[k];
+        if (rate.real() > 0 || std::abs(rate) < slowest) return {};
+        if (rate.imag() < 0) continue;
+        const int now = static_cast<int>(fast.rates.size());
+        for (int a = 0; a < P; ++a) fast.v(a, now) = pairs.vector[all * k + a];
+        fast.v.col(now) /= fast.v.col(now).norm();
+        fast.rates.push_back(rate);
+    }
+    return fast;
+}
+
+// G: rows and columns [derivative][point]. Inverted in a unit of time that divides the slow part's
+// growth by `growth`. A part that grows fast would lose its digits otherwise.
+LongMatrix slow_inverse(const std::vector<LongMatrix>& A, int order, LongReal growth) {
+    const int P = static_cast<int>(A.front().rows()), N = static_cast<int>(A.size());
     LongMatrix operation = LongMatrix::Zero(P * N, P * N);
     for (int n = 0; n < N; ++n) {
-        if (n + 2 < N) operation.block(n * P, (n + 2) * P, P, P).setIdentity();
-        for (int j = n + 1 < N ? 0 : 1; j <= n + 1 && j < N; ++j)
-            operation.block(n * P, (n + 1 - j) * P, P, P) += A[j];
+        if (n + order < N)
+            operation.block(n * P, (n + order) * P, P, P)
+                .diagonal()
+                .setConstant(std::pow(growth, LongReal(order)));
+        for (int j = std::max(0, n + order - N); j < std::min(n + order, N); ++j)
+            operation.block(n * P, (n + order - 1 - j) * P, P, P) +=
+                A[j] * std::pow(growth, LongReal(order - 1 - j));
     }
-    const LongMatrix G = inverse(operation);
-
-    LongComplexMatrix q = LongComplexMatrix::Zero(P * N, E);
-    for (int k = 0; k < E; ++k)
-        for (int n = 0; n < N; ++n) {
-            LongComplex power = LongComplex(1) / rates[k];
-            for (int j = n + 2; j < N; ++j, power /= rates[k])
-                q.block(n * P, k, P, 1) += A[j].lazyProduct(v.col(k)) * power;
-        }
-    const LongComplexMatrix Q = G.lazyProduct(q);
-
-    LongMatrix start(2 * P, 2 * P);  // Re beta, and -Im beta for oscillating pairs -> p(0), p'(0)
+    LongMatrix G = inverse(operation);
+    for (int n = 0; n < N; ++n)
+        for (int m = 0; m < N; ++m)
+            G.block(n * P, m * P, P, P) *= std::pow(growth, LongReal(n - m));
+    return G;
+}
+// Growth of the slow part under a steady push.
+LongReal growth_of(const LongMatrix& G, int P, int N) {
+    LongReal growth = 0;
+    for (int n = N / 2; n + 1 < N; ++n)
+        growth =
+            std::max(growth, std::pow(G.block(n * P, 0, P, P).norm() / G.topLeftCorner(P, P).norm(),
+                                      LongReal(1) / n));
+    return growth;
+}
+// Re beta, and -Im beta for oscillating pairs -> p(0) and, if order is 2, p'(0)
+LongMatrix start_of(const FastMotion& fast, const LongComplexMatrix& Q, int P, int order) {
+    LongMatrix start(order * P, order * P);
     int column = 0;
-    for (int k = 0; k < E; ++k, ++column) {
-        const bool oscillates = rates[k].imag() != 0;
-        LongComplexMatrix here = v.col(k);
-        for (int d = 0; d < 2; ++d, here *= rates[k]) {
+    for (std::size_t k = 0; k < fast.rates.size(); ++k, ++column) {
+        const bool oscillates = fast.rates[k].imag() != 0;
+        LongComplexMatrix here = fast.v.col(k);
+        for (int d = 0; d < order; ++d, here *= fast.rates[k]) {
             const LongComplexMatrix all = here + Q.block(d * P, k, P, 1);
             start.block(d * P, column, P, 1) = all.real();
             if (oscillates) start.block(d * P, column + 1, P, 1) = -all.imag();
         }
         if (oscillates) ++column;
     }
-    const LongMatrix started = inverse(start);
+    return start;
+}
+}  // namespace
 
-    pairs_ = E;
-    growth_ = w.reach;
-    for (const LongComplex& rate : rates) rate_.push_back(static_cast<std::complex<double>>(rate));
+struct TouchingSet::Split {
+    FastMotion fast;
+    LongComplexMatrix Q;  // contribution to the slow part [derivative and point][pair]
+};
+
+TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
+                         std::span<const double> stiffness)
+    : window_(&w), points_(points.begin(), points.end()), k_(stiffness.begin(), stiffness.end()) {
+    const int P = static_cast<int>(points_.size()), N = w.terms;
+    Operator H{std::vector<LongMatrix>(N, LongMatrix::Zero(P, P))};
+    for (int j = 0; j < N; ++j)
+        for (int a = 0; a < P; ++a)
+            for (int b = 0; b < P; ++b)
+                H.A[j](a, b) = static_cast<LongReal>(w.kernel(points_[a], points_[b])[j]) * k_[b];
+    LongMatrix symmetric(P, P);
+    // squared radians; a decay must be equally fast
+    const LongMatrix squares = H.pushes_at_once() ? LongMatrix(H.A[0] * stiff) : H.A[1];
+    for (int a = 0; a < P; ++a)
+        for (int b = 0; b < P; ++b)
+            symmetric(a, b) = squares(a, b) * std::sqrt(static_cast<LongReal>(k_[a]) / k_[b]);
+    const Eigen::MatrixXd even = ((symmetric + symmetric.transpose()) / 2).cast<double>();
+    const double softest = symmetric_parts(std::span(even.data(), even.size()), P).value.front();
+    if (!(softest > stiff * stiff)) soften();
+    else if (!split(H, 2) && H.pushes_at_once()) split(H, 1);
+}
+
+bool TouchingSet::split(const Operator& H, int order) {
+    const std::vector<LongMatrix>& A = H.A;
+    const int P = H.points(), N = H.terms();
+    const LongMatrix L = fast_part(A, order);
+    if (L.size() == 0) return false;
+    const LongReal reach = window_->reach,
+                   about = order == 2 ? 1 : std::max(reach, A[1].norm() / A[0].norm());
+    const LongMatrix G = slow_inverse(A, order, about);
+    const LongReal growth = order == 2 ? reach : std::max(reach, growth_of(G, P, N));
+    const FastMotion fast = fast_motion(L, P, least * growth / reach);
+    if (fast.rates.empty() || !(growth < most_spans * reach)) return false;
+    const int E = pairs_ = static_cast<int>(fast.rates.size());
+    order_ = order;
+    growth_ = static_cast<double>(growth);
+    span_ = static_cast<double>(reach / growth);
+
+    LongComplexMatrix q = LongComplexMatrix::Zero(P * N, E);
+    for (int k = 0; k < E; ++k)
+        for (int n = 0; n < N; ++n) {
+            LongComplex power = LongComplex(1) / fast.rates[k];
+            for (int j = n + order; j < N; ++j, power /= fast.rates[k])
+                q.block(n * P, k, P, 1) += A[j].lazyProduct(fast.v.col(k)) * power;
+        }
+    const LongComplexMatrix Q = G.lazyProduct(q);
+
+    const LongMatrix started = inverse(start_of(fast, Q, P, order));
+
+    for (const LongComplex& rate : fast.rates)
+        rate_.push_back(static_cast<std::complex<double>>(rate));
     beta_.assign(2 * E, 0.0);
     for (int b = 0; b < P; ++b) pushed_at_once_.push_back(static_cast<double>(A[0](b, b)));
     start_.assign(static_cast<std::size_t>(2 * E) * 2 * P, 0.0);
     for (int k = 0, row = 0; k < E; ++k)
-        for (int part = 0; part < (rates[k].imag() != 0 ? 2 : 1); ++part, ++row)
-            for (int j = 0; j < 2 * P; ++j)
+        for (int part = 0; part < (fast.rates[k].imag() != 0 ? 2 : 1); ++part, ++row)
+            for (int j = 0; j < order * P; ++j)
                 start_[(2 * k + part) * 2 * P + j] = static_cast<double>(started(row, j));
+    const int size = window_->size;
     inverse_.assign(static_cast<std::size_t>(P) * N * P * size, 0.0);
-    for (int m = 0; m + 2 < N; ++m)
+    for (int m = 0; m + order < N; ++m)
         for (int b = 0; b < P; ++b)
             for (int a = 0; a < P; ++a)
                 for (int n = 0; n < N; ++n)
                     inverse_[(static_cast<std::size_t>(m * P + b) * P + a) * size + n] =
                         static_cast<double>(G(n * P + a, m * P + b));
+    put_pairs({fast, Q});
+    return true;
+}
+
+// Shapes, and contributions to the slow part, at every contact.
+void TouchingSet::put_pairs(const Split& s) {
+    const MacroWindow& w = *window_;
+    const auto& [rates, v] = s.fast;
+    const int P = static_cast<int>(points_.size()), N = w.terms, size = w.size, E = pairs_;
     shape_.assign(static_cast<std::size_t>(w.contacts) * E, 0.0);
     slow_.assign(static_cast<std::size_t>(E) * w.contacts * 2 * size, 0.0);
     for (int k = 0; k < E; ++k)
@@ -166,7 +241,7 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
             if (touching != points_.end()) {
                 const int at = static_cast<int>(touching - points_.begin());
                 shape_[a * E + k] = static_cast<std::complex<double>>(v(at, k));
-                for (int n = 0; n < N; ++n) add(n, Q(n * P + at, k));
+                for (int n = 0; n < N; ++n) add(n, s.Q(n * P + at, k));
                 continue;
             }
             // -sum_b k_b v_b sum_j h_j lambda^(-j-1) for e^(lambda u), and the powers that I^(j+1)
@@ -174,8 +249,8 @@ TouchingSet::TouchingSet(const MacroWindow& w, std::span<const int> points,
             LongComplex sum = 0;
             for (int b = 0; b < P; ++b)
                 for (int j = 0; j < N; ++j) {
-                    const LongComplex part =
-                        -static_cast<LongReal>(k_[b]) * v(b, k) * h(a, points_[b], j);
+                    const LongComplex part = -static_cast<LongReal>(k_[b]) * v(b, k) *
+                                             static_cast<LongReal>(w.kernel(a, points_[b])[j]);
                     sum += part * std::pow(rates[k], static_cast<LongReal>(-j - 1));
                     for (int n = 0; n <= j; ++n)
                         add(n, -part * std::pow(rates[k], static_cast<LongReal>(n - j - 1)));
