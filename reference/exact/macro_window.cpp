@@ -106,6 +106,10 @@ MacroWindow::MacroWindow(const Modes& modes, const String& s, double interval, d
     }
     free_flow(1, flow_);
     make_kernel();
+    put_weight(modes, s);
+}
+
+void MacroWindow::put_weight(const Modes& modes, const String& s) {
     const std::vector<double> force = falling(modes, s);
     for (int i = 0; i < modes.count(); ++i)
         if (force[i] != 0) falls_.emplace_back(i, force[i] / modes.mass * seconds() * seconds());

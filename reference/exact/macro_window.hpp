@@ -108,6 +108,7 @@ private:
     void impulse_response(int force, double window, int count, const double* reply, double* y,
                           double* F) const;
     void make_base(const Modes&);
+    void put_weight(const Modes&, const String&);
     void make_kernel();
     // Adds the ways of falling masses, exact in any form of the modes' motion.
     void fall(double at, double* y_out, double* u_out) const noexcept;
