@@ -19,7 +19,6 @@ LONG = {
     "bench/study/certificate_library.cpp:trust_of": "one pass over the pairs of a certificate",
     "reference/exact/collocated_contact.cpp:step": "one Newton solve, whose parts share arrays",
     "reference/exact/exact_contact.cpp:phase": "one phase in the order of its equations",
-    "reference/exact/touching_set_making.cpp:TouchingSet": "one derivation, matrix after matrix",
     "reference/exact/window_energies.cpp:pairs_of": "one table of moments, row after row",
     "reference/string_equations.cpp:solve": "one linear solve, whose parts share arrays",
     "reference/sundials.cpp:advance": "one loop over returns of the library",
