@@ -83,7 +83,7 @@ std::vector<std::string> locks_below(const fs::path& folder) {
 std::map<std::string, int> moved_into(int watch) {  // how often each file
     std::map<std::string, int> times;
     alignas(inotify_event) char buffer[65536];
-    for (ssize_t n = 0; (n = read(watch, buffer, sizeof buffer)) > 0;)
+    for (ssize_t n = 0; (n = ::read(watch, buffer, sizeof buffer)) > 0;)
         for (ssize_t at = 0; at < n;) {
             const auto* event = reinterpret_cast<const inotify_event*>(buffer + at);
             ++times[event->name];

@@ -152,7 +152,7 @@ TEST(Truth, IsKnownToNoLessThanTheRemedyThatItPrintsChanges) {
             for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
                 const double known = t.reference.trust.of_scene(tap, 2),
                              changed = bench::study::change(last, t.reference.run.trace,
-                                                            static_cast<int>(tap), 0, HUGE_VAL);
+                                                            static_cast<int>(tap), 0, 2);
                 EXPECT_FALSE(known < changed) << scene.taps[tap].name << ", " << t.description;
             }
         }
@@ -229,7 +229,7 @@ TEST(Truth, IsKnownToNoLessThanFourTimesTheModesChangeWhateverRemedyIsFollowed) 
         for (std::size_t tap = 0; tap < r.scene.taps.size(); ++tap) {
             const double known = t.reference.trust.of_scene(tap, 2),
                          changed = bench::study::change(finer, t.reference.run.trace,
-                                                        static_cast<int>(tap), 0, HUGE_VAL);
+                                                        static_cast<int>(tap), 0, 2);
             known_taps += std::isfinite(known);
             EXPECT_FALSE(known < changed) << r.text << ": " << r.scene.taps[tap].name;
         }
