@@ -215,10 +215,13 @@ void must_be(const char* what, const std::vector<std::string>& names, const auto
 }
 }  // namespace
 
-Checked check(const Descriptor& d, const Asked& selection, const store::Listener& listener,
-              const std::function<void(const Checked&, const Promise&)>& answered) {
+void must_exist(const Asked& selection) {
     must_be("promise", selection.promises, promises());
     if (!selection.scenes.empty()) must_be("scene of a check", selection.scenes, contract_scenes());
+}
+
+Checked check(const Descriptor& d, const Asked& selection, const store::Listener& listener,
+              const std::function<void(const Checked&, const Promise&)>& answered) {
     Checked c{d.name, d.source, {}, {}};
     const auto progress = listener.begin(std::string("check ") + d.name);
     double done = 0;

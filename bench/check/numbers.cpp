@@ -120,6 +120,15 @@ std::vector<Scene> make_scenes_of_numbers() {
         all.back().taps.push_back({"z" + number, Quantity::displacement, 0, 0, mass});
         all.back().taps.push_back({"mass" + number, Quantity::bridge_force, 0, 0, mass});
     }
+    add("ring", [](String& s) {  // on a spring, and with a weight
+        s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1, 0}};
+        Mass& ring = s.masses.front();
+        ring.spring = 400, ring.damping = 0.4, ring.weight = 0.5;
+    });
+    all.back().taps.push_back({"z0", Quantity::displacement, 0, 0, 0});
+    LumpedBarrier above{0.08, 0.08, 3e-4, {900}, 1, 0};
+    above.side = Side::above;
+    add("jaws", over({above, LumpedBarrier{0.2, 0.1, -4e-4, {1500}, 1, 0}}));
     add("from_modes", [](String& s) {
         s.start = TableStart{
             "modes", "", true, {1, 2, 3, 5}, {1e-3, 4e-4, -2e-4, 1e-4}, {1, -0.8, 0.5, 0.2}};

@@ -198,8 +198,10 @@ struct Checked {
     bool broken() const;
 };
 
-// Calls `answered` for each promise once all its scenes are examined. Throws UsageError for an
-// unknown promise or scene, or if no selected promise is examined on the selected scenes.
+// Throws UsageError for an unknown promise or scene.
+void must_exist(const Asked&);
+// Calls `answered` for each promise once all its scenes are examined. Throws UsageError if no
+// selected promise is examined on the selected scenes.
 Checked check(const Descriptor&, const Asked&, const store::Listener&,
               const std::function<void(const Checked&, const Promise&)>& answered = {});
 

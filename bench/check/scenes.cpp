@@ -177,6 +177,10 @@ std::vector<Scene> read_contract_scenes() {
     std::vector<Scene> scenes;
     for (const std::string& name : library_scenes()) scenes.push_back(read_scene(name));
     scenes.push_back(named(string_at_rest(), "rest"));
+    scenes.push_back(named(string_at_rest(), "let_go_from_rest"));
+    scenes.back().strings.front().start = RestStart{};
+    scenes.back().strings.front().pluck =
+        Pluck{0.5, 2e-3, 0, 0, 0.3, 0.1, "force", {0, 1e-3, 2e-3}, {1, 1, 0}, 0.5};
     scenes.push_back(named(lossless(released()), "lossless_release"));
     scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().start = ModeShape{2, 1e-3};

@@ -332,9 +332,10 @@ int call(int argc, const char* const* argv) {
         const std::vector<std::string> all = words_of(argc, argv);
         const char* behind =
             std::ranges::find(all, "--") == all.end() ? "" : "; what stands behind -- is no option";
-        const std::string meant = e.get_name() == "ExtrasError" && chosen != names.end()
-                                      ? meant_by(*program.get_subcommand(verb))
-                                      : "";
+        const std::string meant =
+            dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && chosen != names.end()
+                ? meant_by(*program.get_subcommand(verb))
+                : "";
         throw store::UsageError(fmt::format("{}{}{} (see jvari {}--help)", e.what(), behind, meant,
                                             verb.empty() ? "" : verb + " "));
     }

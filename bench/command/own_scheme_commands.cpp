@@ -217,6 +217,7 @@ int check_command(const CheckRequest& r) {
     for (const std::string& file : r.plugins) read.push_back({"a plugin", file});
     store::must_not_replace({{"--junit", r.junit}}, read);
     if (!r.junit.empty()) store::must_be_writable(r.junit);
+    check::must_exist(r.selection);
     std::vector<check::Checked> checked;
     bool broken = false;
     for (const Descriptor& one : chosen) {
