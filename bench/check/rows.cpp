@@ -56,8 +56,7 @@ Verdict starts_without_contact_forces(const Case& c) {
         const bool contact_force = q == Quantity::bridge_force || q == Quantity::thread_force ||
                                    q == Quantity::driving_force;
         const bool at_rest =
-            contact_force ||
-            (!tap.mass && !needed_by(c.scene).any(Feature::initial_shape | Feature::equilibrium));
+            contact_force || (!tap.mass && !needed_by(c.scene).has(Feature::initial_shape));
         if (at_rest && r.trace.column(k)[0] != 0)
             return broken(fmt::format("tap {} is {:.3g} {} in row 0", r.trace.names[k],
                                       r.trace.column(k)[0], unit_of(q)));

@@ -177,10 +177,9 @@ std::vector<Scene> read_contract_scenes() {
     std::vector<Scene> scenes;
     for (const std::string& name : library_scenes()) scenes.push_back(read_scene(name));
     scenes.push_back(named(string_at_rest(), "rest"));
-    scenes.push_back(named(string_at_rest(), "let_go_from_rest"));
+    scenes.push_back(named(string_at_rest(), "plucked_from_rest"));
     scenes.back().strings.front().start = RestStart{};
-    scenes.back().strings.front().pluck =
-        Pluck{0.5, 2e-3, 0, 0, 0.3, 0.1, "force", {0, 1e-3, 2e-3}, {1, 1, 0}, 0.5};
+    scenes.back().strings.front().pluck = Pluck{-0.4, 2e-3, 30.0, 0.0, 0.5, 0.1};
     scenes.push_back(named(lossless(released()), "lossless_release"));
     scenes.push_back(named(lossless(string_at_rest()), "lossless_free"));
     scenes.back().strings.front().start = ModeShape{2, 1e-3};
@@ -275,7 +274,13 @@ std::vector<Scene> otherwise(const Scene& scene, Feature feature) {
         case Feature::initial_velocity:
             add([](String& s) { return s.velocity.reset(), true; });
             break;
-        case Feature::equilibrium: add([](String& s) { return s.start.reset(), true; }); break;
+        case Feature::equilibrium:  // a string that touches nothing rests in its zero start
+            add([](String& s) {
+                if (s.barriers.empty()) s.start = ModeShape{1, 1e-3 * s.length};
+                else s.start.reset();
+                return true;
+            });
+            break;
         case Feature::pluck:
             add([](String& s) { return s.pluck && (s.pluck->amplitude *= 1.1, true); });
             break;

@@ -318,7 +318,6 @@ int run_command(RunRequest r) {
     scene.taps.insert(scene.taps.begin(), own.taps.begin(),
                       own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
-    if (r.rate) compare::refuse_slow_rate(scene, *r.rate);
     const auto advice = advised(r, own, catalogue, console);
     if (!advice.empty() && !advice.back().within) {
         console.print_json(

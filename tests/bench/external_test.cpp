@@ -127,7 +127,7 @@ TEST(External, CheckAsksForWhatItSaysThatItRepresents) {
     const Ended o =
         of(named, "echo represents: damping, initial shape; echo balance: exact; exit 0");
     EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_TRUE(says(o.out, "NameWhatIsMissing                                 26 scenes"));
+    EXPECT_TRUE(says(o.out, "NameWhatIsMissing                                 27 scenes"));
     EXPECT_TRUE(
         says(of("--only KeepsItsEnergyLedgerInSum,AllocatesNothingWhileStepping",
                 "echo balance: exact; exit 0")
