@@ -40,7 +40,7 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
          "did you mean --schemes and --rates?"},
         {"compare free_string --schemes all", "without --schemes all of them run"},
         {"compare free_string --rates 44.1,88.2 --duration 0.05", "Those are written 44.1k"},
-        {"run free_string --scheme modal_two_point --rate 44.1", "Those are written 44.1k"},
+        {"compare free_string --schemes modal_two_point --rates 44.1", "Those are written 44.1k"},
         {"run free_string --set string.tension=50", "expected an index, as in string.0.tension"},
         {"check modal_two_point --only energy_of_it", "`jvari help check` has all"},
         {"run", "scene"},
