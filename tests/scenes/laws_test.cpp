@@ -66,7 +66,8 @@ TEST(PerPeriod, TheAmplitudeLosesTheFactorInOnePeriodOfTheFirstModeInEveryMode) 
 // A free body against the contact, by Runge-Kutta steps.
 TEST(ContactLoss, OfARestitutionLetsAFreeBodyLeaveAtThatShareOfItsSpeed) {
     for (const double e : {0.99, 0.8, 0.5, 0.1})
-        for (const auto& [speed, exponent, mass] : {std::tuple{0.3, 1.0, 2e-3}, {5.0, 1.5, 0.1}}) {
+        for (const auto& [speed, exponent, m] : {std::tuple{0.3, 1.0, 2e-3}, {5.0, 1.5, 0.1}}) {
+            const double mass = m;
             const double beta = loss_for_rebound(e, speed), k = 1e5, p = exponent;
             // in the time of half a linear swing
             const double dt = 1e-4 * std::sqrt(mass / k) / std::pow(speed, (p - 1) / 2) * 3;
