@@ -648,7 +648,7 @@ TEST(Truth, DoublingEndsSoonerWhereManyBarriersAreCoupled) {
         scene.strings[0].barriers.emplace_back(b);
     }
     const auto truth = truth_of(scene, 0);
-    EXPECT_LE(truth.reference.choice.settings.modes, 376) << truth.description;
+    EXPECT_LE(truth.reference.choice.settings.modes, 752) << truth.description;
     EXPECT_TRUE(says(truth.description, "too long"));
 }
 
