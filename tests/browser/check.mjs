@@ -1040,7 +1040,7 @@ async function pull(browser, [x, y], [to_x, to_y]) {
 async function drag(browser, name, file) {
   console.log(`${name}, dragged`);
   await go(browser, pathToFileURL(file).href);
-  const screen = () => browser.evaluate(in_page.screen),
+  const screen = () => browser.evaluate(in_page.first_screen),
     top = () => browser.evaluate("scrollTo(0, 0)");
   await top();
   const before = await screen();
