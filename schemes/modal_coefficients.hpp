@@ -41,6 +41,28 @@ inline ModeStep exact_step(double omega0, double sigma, double dt) {
             (1 + std::exp(-slow * dt)) * (1 + std::exp(-fast * dt)), loss};
 }
 
+// Free motion over one step: x(dt) = (1 + start) x(0) + drift() v(0).
+struct ExactWay {
+    double start, decay, rate;  // rate: omega/sin(omega dt), its limit or its hyperbolic form
+    double drift() const { return decay / rate; }
+};
+inline ExactWay exact_way(double omega0, double sigma, double dt) {
+    const double square = (omega0 - sigma) * (omega0 + sigma), decay = std::exp(-sigma * dt),
+                 fallen = std::expm1(-sigma * dt);
+    if (square > 0) {
+        const double omega = std::sqrt(square), half = std::sin(0.5 * omega * dt),
+                     sine = std::sin(omega * dt);
+        return {fallen + decay * (sigma / omega * sine - 2 * half * half), decay, omega / sine};
+    }
+    if (square < 0) {
+        // slow = sigma - s
+        const double s = std::sqrt(-square), slow = omega0 * omega0 / (sigma + s), fast = sigma + s,
+                     slowly = std::expm1(-slow * dt), quickly = std::expm1(-fast * dt);
+        return {(fast * slowly - slow * quickly) / (2 * s), decay, s / std::sinh(s * dt)};
+    }
+    return {fallen + decay * sigma * dt, decay, 1 / dt};
+}
+
 // The root of (1 + A + B) z^2 - 2 (1 - A) z + 1 + A - B = 0, the two-point recursion with
 // coefficients A, B (eqs 34-35).
 inline FreeMode two_point_mode(double A, double B, double dt) {

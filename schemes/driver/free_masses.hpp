@@ -163,16 +163,9 @@ private:
         // d at t = 0; in three points the exact way in dt
         double first_way() const {
             if (levels == 1) return (dt * of.velocity - 2 * step.A() * x()) / J + fall;
-            const double w0 = std::sqrt(of.spring / of.mass), s = 0.5 * of.damping / of.mass,
-                         square = (w0 - s) * (w0 + s), w = std::sqrt(std::abs(square)),
-                         R = std::exp(-s * dt),
-                         c = square > 0 ? std::cos(w * dt) : std::cosh(w * dt),
-                         half = square > 0 ? std::sin(0.5 * w * dt) : std::sinh(0.5 * w * dt),
-                         by_speed = R * (w == 0       ? dt
-                                         : square > 0 ? std::sin(w * dt) / w
-                                                      : std::sinh(w * dt) / w),
-                         cos_less_1 = std::expm1(-s * dt) * c + (square > 0 ? -2 : 2) * half * half;
-            return x() * (cos_less_1 + s * by_speed) + of.velocity * by_speed + fall;
+            const ExactWay way =
+                exact_way(std::sqrt(of.spring / of.mass), 0.5 * of.damping / of.mass, dt);
+            return way.start * x() + way.drift() * of.velocity + fall;
         }
         double speed() const {
             return levels == 1 ? (J * (d - fall) + 2 * step.A() * x()) / dt : (d + back) / dt;
