@@ -99,7 +99,8 @@ std::vector<double> weights_below(double hertz, std::vector<double> weights, con
     return weights;
 }
 
-std::vector<double> footprint_weights(const Modes& modes, double position, double width) {
+std::vector<double> footprint_weights(const Modes& modes, double position, double width,
+                                      double sign) {
     std::vector<double> w;
     for (double beta : modes.beta) {
         // cos(beta w/2) = sin(gap/2); the quotient tends to 1/2 as gap -> 0
@@ -107,15 +108,13 @@ std::vector<double> footprint_weights(const Modes& modes, double position, doubl
         const double window = std::abs(gap) < 1e-8
                                   ? pi / 4
                                   : pi * pi * std::sin(0.5 * gap) / (gap * (pi + beta * width));
-        w.push_back(window * std::sin(beta * position));  // (20)
+        w.push_back(sign * window * std::sin(beta * position));  // (20)
     }
     return w;
 }
 
 std::vector<double> contact_weights(const Modes& modes, const LumpedBarrier& b) {
-    std::vector<double> g = footprint_weights(modes, b.position, b.width);
-    for (double& x : g) x *= b.sign();
-    return g;
+    return footprint_weights(modes, b.position, b.width, b.sign());
 }
 
 std::vector<double> nut_force_weights(const Modes& modes, const String& s) {

@@ -35,10 +35,9 @@ double omega_squared_damped(double omega0, double sigma);
 
 // Weights w_i of a quantity: it is sum_i w_i y_i, with the modal displacements y_i.
 std::vector<double> displacement_weights(const Modes&, double position);  // v_i(x)
-// g_i, eq 20, limit at beta_i w = pi
-std::vector<double> footprint_weights(const Modes&, double position, double width);
-// those of a barrier's contact, in its coordinate
-std::vector<double> contact_weights(const Modes&, const LumpedBarrier&);
+// g_i, eq 20, limit at beta_i w = pi; sign: -1 for the coordinate of a contact from above
+std::vector<double> footprint_weights(const Modes&, double position, double width, double sign = 1);
+std::vector<double> contact_weights(const Modes&, const LumpedBarrier&);  // with its sign
 // -T v_i'(L) + EI v_i'''(L), eq 22 [N/m]
 std::vector<double> nut_force_weights(const Modes&, const String&);
 

@@ -95,9 +95,7 @@ const TableDamping* measured(const String& s) { return std::get_if<TableDamping>
 }  // namespace
 
 std::vector<double> footprint_weights(const Modes& modes, const Footprint& f) {
-    std::vector<double> g = footprint_weights(modes, f.position, f.width);
-    for (double& x : g) x *= f.sign;
-    return g;
+    return footprint_weights(modes, f.position, f.width, f.sign);
 }
 
 std::vector<double> reading_weights(const Reading& r, const Modes& modes, const String& s) {
