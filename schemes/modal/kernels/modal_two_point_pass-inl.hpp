@@ -19,7 +19,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Column = TwoPointColumn;
 constexpr int any_number = -1;  // points counted at run time
-constexpr int by_index = -1;
 
 // dot() with a column in the modes.
 HWY_INLINE double dot(const double* HWY_RESTRICT w, const TwoPointStream& m, Column x) {
@@ -139,21 +138,20 @@ HWY_INLINE void many_points(TwoPointStream& m, const double* HWY_RESTRICT force)
 }
 
 template <int points, bool dots_of_y>
-HWY_INLINE void pass(TwoPointStream& m, const double* force) {
-    if constexpr (points == any_number) {
-        many_points<dots_of_y>(m, force);
-    } else {
-        constexpr int all = (1 << points) - 1;
-        int count = 0, last = 0;
-        for (int p = 0; p < points; ++p)
-            if (force[p] != 0) ++count, last = p;
-        if (count == 0) few_points<points, dots_of_y, 0>(m, force);
-        else if (points == 2 && count == 1)
-            last == 0 ? few_points<points, dots_of_y, 1>(m, force)
-                      : few_points<points, dots_of_y, 2>(m, force);
-        else if (points > 2 && count == 1) few_points<points, dots_of_y, by_index>(m, force, last);
-        else few_points<points, dots_of_y, all>(m, force);
+struct FewPoints {
+    TwoPointStream& m;
+    const double* force;
+    template <int pushing>
+    HWY_INLINE void run(int one) const {
+        few_points<points, dots_of_y, pushing>(m, force, one);
     }
+};
+template <int points, bool dots_of_y>
+HWY_INLINE void pass(TwoPointStream& m, const double* force) {
+    if constexpr (points == any_number) many_points<dots_of_y>(m, force);
+    else
+        with_forces<points>([&](int p) { return force[p] != 0; },
+                            FewPoints<points, dots_of_y>{m, force});
 }
 
 }  // namespace HWY_NAMESPACE

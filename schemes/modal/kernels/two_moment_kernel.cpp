@@ -42,8 +42,6 @@ HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, co
         to[t] = hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a[t], of_b[t])));
 }
 
-constexpr int by_index = -1;
-
 // pushing: the contacts that push, a bit for each, or by_index: contact `one`. A thread always
 // pulls.
 template <int points, bool thread, int pushing>
@@ -138,20 +136,23 @@ HWY_INLINE void many_points(Stream& m, const double* HWY_RESTRICT phi, bool forc
 }
 
 template <int points, bool thread>
+struct FewPoints {
+    Stream& m;
+    const double* phi;
+    template <int pushing>
+    HWY_INLINE void run(int one) const {
+        few_points<points, thread, pushing>(m, phi, one);
+    }
+};
+template <int points, bool thread>
 HWY_INLINE void pass(Stream& m, const double* phi) {
-    int count = 0, last = 0;
-    for (int a = 0; a < m.points - m.thread; ++a)
-        if (phi[a] != 0 || phi[m.points + a] != 0) ++count, last = a;
+    const auto has_force = [&](int a) { return phi[a] != 0 || phi[m.points + a] != 0; };
     if constexpr (points == any_number) {
-        many_points(m, phi, count > 0);
+        bool contacts = false;
+        for (int a = 0; a < m.points - m.thread; ++a) contacts = contacts || has_force(a);
+        many_points(m, phi, contacts);
     } else {
-        constexpr int contacts = points - thread, all = (1 << contacts) - 1;
-        if (count == 0) few_points<points, thread, 0>(m, phi);
-        else if (contacts == 2 && count == 1)
-            last == 0 ? few_points<points, thread, 1>(m, phi)
-                      : few_points<points, thread, 2>(m, phi);
-        else if (contacts > 2 && count == 1) few_points<points, thread, by_index>(m, phi, last);
-        else few_points<points, thread, all>(m, phi);
+        with_forces<points - thread>(has_force, FewPoints<points, thread>{m, phi});
     }
 }
 template <int points, bool thread>

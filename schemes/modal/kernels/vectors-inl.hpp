@@ -58,6 +58,21 @@ HWY_INLINE V in_register(V v) {
     return v;
 }
 
+// Calls pass.run<pushing>(one) with the points that have a force: `pushing` has a bit for each, or
+// is by_index, and `one` alone has a force. So a pass leaves out products with zero.
+constexpr int by_index = -1;
+template <int points, class HasForce, class Pass>
+HWY_INLINE void with_forces(const HasForce& has_force, const Pass& pass) {
+    int count = 0, last = 0;
+    for (int p = 0; p < points; ++p)
+        if (has_force(p)) ++count, last = p;
+    if (count == 0) pass.template run<0>(0);
+    else if (points == 2 && count == 1)
+        last == 0 ? pass.template run<1>(0) : pass.template run<2>(0);
+    else if (points > 2 && count == 1) pass.template run<by_index>(last);
+    else pass.template run<(1 << points) - 1>(0);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace jvari
 HWY_AFTER_NAMESPACE();
