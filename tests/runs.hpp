@@ -23,6 +23,13 @@ inline Scene lasting(Scene scene, double seconds) {
     scene.duration = seconds;
     return scene;
 }
+// displacement of the string at x, and all that a scene hears of its first mass
+inline std::vector<Tap> taps_beside_a_mass(double x) {
+    return {{"y", Quantity::displacement, 0, x},
+            {"z", Quantity::displacement, 0, 0, 0},
+            {"v", Quantity::velocity, 0, 0, 0},
+            {"F", Quantity::bridge_force, 0, 0, 0}};
+}
 inline LumpedBarrier& barrier(Scene& scene, int k = 0) {
     return std::get<LumpedBarrier>(scene.strings.front().barriers[static_cast<std::size_t>(k)]);
 }

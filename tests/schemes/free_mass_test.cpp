@@ -26,10 +26,7 @@ const std::vector<std::string> forms{"modal_two_moment",
 Settings sampled(double rate, int modes) { return {rate, 44100, modes, {}}; }
 
 Scene with_taps(Scene scene) {
-    scene.taps = {{"y", Quantity::displacement, 0, 0.3 * scene.strings[0].length},
-                  {"z", Quantity::displacement, 0, 0, 0},
-                  {"v", Quantity::velocity, 0, 0, 0},
-                  {"F", Quantity::bridge_force, 0, 0, 0}};
+    scene.taps = taps_beside_a_mass(0.3 * scene.strings[0].length);
     return scene;
 }
 

@@ -25,10 +25,7 @@ Settings sampled(double rate, int modes) { return {rate, 44100, modes, {}}; }
 Scene with(const Mass& mass, double seconds) {
     Scene scene = lasting(c3_free(), seconds);
     scene.strings[0].masses = {mass};
-    scene.taps = {{"y", Quantity::displacement, 0, 0.3},
-                  {"z", Quantity::displacement, 0, 0, 0},
-                  {"v", Quantity::velocity, 0, 0, 0},
-                  {"F", Quantity::bridge_force, 0, 0, 0}};
+    scene.taps = taps_beside_a_mass(0.3);
     return scene;
 }
 // 5 g that touch nothing within 20 ms
