@@ -110,7 +110,7 @@ private:
     void make_base(const Modes&);
     void put_weight(const Modes&, const String&);
     void make_kernel();
-    // Adds the ways of falling masses, exact in any form of the modes' motion.
+    // Adds the fall of masses under their weights, which is exact beside any motion of the modes.
     void fall(double at, double* y_out, double* u_out) const noexcept;
     void free_flow(double at, std::vector<double>& e) const noexcept;
     int act(double at, const double* e, const double* M) noexcept;
