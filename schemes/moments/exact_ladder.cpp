@@ -99,21 +99,21 @@ void put_step(ExactLadder::Pattern& s, double resistance, double span) {
 }  // namespace
 
 ExactLadder::ExactLadder(const MissingMatrix& m, double span)
-    : points_(m.points()), patterns_(points_), w_(m.ladder.V.size()), V_(m.ladder.V) {
+    : points_(m.points()), patterns_(points_), w_(m.ladder.V.size()), push_(m.ladder.V) {
     const int n = points_;
     for (int k = 0; k < n; ++k) {
         Pattern& s = patterns_[static_cast<std::size_t>(k)];
         std::vector<double> yield(n);  // C V_k
         for (int p = 0; p < n; ++p)
-            for (int q = 0; q < n; ++q) yield[p] += m.C[p * n + q] * V_[k * n + q];
-        for (int p = 0; p < n; ++p) s.c += V_[k * n + p] * yield[p];
+            for (int q = 0; q < n; ++q) yield[p] += m.C[p * n + q] * m.ladder.V[k * n + q];
+        for (int p = 0; p < n; ++p) s.c += m.ladder.V[k * n + p] * yield[p];
         s.mass = m.ladder.mass[k];
         if (!(s.c > 0 && m.ladder.resistance[k] > 0)) {  // stands still
             s = {};
             s.c = 1;
             continue;
         }
-        for (int p = 0; p < n; ++p) w_[k * n + p] = yield[p] / s.c;
+        for (int p = 0; p < n; ++p) w_[k * n + p] = yield[p] / s.c, push_[k * n + p] /= s.c;
         put_step(s, m.ladder.resistance[k], span);
     }
 }
@@ -136,7 +136,7 @@ double ExactLadder::yields(const double* x, int p) const noexcept {
 void ExactLadder::forces(const double* x, double* out) const noexcept {
     for (int p = 0; p < points_; ++p) {
         out[p] = 0;
-        for (int k = 0; k < points_; ++k) out[p] += V_[k * points_ + p] * x[k] / pattern(k).c;
+        for (int k = 0; k < points_; ++k) out[p] += push_[k * points_ + p] * x[k];
     }
 }
 

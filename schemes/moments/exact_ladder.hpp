@@ -45,7 +45,7 @@ public:
 private:
     int points_;
     std::vector<Pattern> patterns_;  // one per point
-    std::vector<double> w_, V_;      // pattern by pattern
+    std::vector<double> w_, push_;   // pattern by pattern; push_: V_k/c_k [N/m]
 };
 
 }  // namespace jvari

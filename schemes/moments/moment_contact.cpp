@@ -30,23 +30,51 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
       span_(span),
       c_(1 / law_.k),
       share_(1 / (law_.alpha + 1)),
+      halves_(halves_in(law_.alpha)),
       clipped_(loss == LossLaw::clipped),
       galerkin_(alone && !law.rigid() && 3 * T.m11 < radiates * T.m00),
       linear_(!galerkin_ && beta == 0 && law_.alpha == 1) {}
 
 [[gnu::always_inline]] inline MomentRule::Powers MomentRule::powers(double eta) const noexcept {
-    if (!(eta > 0)) return {0, 0, 0};
-    const double by = law_.alpha == 1 ? law_.k : law_.k * power(eta, law_.alpha - 1),
-                 force = by * eta;
-    return {force * eta * share_, force, law_.alpha * by};
+    if (!(eta > 0)) return {0, 0, 0, 0};
+    double root = 0, by = law_.k;
+    if (halves_ > 0) {
+        if (halves_ % 2 == 1) by *= root = std::sqrt(eta);
+        for (int i = (halves_ - 2) / 2; i > 0; --i) by *= eta;
+    } else {
+        by *= std::pow(eta, law_.alpha - 1);
+    }
+    const double force = by * eta;
+    return {force * eta * share_, force, law_.alpha * by, root};
+}
+
+// DV without a difference, 2 alpha a small whole number. With the sums h_m = a^m + a^(m-1) b + ... +
+// b^m over both penetrations: V's quotient is k/(alpha + 1) h_alpha, or k/(alpha + 1) (h_m + st
+// h_(m-1))/(s + t), m = alpha + 1/2, with the roots s and t.
+[[gnu::always_inline]] inline double MomentRule::quotient_by_sums(double from, double to,
+                                                                  const Powers& a,
+                                                                  const Powers& b) const noexcept {
+    double before = 0, h = 1, power_of_to = 1;
+    for (int m = (halves_ + 1) / 2; m > 0; --m) {
+        before = h;
+        power_of_to *= to;
+        h = h * from + power_of_to;
+    }
+    const double by = law_.k * share_;
+    return halves_ % 2 == 1 ? by * ((h + a.root * b.root * before) / (a.root + b.root)) : by * h;
 }
 
 [[gnu::always_inline]] inline MomentRule::Quotient MomentRule::quotient(
     double from, double to, const Powers& a, const Powers& b) const noexcept {
     if (from <= 0 && to <= 0) return {0, 0, 0};
-    if (law_.alpha == 1 && from > 0 && to > 0)
-        return {0.5 * (a.force + b.force), 0.5 * law_.k, 0.5 * law_.k};
     const double d = to - from;
+    if (from > 0 && to > 0 && halves_ > 0) {
+        const double value = quotient_by_sums(from, to, a, b);
+        if (law_.alpha == 1 || std::abs(d) < 1e-8 * from)
+            return {value, 0.5 * a.slope, 0.5 * b.slope};
+        const double by = 1 / d;
+        return {value, (value - a.force) * by, (b.force - value) * by};
+    }
     if (from > 0 && std::abs(d) < 0.05 * from) {  // avoids the difference in V
         const double by = 1 / from;
         const auto [value, slope] = power_quotient(law_.alpha + 1, d * by);
@@ -162,7 +190,7 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         v = quotient(x, to, a, b);
     };
     double last = std::numeric_limits<double>::infinity();
-    const double close = 1e-8 / law_.alpha;  // relative: the next error is about its square
+    const double close = 2e-8 / law_.alpha;  // relative: the next error is about its square
     s.converged = false;
     for (s.iterations = 1; s.iterations <= most_newton; ++s.iterations) {
         look();
@@ -479,15 +507,13 @@ void MomentRule::by_rule_d(const MomentMatrix& T, double eta, double b_0, double
         return;
     }
     without_loss(T, eta, eta + b_1, eta - b_0, s);
-    const Powers from = powers(s.from);
-    s.lost = law_.alpha == 1 ? lost_linear(eta, s.from)
-                             : law_.potential(eta) - from.V - from.force * (eta - s.from);
+    s.by_lines = true;
 }
 
 void MomentRule::solve(const MomentMatrix& T, double eta, double b_0, double b_1,
                        MomentContact& s) const noexcept {
     s = {};
-    if (linear_ && by_lines(T, eta + b_1, eta - b_0, s)) s.lost = lost_linear(eta, s.from);
+    if (linear_ && by_lines(T, eta + b_1, eta - b_0, s)) s.by_lines = true;
     else if (galerkin_) by_galerkin(T, eta, b_0, b_1, s);
     else by_rule_d(T, eta, b_0, b_1, s);
     s.touches = s.to > 0;

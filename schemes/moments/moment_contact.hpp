@@ -37,9 +37,10 @@ inline MomentMatrix times(const MomentMatrix& a, const MomentMatrix& b) {
 struct MomentContact {            // over a step
     double phi_0 = 0, phi_1 = 0;  // force on the string [N]
     double from = 0, to = 0;      // e_0 and e_1; by rule G eta_0 and e_1 [m]
-    double lost = 0;              // [J]
+    double lost = 0;              // by rule G, or with contact loss [J]
     bool touches = false;         // at the end of the step
     bool by_parabola = false;     // by rule G
+    bool by_lines = false;        // by rule D without contact loss: lost() computes (7)
     MomentMatrix slope;           // d phi/d r, if requested [N/m]
     int iterations = 0;           // 0: closed form
     bool converged = true;
@@ -68,21 +69,28 @@ public:
     // d phi/d b = slope (1 - T slope)^-1 for a step solved with these T
     MomentMatrix answer(const MomentMatrix& T, const MomentContact&) const noexcept;
 
-    // (7) for a linear contact, without cancellation
-    double lost_linear(double eta, double from) const {
+    // (7), for exponent 1 without cancellation [J]
+    double lost(double eta, double from) const {
+        if (law_.alpha != 1)
+            return law_.potential(eta) - law_.potential(from) - law_.force(from) * (eta - from);
         if (from <= 0) return law_.potential(eta);
         return eta > 0 ? 0.5 * law_.k * (eta - from) * (eta - from)
                        : 0.5 * law_.k * from * (from - 2 * eta);
     }
+    double lost(double eta, const MomentContact& s) const {  // in a step from eta [J]
+        return s.by_lines ? lost(eta, s.from) : s.lost;
+    }
 
 private:
-    struct Powers {  // powers of a penetration
-        double V, force, slope;
+    struct Powers {  // powers of a penetration, and its square root if 2 alpha is odd
+        double V, force, slope, root;
     };
     struct Quotient {  // DV and its derivatives by both ends
         double value, by_from, by_to;
     };
     Powers powers(double eta) const noexcept;
+    double quotient_by_sums(double from, double to, const Powers& a,
+                            const Powers& b) const noexcept;
     Quotient quotient(double from, double to, const Powers& a, const Powers& b) const noexcept;
 
     bool by_lines(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
@@ -116,6 +124,7 @@ private:
 
     ContactLaw law_;
     double beta_ = 0, span_ = 1, c_ = 0, share_ = 0.5;  // share_: 1/(alpha + 1)
+    int halves_ = 0;                                    // 2 alpha, if that is a small whole number
     bool clipped_ = false, galerkin_ = false, linear_ = true;
 };
 

@@ -25,14 +25,17 @@ bool eliminate(double* rows, int n, int columns) noexcept {
         if (pivot != k)
             std::swap_ranges(rows + k * columns, rows + (k + 1) * columns, rows + pivot * columns);
         const double scale = 1 / rows[k * columns + k];
-        for (int j = k; j < columns; ++j) rows[k * columns + j] *= scale;
-        for (int i = 0; i < n; ++i) {
+        for (int j = k + 1; j < columns; ++j) rows[k * columns + j] *= scale;
+        for (int i = k + 1; i < n; ++i) {
             const double factor = rows[i * columns + k];
-            if (i == k || factor == 0) continue;
-            for (int j = k; j < columns; ++j)
+            for (int j = k + 1; j < columns; ++j)
                 rows[i * columns + j] -= factor * rows[k * columns + j];
         }
     }
+    for (int k = n - 1; k > 0; --k)
+        for (int i = 0; i < k; ++i)
+            for (int j = n; j < columns; ++j)
+                rows[i * columns + j] -= rows[i * columns + k] * rows[k * columns + j];
     return true;
 }
 }  // namespace
@@ -239,7 +242,7 @@ double MomentObstacle::loss() const {
 void MomentObstacle::take(int a, const MomentContact& s) noexcept {
     Point& p = at_[a];
     moved_[a] = p.eta - s.to;
-    p = {s.to, p.eta, s.from, false, s.lost};
+    p = {s.to, p.eta, s.from, s.by_lines, s.lost};
     if (s.touches && rules_[a].is_linear()) set_ |= std::uint64_t{1} << a;
     if (s.phi_0 != 0 || s.phi_1 != 0) tally_.note(s.phi_0, std::max({p.eta_before, p.eta, s.from}));
 }

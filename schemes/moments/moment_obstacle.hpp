@@ -63,7 +63,7 @@ public:
     const double* moved() const { return moved_.data(); }
     double lost_by(int a, double) const noexcept {  // by a contact in the last step [J]
         const Point& p = at_[a];
-        return p.closed ? rules_[a].lost_linear(p.eta_before, p.from) : p.lost;
+        return p.by_lines ? rules_[a].lost(p.eta_before, p.from) : p.lost;
     }
 
     double potential(const double*, int = 0) const;  // [J]
@@ -80,7 +80,7 @@ private:
         double eta = 0;         // penetration [m]
         double eta_before = 0;  // at the beginning of the last step
         double from = 0;        // e_0 in the last step,
-        bool closed = true;     // if that had a closed form; otherwise
+        bool by_lines = true;   // by rule D without contact loss; otherwise
         double lost = 0;        // [J]
     };
     struct Kept {  // a set of linear contacts in full contact
@@ -99,7 +99,7 @@ private:
     template <int few>
     [[gnu::always_inline]] bool one(const double* b, double* force) noexcept;
     bool alone(const double* b, double* force) noexcept;
-    template <int few>
+    template <int few, bool thread>
     [[gnu::always_inline]] bool several(const double* b, double* force) noexcept;
     const Kept& kept(std::uint64_t set) noexcept {
         Kept& s = sets_[(set ^ (set >> 7) ^ (set >> 19)) % sets_.size()];
@@ -107,7 +107,7 @@ private:
         return s;
     }
     void keep(std::uint64_t set, Kept&) noexcept;
-    template <int few>
+    template <int few, bool thread>
     [[gnu::always_inline]] bool only(int a, const double* b, const double* ends, double* r,
                                      double* force) noexcept;
     // to = M x, with two numbers for each contact
@@ -211,7 +211,7 @@ template <int few, bool thread, bool series>
     }
     bool converged = true;
     if (n == 1) converged = one<few>(b, force);
-    else if (n > 1) converged = several<few - thread>(b, force);
+    else if (n > 1) converged = several<few - (few > 0 && thread), thread>(b, force);
     if (has_thread) {
         double pull_0 = b[c], pull_1 = b[P + c];
         for (int a = 0; a < n; ++a) {
@@ -256,10 +256,10 @@ template <int few>
     return alone(b, force);
 }
 
-template <int few>
+template <int few, bool thread>
 [[gnu::always_inline]] inline bool MomentObstacle::several(const double* b,
                                                            double* force) noexcept {
-    const int n = few > 0 ? few : n_, P = points_;
+    const int n = few > 0 ? few : n_, P = few > 0 ? few + thread : points_;
     double local[few > 0 ? 6 * few : 1];
     double *ends = few > 0 ? local : pairs_.data(), *phi = ends + 2 * n, *r = phi + 2 * n;
     std::uint64_t touch = 0;
@@ -272,7 +272,7 @@ template <int few>
         set_ = 0;
         return true;
     }
-    if (std::has_single_bit(touch) && only<few>(std::countr_zero(touch), b, ends, r, force))
+    if (std::has_single_bit(touch) && only<few, thread>(std::countr_zero(touch), b, ends, r, force))
         return true;
     const std::uint64_t set = set_;
     product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
@@ -287,10 +287,10 @@ template <int few>
 }
 
 // Solves contact a by its own equation, the others out. False if they do not stay out.
-template <int few>
+template <int few, bool thread>
 [[gnu::always_inline]] inline bool MomentObstacle::only(int a, const double* b, const double* ends,
                                                         double* r, double* force) noexcept {
-    const int n = few > 0 ? few : n_, P = points_;
+    const int n = few > 0 ? few : n_, P = few > 0 ? few + thread : points_;
     const double* I = inverses_.data() + 4 * a;
     MomentContact& own_step = found_[a];
     double phi_0 = I[0] * ends[a] + I[2] * ends[n + a], phi_1 = I[1] * ends[a] + I[3] * ends[n + a];
