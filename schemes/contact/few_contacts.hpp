@@ -1,8 +1,10 @@
 // Solves two to five linear contacts without losses, by the discrete gradient, inline for the
 // kernels that make whole steps: the equations of contact_gram.hpp, in three tiers.
-//   1. One contact alone touches, before the step or by its end: its own equation (contact.hpp).
-//   2. The contacts that touch before the step are in full contact, the others out: with D = k/2,
-//      F = (1/D + Theta)^-1 (2 eta + b) of them. The inverses of all sets are kept, at most 31.
+//   1. One contact alone touches, its own equation (contact.hpp): the only one that would touch
+//      without forces, or that touches before the step, or else the deepest without forces.
+//   2. The contacts that touch before the step, two or more, are in full contact, the others out:
+//      with D = k/2, F = (1/D + Theta)^-1 (2 eta + b) of them. The inverses of all sets, at most
+//      31, are kept.
 //   3. Else Newton's steps on F = S(b - Theta_off F), S_a the force of contact a by itself and
 //      Theta_off the compliances between different contacts: S' = D/(1 + Theta_aa D), D = -dF/dr.
 #pragma once
@@ -52,8 +54,12 @@ private:
             for (int a = 0; a < n; ++a) force[a] = 0, depth[a] = eta[a] + b[a];
             return 0;
         }
-        if (std::has_single_bit(touch)) {
-            const int one = std::countr_zero(touch);
+        if (!std::has_single_bit(touch) && (set & (set - 1)) != 0) {
+            if (in_full<n>(set, eta, b, depth, force)) return 0;
+        } else {
+            int one = std::countr_zero(set != 0 ? set : touch);
+            for (int a = 0; set == 0 && a < n; ++a)
+                if (eta[a] + b[a] > eta[one] + b[one]) one = a;
             const double* to = theta_ + one * n;
             const ContactSolution s = solve_linear_contact(k_[one], eta[one], b[one], to[one]);
             bool fits = true;
@@ -64,8 +70,6 @@ private:
                 depth[a] = a == one ? eta[a] - s.r : free;
             }
             if (fits) return 0;
-        } else if (in_full<n>(set, eta, b, depth, force)) {
-            return 0;
         }
         return newton<n>(eta, b, depth, force);
     }

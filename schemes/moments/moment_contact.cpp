@@ -48,9 +48,9 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
     return {force * eta * share_, force, law_.alpha * by, root};
 }
 
-// DV without a difference, 2 alpha a small whole number. With the sums h_m = a^m + a^(m-1) b + ... +
-// b^m over both penetrations: V's quotient is k/(alpha + 1) h_alpha, or k/(alpha + 1) (h_m + st
-// h_(m-1))/(s + t), m = alpha + 1/2, with the roots s and t.
+// DV without a difference, 2 alpha a small whole number. With the sums h_m = a^m + a^(m-1) b + ...
+// + b^m over both penetrations: DV = k/(alpha + 1) h_alpha for a whole alpha; else, with the roots
+// s and t and m = alpha + 1/2, DV = k/(alpha + 1) (h_m + st h_(m-1))/(s + t).
 [[gnu::always_inline]] inline double MomentRule::quotient_by_sums(double from, double to,
                                                                   const Powers& a,
                                                                   const Powers& b) const noexcept {

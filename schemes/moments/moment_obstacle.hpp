@@ -10,7 +10,9 @@
 // matrices make phi_c and the next x.
 //
 // Several contacts (docs/two-moments.md, section 7):
-//   1. one contact alone reaches its barrier in free motion: its own equation, the others out;
+//   1. one contact alone, by its own equation, the others out: the only one that reaches its
+//      barrier in free motion, or that touched after the last step, or else the deepest in free
+//      motion;
 //   2. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
 //   3. if one contact contradicts this, its own equation with the others eliminated;
@@ -272,8 +274,12 @@ template <int few, bool thread>
         set_ = 0;
         return true;
     }
-    if (std::has_single_bit(touch) && only<few, thread>(std::countr_zero(touch), b, ends, r, force))
-        return true;
+    if (std::has_single_bit(touch) || (set_ & (set_ - 1)) == 0) {
+        int one = std::countr_zero(set_ != 0 ? set_ : touch);
+        for (int a = 0; set_ == 0 && a < n; ++a)
+            if (ends[a] > ends[one]) one = a;
+        if (only<few, thread>(one, b, ends, r, force)) return true;
+    }
     const std::uint64_t set = set_;
     product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
     product_of_pairs<few>(T_.data(), phi, r);
