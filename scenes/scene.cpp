@@ -156,7 +156,8 @@ Features needed_by(const Scene& scene) {
         f = f | std::visit(DampingNeeds{}, s.damping);
         for (const Barrier& b : s.barriers) f = f | needed_by(b);
         for (const Mass& m : s.masses) f = f | needed_by(m);
-        if (std::ranges::any_of(s.barriers, stands_above)) f = f | Feature::barrier_above;
+        if (std::any_of(s.barriers.begin(), s.barriers.end(), stands_above))
+            f = f | Feature::barrier_above;
         if (s.barriers.size() + s.masses.size() > 1) f = f | Feature::several_barriers;
         if (s.thread) f = f | Feature::thread;
         if (s.start) f = f | needed_by(*s.start);
