@@ -872,6 +872,14 @@ test("families are told apart by every kind of sight and seen on their page", ()
     });
   }
 });
+test("lines and points of the first chart keep the full colour of their family", () => {
+  const of = whole(),
+    section_ = section(of, "work-precision"),
+    {spec} = section_.charts[0].spec(first(section_.charts[0]), false);
+  for (const layer of layers(spec))
+    if (["line", "point"].includes(layer.mark?.type) && layer.encoding?.color)
+      assert.equal(layer.encoding.opacity, undefined, JSON.stringify(layer.encoding.opacity));
+});
 test("text of the page has a contrast of four and a half", () => {
   for (const dark of [false, true])
     for (const ink of ["ink", "soft", "bad", "key"])

@@ -105,10 +105,18 @@ function take_it() {
   return section;
 }
 
+// Groups of the first handle; errors of the headline's tap stand first in each, those of other taps
+// in the last.
+const groups = ["waveform", "loudness in bands", "other"],
+  group_of = ({measure, tap}) =>
+    tap ? 2 : measure.startsWith("error_l2") ? 0 : /octave|stft/.test(measure) ? 1 : 2;
+
 // Builds the first screen. `section`: the chart's section, `heard`: cards with sounds.
 function answer_of(section, heard) {
   const sub = element("p", {className: "sub"}),
     measure = element("select", {ariaLabel: "what is to be kept"}),
+    typed = element("input", {id: "typed", size: 7, autocomplete: "off"}),
+    hint = element("button", {type: "button", className: "hint"}),
     tolerance = element("label", {htmlFor: "within", className: "handle", title: "drag it"}),
     ending = element("span"),
     slider = element("input", {type: "range", id: "within", max: 1000, ariaLabel: "tolerance"}),
@@ -139,6 +147,8 @@ function answer_of(section, heard) {
     tag.textContent = text + " \u2195";
     slider.value = at(within);
     slider.ariaValueText = text;
+    if (document.activeElement !== typed) typed.value = text;
+    hint_at(best);
     ending.textContent = finding_of(found);
     document.title = `${scene.replaceAll("_", " ")}: within ${text}${finding_of(found)}`;
     sub.replaceChildren(...bold(consequences(found, rows).join(" ")));
@@ -171,6 +181,35 @@ function answer_of(section, heard) {
     };
     handle.onpointerup = handle.onpointercancel = () => (handle.onpointermove = null);
   }
+  // Takes "0.3", "0.3 %" and "2 dB" alike: the unit is the measure's.
+  typed.onchange = () => {
+    const x = parseFloat(typed.value.replace(",", ".")) * (is_percent(answer.error) ? 0.01 : 1);
+    if (x > 0) set(x);
+    typed.value = error_text(answer.within, answer.error);
+  };
+  // The first error that some run keeps within its first tolerance.
+  const kept = () =>
+    errors.findIndex(e => answer_at(rows, e.column, tolerances(rows, e.column).first).best);
+  function first_error() {
+    const headline = errors.findIndex(e => e.column === errors_in(rows)[0].column),
+      {column} = errors[headline];
+    if (answer_at(rows, column, tolerances(rows, column).first).best) return headline;
+    const k = kept();
+    return k < 0 ? headline : k;
+  }
+  function hint_at(best) {
+    const k = best ? -1 : kept();
+    hint.hidden = k < 0 || k === measure.selectedIndex;
+    if (hint.hidden) return;
+    const {column} = errors[k];
+    hint.textContent =
+      `${spoken_error(errors[k], rows)} can be kept within ` +
+      error_text(tolerances(rows, column).first, column);
+    hint.onclick = () => {
+      measure.selectedIndex = k;
+      return measure.onchange();
+    };
+  }
   slider.oninput = () => set(of(Number(slider.value)));
   draggable(tolerance, (event, from) => of(from.at + 2 * (event.clientX - from.x)));
   draggable(tag, in_chart);
@@ -185,12 +224,21 @@ function answer_of(section, heard) {
     answer.scene = report.judged.includes(scene) ? scene : report.judged[0];
     rows = of_scene(cells(), answer.scene);
     const value = (c, column) => c.errors[column]?.value; // lists a tap equal to the headline once
-    errors = errors_in(rows).filter(
-      e => !e.tap || !rows.every(c => value(c, e.column) === value(c, e.measure)),
+    errors = errors_in(rows)
+      .filter(e => !e.tap || !rows.every(c => value(c, e.column) === value(c, e.measure)))
+      .sort((a, b) => group_of(a) - group_of(b));
+    measure.replaceChildren(
+      ...groups.map((label, k) =>
+        element(
+          "optgroup",
+          {label},
+          ...errors.filter(e => group_of(e) === k).map(e => new Option(spoken_error(e, rows))),
+        ),
+      ),
     );
-    measure.replaceChildren(...errors.map(e => new Option(spoken_error(e, rows))));
+    // Opens on the headline, or where no run keeps that, on what can be kept.
     const wanted = errors.findIndex(e => e.column === view.get("measure"));
-    measure.selectedIndex = Math.max(0, wanted);
+    measure.selectedIndex = wanted >= 0 ? wanted : first_error();
     const {certificate, headline} = scene_facts(rows),
       {date, cpu, suite} = page.manifest ?? {};
     const facts = [
@@ -210,7 +258,8 @@ function answer_of(section, heard) {
     begin(number(view.get("within")));
   }
   measure.onchange = async () => {
-    choose("measure", measure.selectedIndex ? errors[measure.selectedIndex].column : null);
+    const k = measure.selectedIndex;
+    choose("measure", k === first_error() ? null : errors[k].column);
     choose("within", null);
     begin(NaN);
     await drawn?.draw();
@@ -239,5 +288,12 @@ function answer_of(section, heard) {
       "published.";
   drawings.push({id: section.id, draw});
   const first = card(section.id, section.heading, note(key_to_it), ...parts);
-  return [sub, slider, first, ranking, ...heard, take];
+  const row = element(
+    "p",
+    {className: "typed"},
+    slider,
+    element("label", {}, "type it ", typed),
+    hint,
+  );
+  return [sub, row, first, ranking, ...heard, take];
 }

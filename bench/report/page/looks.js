@@ -163,7 +163,7 @@ function wrapped(text, length) {
 }
 function title_of(text, subtitle) {
   const size = print_width() < 500 ? 12 : 16,
-    small = print_width() < 500 ? 9 : 12,
+    small = print_width() < 500 ? 10 : 12,
     across = print_width() + 40;
   return {
     text: wrapped(text, Math.floor(across / (0.8 * size))),
@@ -171,7 +171,7 @@ function title_of(text, subtitle) {
     fontSize: size,
     subtitleFontSize: small,
     anchor: "start",
-    offset: 26,
+    offset: print_width() < 500 ? 10 : 26,
     subtitlePadding: 5,
   };
 }
@@ -235,7 +235,7 @@ function legend_layers(names, top) {
       {
         type: "text",
         align: "left",
-        fontSize: print_width() < 500 ? 9 : 11,
+        fontSize: print_width() < 500 ? 10 : 11,
         x: at("datum.left + 42"),
       },
       {text: {field: "text"}},

@@ -162,11 +162,20 @@ function see_it(section) {
   );
   const drawing = {id: section.id, draw};
   drawings.push(drawing);
-  player.seen = () => drawing.drawn && draw();
+  const whose = element("p", {className: "soft small"}),
+    name_it = () => {
+      const s = [...player.pair].reverse().find(s => !s.reference);
+      whose.textContent = s
+        ? `The trace of ${scheme_words(s.name)}${s.detail && `, ${s.detail}`}, chosen under “Hear it”.`
+        : "";
+    };
+  player.seen = () => (name_it(), drawing.drawn && draw());
+  name_it();
   return element(
     "section",
     {id: section.id, className: "card", ariaLabel: section.heading},
     element("h2", {}, "See it"),
+    whose,
     ...parts,
   );
 }

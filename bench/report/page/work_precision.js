@@ -171,7 +171,6 @@ function work_precision_spec(choice, print) {
       color,
       shape,
       fill: {condition: {test: inside, ...color}, value: paper[0]},
-      opacity: {condition: {test: `${inside} || datum.series === winner`, value: 1}, value: 0.55},
       ...hover,
       ...more,
     },
@@ -196,13 +195,7 @@ function work_precision_spec(choice, print) {
     {
       data: {values: sound},
       mark: {type: "line"},
-      encoding: {
-        color,
-        strokeDash,
-        order: {field: "order"},
-        opacity: wins(1, 0.6),
-        size: wins(3, 1.5),
-      },
+      encoding: {color, strokeDash, order: {field: "order"}, size: wins(3, 1.5)},
     },
     marks(sound, {}),
     ...(unpriced.length
