@@ -128,7 +128,7 @@ std::vector<long> fitting_delays(Signal run, Signal reference, long far, long fr
             if (least && at(one) <= at(0)) all.push_back(one);
             if (k == 0) break;
         }
-    all.push_back(std::ranges::min_element(miss) - miss.begin() - far);
+    all.push_back(std::min_element(miss.begin(), miss.end()) - miss.begin() - far);
     return all;
 }
 }  // namespace

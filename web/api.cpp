@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/alignment.hpp"
 #include "analysis/cheapest.hpp"
 #include "analysis/error.hpp"
 #include "analysis/spectrum.hpp"
@@ -167,12 +168,13 @@ JV const double* jv_energy(const Kept* k, int column) {  // stored, supplied, di
 }
 JV void jv_free(Kept* k) { delete k; }
 
-// Differences between two runs of one scene on a tap after the last pluck: ||a - b||/||b||, the
-// time of agreement within 10 %, third octaves within `range` [dB] of the loudest [dB], and the
-// loudness of a over b above a frequency [dB].
-JV double jv_error(const Kept* a, const Kept* b, int tap) {
+// Differences between two runs of one scene on a tap after the last pluck: ||a - b||/||b|| over the
+// first `seconds` (0: all), the time of agreement within 10 %, third octaves within `range` [dB] of
+// the loudest [dB], and the loudness of a over b above a frequency [dB].
+JV double jv_error(const Kept* a, const Kept* b, int tap, double seconds) {
+    const double left = b->scene.duration - free_from(b->scene);
     return relative_l2(a->free(tap), b->free(tap), b->run.trace.tap_rate,
-                       {0, b->scene.duration - free_from(b->scene)});
+                       {0, seconds > 0 ? std::min(seconds, left) : left});
 }
 JV double jv_horizon(const Kept* a, const Kept* b, int tap) {
     return horizon(a->free(tap), b->free(tap), b->run.trace.tap_rate);
@@ -183,6 +185,14 @@ JV double jv_third_octaves(const Kept* a, const Kept* b, int tap, double range) 
 }
 JV double jv_louder(const Kept* a, const Kept* b, int tap, double hertz) {
     return 10 * std::log10(a->power_above(hertz, tap) / b->power_above(hertz, tap));
+}
+// How a sounds beside b; nullptr: refused.
+JV const char* jv_sounds(const Kept* a, const Kept* b, int tap) {
+    const bool done = tried([&] {
+        last_text = sounds_text(a->free(tap), b->free(tap), b->run.trace.tap_rate);
+        return true;
+    });
+    return done ? last_text.c_str() : nullptr;
 }
 JV double jv_left_after(double last, double before, int matched) {
     const double changes[] = {before, last};

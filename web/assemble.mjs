@@ -31,6 +31,8 @@ const parts = {
       "chart.js",
       "map.js",
       "own.js",
+      "take.js",
+      "drop.js",
       "tours.js",
       "main.js",
     ]

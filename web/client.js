@@ -12,7 +12,7 @@ const client = {
   received: new Set(), // kinds of messages received for the newest state
 };
 const patience = 1500, // [ms]
-  late_seconds = 8; // for a verdict
+  late_seconds = 8; // for the exact solution
 
 async function unpacked(base64) {
   const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
@@ -52,8 +52,9 @@ function start_worker() {
         if (data.refused !== undefined) waiting?.reject(new Error(data.refused));
         else waiting?.resolve(data.answer);
       } else if (data.id === client.id) {
-        if (["charted", "refused", "unreferenced"].includes(data.kind)) client.busy = false;
-        if (["reference", "refused", "unreferenced"].includes(data.kind)) clearTimeout(client.late);
+        if (["charted", "refused"].includes(data.kind)) client.busy = false;
+        if (data.last || data.kind === "refused") clearTimeout(client.late);
+        else if (data.kind === "reference") wait_for_exact();
         client.received.add(data.kind);
         shows[data.kind](data);
       }
@@ -64,25 +65,35 @@ function start_worker() {
 }
 class Stale_question extends Error {}
 
-async function send_state() {
+// The estimate stands where the exact solution takes too long.
+function wait_for_exact() {
+  clearTimeout(client.late);
+  if (client.exact === "quick")
+    client.late = setTimeout(() => {
+      start_worker();
+      send_state("no");
+    }, 1e3 * late_seconds);
+}
+// `exact`: whether the exact solution is computed: "quick", where that takes no more than
+// `late_seconds`; "on", however long it takes; "no".
+async function send_state(exact = "quick") {
   if (client.busy && performance.now() - client.since > patience) start_worker();
   client.busy = true;
   client.since = performance.now();
   client.received.clear();
-  clearTimeout(client.late);
-  client.late = setTimeout(() => {
-    start_worker();
-    shows.late();
-  }, 1e3 * late_seconds);
+  client.exact = exact;
+  wait_for_exact();
   client.worker.postMessage({
     id: ++client.id,
     state: {
       text: scene_text(),
+      files: state.files,
       overrides: overrides_of(state.set),
       scheme: state.scheme,
       rate: state.rate,
       modes: state.modes,
       options: options_of(state.scheme, state.compliance),
+      exact,
       window: window_seconds,
       heard: heard_seconds,
       shape: shape_points,

@@ -66,7 +66,8 @@ function jvari_core(module) {
         free: () => call("jv_free", null, handle),
       };
     },
-    error: (a, b, tap) => call("jv_error", "number", a.handle, b.handle, tap),
+    error: (a, b, tap, seconds = 0) => call("jv_error", "number", a.handle, b.handle, tap, seconds),
+    sounds: (a, b, tap) => parsed(call("jv_sounds", "string", a.handle, b.handle, tap)),
     horizon: (a, b, tap) => call("jv_horizon", "number", a.handle, b.handle, tap),
     left_after: (last, before, matched) => call("jv_left_after", "number", last, before, matched),
     third_octaves: (a, b, tap, range) =>
@@ -86,6 +87,8 @@ function jvari_core(module) {
         module._free(at);
       }
     },
+    // A table that scenes name, in the working directory.
+    write: (name, text) => module.FS.writeFile(`/${name}`, text),
     memory: () => module.HEAPF64.length * 8,
   };
 }

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <variant>
 #include <vector>
 
+#include "analysis/alignment.hpp"
+#include "analysis/error.hpp"
 #include "analysis/judgement.hpp"
+#include "analysis/spectrum.hpp"
 #include "reference/references.hpp"
 #include "scenes/barrier.hpp"
 #include "scenes/excitation.hpp"
@@ -89,6 +93,8 @@ std::string barrier_text(const Barrier& b, double length) {
     for (int k = 0; k <= 64; ++k)
         x.push_back(profile.from + (std::min(profile.to, length) - profile.from) * k / 64);
     const std::vector<double> h = heights(profile.curve, x);
+    if (const auto* parabola = std::get_if<ParabolaCurve>(&profile.curve))
+        o.with("coefficient", parabola->coefficient);
     return o.with("shape", "profile")
         .with("from", profile.from)
         .with("to", profile.to)
@@ -200,12 +206,55 @@ std::string run_text(const Run& r, const Scene& scene, int modes, Balance promis
         .with("rows", static_cast<double>(r.trace.rows))
         .with("rate", r.trace.tap_rate)
         .with("dofs", static_cast<double>(r.dofs))
+        .with("modes", static_cast<double>(modes))
         .with("wall", r.wall_seconds)
         .with("residual", figures.energy_residual_accumulated)
         .with("verdict",
               name_of(verdict_of(figures, promised, std::numeric_limits<double>::quiet_NaN())))
         .raw("taps", array(r.trace.names, [](const std::string& n) { return quote(n); }))
         .raw("facts", array(r.facts, fact))
+        .text();
+}
+
+namespace {
+double energy(std::span<const double> x) {
+    return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+}
+// Logarithm of the energy in the first half over the energy in the second: 2 sigma times half the
+// duration, for a signal that decays by exp(-sigma t).
+double fallen(std::span<const double> x) {
+    const std::size_t half = x.size() / 2;
+    return std::log(energy(x.first(half)) / energy(x.last(half)));
+}
+}  // namespace
+
+std::string sounds_text(std::span<const double> run, std::span<const double> reference,
+                        double rate) {
+    constexpr double range = 60;          // [dB]
+    constexpr double least_fallen = 0.1;  // less is no decay to compare
+    // A transform of many rows is slow where their number has a large prime factor.
+    const std::size_t all = std::min(run.size(), reference.size()),
+                      rows = all < 256 ? all : all - all % 256;
+    run = run.first(rows), reference = reference.first(rows);
+    const Bands a = third_octaves(run, rate), b = third_octaves(reference, rate);
+    const double floor = *std::max_element(b.level.begin(), b.level.end()) - range;
+    std::vector<std::size_t> counted;
+    for (std::size_t k = 0; k < b.level.size(); ++k)
+        if (b.level[k] > floor) counted.push_back(k);
+    const auto band = [&](std::size_t k) {
+        return "[" + text_of(b.centre[k]) + "," +
+               text_of(std::max(a.level[k], floor) - b.level[k]) + "]";
+    };
+    const Alignment found = stretched(run, reference, 0);
+    const double decay = fallen(reference);
+    return Object()
+        .raw("bands", array(counted, band))
+        .with("louder", 10 * std::log10(energy(run) / energy(reference)))
+        .with("octaves", third_octave_difference(run, reference, rate, {.range = range}))
+        .with("decay", decay > least_fallen ? fallen(run) / decay - 1 : nan)
+        .with("cents", 1200 * std::log2(1 + found.stretch))
+        .with("left", found.left)
+        .with("apart", relative_l2(run, reference, rate))
         .text();
 }
 

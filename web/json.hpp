@@ -1,6 +1,7 @@
 // JSON texts for the page.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "analysis/cheapest.hpp"
@@ -18,5 +19,10 @@ std::string problem_text(const Scene&, const Settings&);
 // outcome, judgement, cost on this machine, facts
 std::string run_text(const Run&, const Scene&, int modes, Balance promised);
 std::string choice_text(const Choice&);  // by places
+// A run beside another: [centre in Hz, difference in dB] of the third octaves within 60 dB of the
+// loudest, the same of the whole, the root mean square over bands, the ratio of the decay rates
+// minus 1, cents, and the difference with the part that stretching leaves of it.
+std::string sounds_text(std::span<const double> run, std::span<const double> reference,
+                        double rate);
 
 }  // namespace jvari::web

@@ -61,6 +61,8 @@ async function fill_handles() {
     const input = by_id(`handle_${h.id}`),
       value = h.of(shown.scene.string[0]);
     if (!input) continue;
+    input.closest("label").hidden = value === undefined; // a table in place of a curve
+    if (value === undefined) continue;
     if (document.activeElement !== input || film.dragged)
       input.value = h.log ? Math.log10(value) : value;
     input.setAttribute("aria-valuetext", `${shown_value(h, value)} ${h.unit}`);
@@ -118,7 +120,8 @@ function choose_scene({target}) {
   state.tour = "";
   take_step();
   const first = {scheme: "modal_two_point", compliance: "own", modes: 0};
-  choose({scene: target.value, text: null, set: {}, ...first});
+  drop.note = "";
+  choose({scene: target.value, text: null, files: {}, set: {}, ...first});
 }
 function choose(more) {
   Object.assign(state, more);
@@ -139,30 +142,40 @@ function changed() {
   });
 }
 
-let settle = () => {},
-  settling = Promise.resolve();
-const settled = () => settling;
-function show_state() {
+async function write_address() {
+  const {hash, beyond} = await address();
+  by_id("link_said").textContent = beyond
+    ? `The link leaves out your own string: it has ${(beyond / 1024).toFixed(0)} kB, and a link ` +
+      "holds 8 kB. Keep the files."
+    : "";
   try {
-    history.replaceState(null, "", address());
+    history.replaceState(null, "", hash);
   } catch {
     /* a page inside a page has no address */
   }
+}
+let settle = () => {},
+  settling = Promise.resolve();
+const settled = () => settling;
+function show_state(exact) {
+  if (!client.list) return show_controls(); // begin() shows the state
+  write_address();
   settle();
   settling = new Promise(resolve => {
     settle = resolve;
   });
   show_controls();
   clear_answers("computing …");
-  send_state();
+  send_state(exact);
 }
 
 // Removes all numbers, which belong to the old state.
 function clear_answers(title, why = "") {
-  const string = JSON.stringify([scene_text(), state.set]);
+  const string = JSON.stringify([scene_text(), state.set, state.files]);
   if (why || string !== chart.string) Object.assign(chart, {points: [], own: [], whole: false});
   Object.assign(chart, {string, why, timed: false});
-  shown.verdict = null;
+  shown.verdict = shown.words = null;
+  by_id("go_on").hidden = true;
   sound.cost = 0;
   by_id("title").textContent = title;
   say(why);
@@ -184,7 +197,7 @@ const shows = {
       `${scene.string[0].pitch.toFixed(1)} Hz (${scene.string[0].note}). ${scene.source}.`;
     fill_handles();
     chart.cells = cells;
-    if (!kept) Object.assign(chart, {points: [], whole: false});
+    if (!kept) Object.assign(chart, {points: [], whole: false, timed: false});
     draw_chart();
     // Takes another scheme if the chosen scheme cannot run the string.
     const able = first_able();
@@ -203,33 +216,28 @@ const shows = {
     if (by_id("map_part").open) fill_map();
   },
   sound(message) {
-    const again = sound.playing || sound.wanted === "scheme";
-    stop_sound();
-    sound.buffers.scheme = buffer_of(message);
+    const again = !message.whole && (sound.playing || sound.wanted === "scheme");
+    if (again) stop_sound();
+    new_sound("scheme", buffer_of(message));
     sound.cost = message.cost;
     by_id("hear").disabled = !sound.buffers.scheme;
     if (again) play_sound("scheme");
     show_run();
   },
-  reference({picture, verdict: newest}) {
+  reference({picture, verdict: newest, last, can_go_on}) {
+    if (sound.buffers.reference && newest.reference !== shown.verdict?.reference)
+      delete sound.buffers.reference;
     shown.reference = picture;
     shown.verdict = newest;
+    by_id("go_on").hidden = !(last && can_go_on);
     new_pictures();
     show_run();
     mark_sound();
-    settle();
+    if (last) settle();
   },
-  unreferenced() {
-    clear_answers(
-      "No exact solution of this string is in the page",
-      `The page has closed forms alone. ${ask_the_program()}`,
-    );
-  },
-  late() {
-    clear_answers(
-      `No exact solution of this string within ${late_seconds} s`,
-      `A browser takes longer for it. ${ask_the_program()}`,
-    );
+  words(message) {
+    shown.words = message;
+    show_run();
   },
   point({point}) {
     chart.points.push(point);
@@ -255,7 +263,7 @@ const shows = {
   refused({why}) {
     const {received} = client;
     if (!received.has("motion")) (forget_motion(), stop_sound());
-    if (received.has("motion")) clear_answers("The exact solution of this string is refused", why);
+    if (received.has("motion")) clear_answers("No estimate of this string can be made", why);
     else if (!received.has("scene")) clear_answers("This text is not a scene", why);
     else clear_answers(`${scheme_name()} does not take this string`, why);
   },
@@ -266,27 +274,81 @@ function forget_motion() {
   by_id("hear").disabled = true;
   draw_picture();
 }
-const ask_the_program = () =>
-  "The program takes its time, or another reference: jvari compare " +
-  `${state.text === null ? state.scene : "FILE"}.`;
 const scheme_name = () => {
   const {scheme, compliance} = state;
   return label_of({scheme, compliance: options_of(scheme, compliance).length ? compliance : ""});
 };
 
+// The title after the name of the run: the waveform's error over the longest window that is known;
+// without one, how far the third octaves are apart.
 function sentence_of(v) {
-  const over = ` over the first ${1e3 * window_seconds} ms`,
-    after = shown.scene.free_from ? " after the pluck" : "",
-    error = error_text(v);
-  if (error === "not known")
-    return (
-      " cannot be judged here: the exact solution is itself uncertain by " + percent(v.uncertainty)
-    );
-  if (error.endsWith("?"))
-    return ` is ${percent(v.error)} from an exact solution of unknown uncertainty,${over}` + after;
+  const estimate = v.estimated
+      ? `, by an estimate${v.recorded ? "" : " from the scheme's own runs"}`
+      : "",
+    over = ` over the first ${1e3 * (v.window ?? window_seconds)} ms`,
+    after = shown.scene.free_from ? " after the pluck" : "";
+  if (!v.window) {
+    const {words} = shown;
+    const follows =
+      v.horizon < v.known_for
+        ? `, follows the waveform within 10 % for ${time_text(v.horizon)}`
+        : "";
+    return words
+      ? ` sounds within ${decibels(words.run.octaves + 1.5 * words.known.octaves)} of the string ` +
+          `in third octaves${follows}, by an estimate`
+      : ": the waveform cannot be judged";
+  }
+  const error = error_text(v);
   return (
-    ` is ${error.replace("\u2264", "at most")} wrong${over}${after}` +
+    ` is ${error === "not known" ? "more than 100 %" : error.replace("\u2264", "at most")} wrong` +
+    `${over}${after}${estimate}` +
     (sound.cost ? `, and ${two_digits(1 / sound.cost)} times faster than real time` : "")
+  );
+}
+
+// How it sounds, in words. What the coarser of the two runs of the estimate differs by as well is
+// not told from nothing.
+const decibels = x => `${x.toFixed(1)} dB`;
+function amount_of(x, known, unit, places, {wrong, right}) {
+  const uncertain = Math.max(1.5 * Math.abs(known), 10 ** -places);
+  if (!Number.isFinite(x + uncertain)) return "";
+  return Math.abs(x) > uncertain
+    ? wrong(`${Math.abs(x).toFixed(places)} ${unit}`, x > 0)
+    : right(`${(Math.abs(x) + uncertain).toFixed(places)} ${unit}`);
+}
+// Third octaves at and above a frequency, against the loudness of the whole [dB].
+function brightness({bands, louder}, above) {
+  const of = bands.filter(([centre]) => centre > 0.9 * above);
+  return of.reduce((sum, [, level]) => sum + level, 0) / of.length - louder;
+}
+function heard_words({run, known, seconds, finer}) {
+  const corners = [500, 1000, 2000, 5000].filter(
+      c => run.bands.filter(([centre]) => centre > 0.9 * c).length > 1,
+    ),
+    size = c => Math.abs(brightness(run, c)),
+    corner = corners.reduce((a, b) => (size(b) > size(a) ? b : a), corners[0]),
+    above = `above ${corner / 1000} kHz`;
+  const parts = [
+    corner &&
+      amount_of(brightness(run, corner), brightness(known, corner), "dB", 1, {
+        wrong: (text, more) => `is ${text} too ${more ? "bright" : "dull"} ${above}`,
+        right: text => `is as bright ${above} as it should be, to ${text}`,
+      }),
+    run.decay !== null &&
+      amount_of(100 * run.decay, 100 * known.decay, "%", 0, {
+        wrong: (text, more) => `decays ${text} too ${more ? "fast" : "slowly"}`,
+        right: text => `decays right to ${text}`,
+      }),
+    // A motion that stretching does not explain has no pitch to compare.
+    run.left * run.apart < 0.5 &&
+      amount_of(run.cents, known.cents, "cents", 1, {
+        wrong: (text, more) => `is ${text} ${more ? "sharp" : "flat"}`,
+        right: text => `is in tune to ${text}`,
+      }),
+  ].filter(Boolean);
+  return (
+    `It ${parts.join(", ")}. Over ${two_digits(seconds)} s, an estimate: beside ` +
+    `${finer.scheme.replaceAll("_", " ")} at ${finer.rate / 1e3} kHz.`
   );
 }
 
@@ -299,13 +361,18 @@ function show_run() {
     by_id("title").textContent =
       `${run}: ${motion.outcome.replace("_", " ")} at step ${motion.step}`;
   else if (v) by_id("title").textContent = run + sentence_of(v);
+  if (shown.words) say([drop.note, heard_words(shown.words)].filter(Boolean).join(" "));
+  show_take();
   if (v) {
     const agree =
       v.horizon < window_seconds * 0.999 ? time_text(v.horizon) : `all ${1e3 * window_seconds} ms`;
     facts.push(
       ["error of the force on the nut", percent(v.error)],
       ["agrees within 10 % for", agree],
-      ["reference", `${v.reference}, ${v.modes} modes, uncertain by ${percent(v.uncertainty)}`],
+      [
+        v.estimated ? "estimated by" : "reference",
+        `${v.reference}, ${v.modes} modes, uncertain by ${percent(v.uncertainty)}`,
+      ],
     );
   }
   if (Number.isFinite(motion.residual))
@@ -322,7 +389,9 @@ function show_run() {
 // ---- Begin.
 
 const lacking = () =>
-  ["WebAssembly", "Worker", "DecompressionStream"].filter(name => !(name in window));
+  ["WebAssembly", "Worker", "CompressionStream", "DecompressionStream"].filter(
+    name => !(name in window),
+  );
 function without_the_module(why) {
   by_id("title").textContent = "The string in the page needs a newer browser";
   say(`${why}. The program itself runs without one: ./demo`);
@@ -339,6 +408,11 @@ function watch_controls() {
   by_id("undo").onclick = () => choose({set: {}});
   by_id("hear").onclick = toggle_sound;
   by_id("stop").onclick = () => stop_sound();
+  by_id("go_on").onclick = () => {
+    by_id("go_on").hidden = true;
+    start_worker();
+    send_state("on");
+  };
   for (const id of ["paused", "zoomed"])
     by_id(id).onclick = () => {
       by_id(id).setAttribute("aria-pressed", String((film[id] = !film[id])));
@@ -357,10 +431,16 @@ function watch_controls() {
     show_state();
     by_id("tour_next").focus();
   };
+  by_id("take_part").ontoggle = by_id("take_choice").onchange = show_take;
+  by_id("take_copy").onclick = async () => {
+    await navigator.clipboard?.writeText(by_id("take_text").textContent).catch(() => {});
+    by_id("take_copy").textContent = "copied";
+  };
   by_id("apply").onclick = () => choose({text: by_id("text").value, set: {}});
   by_id("own_text").value = own_example;
   by_id("own_run").onclick = judge_own;
   by_id("copy").onclick = async () => {
+    await write_address();
     await navigator.clipboard?.writeText(location.href).catch(() => {});
     by_id("copy").textContent = "copied";
   };
@@ -375,8 +455,8 @@ function watch_controls() {
     draw_chart();
     if (by_id("map_part").open) draw_map();
   };
-  window.onhashchange = () => {
-    read_address(location.hash);
+  window.onhashchange = async () => {
+    await read_address(location.hash);
     show_state();
     take_step();
   };
@@ -385,11 +465,12 @@ function watch_controls() {
 async function begin() {
   if (lacking().length)
     return without_the_module(`This browser has no ${lacking().join(" and no ")}`);
-  read_address(location.hash || window.jvari_address || "");
+  await read_address(location.hash || window.jvari_address || "");
   fill_choices();
   watch_controls();
   watch_grips();
   watch_map();
+  watch_files();
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) by_id("paused").click();
   try {
     client.module = await unpacked(by_id("module").textContent);

@@ -118,7 +118,10 @@ async function judge_own() {
       const {taps, took} = await run_own(text, problem),
         nut = Math.max(0, problem.tap_quantities.indexOf("nut_force")),
         exact = shown.reference.nut;
-      const last = exact.length - 1; // the window ends before its last row
+      const last = Math.min(
+        exact.length - 1, // the window ends before its last row
+        Math.ceil((shown.scene.free_from + (shown.verdict.window ?? 1)) * 44100 - 1e-6),
+      );
       let apart = 0,
         of = 0;
       for (let n = Math.ceil(shown.scene.free_from * 44100 - 1e-6); n < last; ++n)

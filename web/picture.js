@@ -1,6 +1,6 @@
 // Slow motion of the string over the bridge: the scheme in colour, the exact solution in black; and
 // the force, the energy and the error at that moment.
-const shown = {scene: null, motion: null, reference: null, verdict: null};
+const shown = {scene: null, motion: null, reference: null, verdict: null, words: null};
 const film = {at: 0, paused: false, slowed: 200, last: 0, zoomed: false, dragged: null};
 const colour = name =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -144,8 +144,19 @@ function grips(v) {
   const s = shown.scene.string[0],
     b = point_of(s),
     all = [],
-    grip = (x, y, name, across, up) => x <= v.length && all.push({x: v.x(x), y, name, across, up});
+    grip = (x, y, name, across, up, of = height => height) =>
+      x <= v.length && all.push({x: v.x(x), y, name, across, up, of});
   if (b) grip(b.position, v.y(b.height), called("bridge_force", "bridge"), ...bridge_handles);
+  const curved = s.barrier[0];
+  if (curved?.coefficient)
+    grip(
+      curved.to,
+      Math.min(v.height - 2, v.y(curved.height.at(-1))),
+      "curve",
+      null,
+      "bridge_curve",
+      y => -y / curved.to ** 2,
+    );
   if (s.thread)
     grip(s.thread.position, v.height - 16, called("thread_force", "thread"), "thread_position");
   if (s.pluck) grip(s.pluck.position, v.y(0), "pull here", "pluck_position");
@@ -294,7 +305,7 @@ function drag(event) {
     v = view_of(box.width, box.height),
     {grip} = film.dragged;
   if (grip.across) move_handle(grip.across, v.back_x(event.clientX - box.left));
-  if (grip.up) move_handle(grip.up, v.back_y(event.clientY - box.top));
+  if (grip.up) move_handle(grip.up, grip.of(v.back_y(event.clientY - box.top)));
 }
 function watch_grips() {
   const canvas = document.getElementById("string");

@@ -2,7 +2,7 @@
 // peak. Both play in a loop together, with one muted: a press changes over in mid-sound, and both
 // end some seconds after the last press.
 const sound = {context: null, buffers: {}, parts: {}, playing: "", wanted: "", started: null};
-const rounds_heard = 4,
+const rounds_heard = 2,
   fade = 0.01; // [s]
 
 // Buffer with the samples; null if the run failed before the first sample.
@@ -16,6 +16,17 @@ function buffer_of({rate, sound: samples}) {
     0,
   );
   return buffer;
+}
+
+// A longer buffer goes on where the former is.
+function new_sound(name, buffer) {
+  const part = sound.parts[name];
+  sound.buffers[name] = buffer;
+  if (!part) return;
+  part.source.onended = null;
+  part.source.stop();
+  delete sound.parts[name];
+  if (buffer) play_sound(sound.playing);
 }
 
 function stop_sound(wanted = "") {
@@ -53,15 +64,16 @@ async function play_sound(which) {
   mark_sound();
 }
 
-// Fetches one second of the exact solution, once, at the first press.
+// Fetches the sound of what the run is judged by, once, at the first press.
 async function fetch_reference_sound() {
   const of = shown.verdict;
   if (!of || sound.buffers.reference || sound.fetching === of) return;
   sound.fetching = of;
-  const {reference: scheme, options} = of;
+  const {reference: scheme, options, estimated, reference_rate: rate, modes} = of,
+    exact = {scheme, modes: 0, options};
   try {
     const {run} = await ask("pair", {
-      run: run_of({scheme, modes: 0, options, duration: heard_seconds}),
+      run: run_of({...(estimated ? {...exact, rate, modes} : exact), duration: heard_seconds}),
     });
     if (shown.verdict !== of) return;
     sound.buffers.reference = buffer_of({rate: run.rate, sound: Float32Array.from(run.nut)});
@@ -73,16 +85,17 @@ async function fetch_reference_sound() {
 
 function mark_sound() {
   const button = document.getElementById("hear"),
+    exact = shown.verdict?.estimated ? "finer run" : "exact",
     [now, next] = {
       "": ["\u25b6 play", "the scheme"],
-      scheme: ["\u25b6 scheme", shown.verdict ? "press for exact" : "press to stop"],
-      reference: ["\u25b6 exact", "press for scheme"],
+      scheme: ["\u25b6 scheme", shown.verdict ? `press for ${exact}` : "press to stop"],
+      reference: [`\u25b6 ${exact}`, "press for scheme"],
     }[sound.playing];
   button.setAttribute("aria-pressed", String(Boolean(sound.playing)));
   button.classList.toggle("exact", sound.playing === "reference");
   button.querySelector("b").textContent = now;
   button.querySelector("span").textContent =
-    sound.playing && sound.wanted === "reference" ? "computing the exact one …" : next;
+    sound.playing && sound.wanted === "reference" ? `computing the ${exact} …` : next;
   document.getElementById("stop").hidden = !sound.playing;
 }
 function toggle_sound() {

@@ -3,6 +3,7 @@
 const state = {
   scene: "tanpura_c3_release",
   text: null,
+  files: {}, // texts of the tables that were dropped on the page, by name
   set: {},
   scheme: "modal_two_point",
   rate: 44100,
@@ -14,13 +15,13 @@ const state = {
 // Instruments at the head of the list of scenes.
 const instruments = {
   Tanpura: "tanpura_c3_release",
-  Sitar: "sitar_c5",
+  Sitar: "sitar_parabola",
   Guitar: "guitar_over_fret",
   Bass: "slap_bass",
   Piano: "prepared_piano",
 };
 const window_seconds = 0.05,
-  heard_seconds = 1,
+  heard_seconds = 4,
   rates = [1, 2, 4, 8, 16].map(k => 44100 * k);
 // Length of a judged run: the pluck, and this window after the pluck [s].
 const run_seconds = () => (shown.scene?.free_from ?? 0) + window_seconds;
@@ -34,21 +35,53 @@ const overrides_of = set => Object.entries(set).map(([key, value]) => `${key}=${
 
 const texts = {scene: String, scheme: String, compliance: String, tour: String},
   plain = {...texts, rate: Number, modes: Number, step: Number};
-const longest_address = 20000; // [characters]; a longer scene stays out of the address
+const longest_address = 8192; // [characters]
 
-function address() {
-  const words = new URLSearchParams();
+// A scene of the reader's own and its tables, compressed.
+async function through(bytes, stream) {
+  const found = new Blob([bytes]).stream().pipeThrough(stream);
+  return new Uint8Array(await new Response(found).arrayBuffer());
+}
+async function packed(value) {
+  const text = new TextEncoder().encode(JSON.stringify(value)),
+    bytes = await through(text, new CompressionStream("deflate-raw"));
+  return btoa(Array.from(bytes, b => String.fromCharCode(b)).join(""))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replace(/=+$/, "");
+}
+async function unpacked_own(word) {
+  const text = atob(word.replaceAll("-", "+").replaceAll("_", "/")),
+    bytes = Uint8Array.from(text, c => c.charCodeAt(0)),
+    plain = await through(bytes, new DecompressionStream("deflate-raw")),
+    {text: scene = null, files = {}} = JSON.parse(new TextDecoder().decode(plain));
+  return {text: scene && String(scene), files: texts_of(files)};
+}
+const texts_of = files =>
+  Object.fromEntries(
+    Object.entries(files).map(([name, text]) => [name.replace(/[^\w.-]/g, "_"), String(text)]),
+  );
+
+// The address, and its length if that is too long for the reader's own scene, which is then left
+// out.
+async function address() {
+  const words = new URLSearchParams(),
+    {text, files} = state;
   for (const name of Object.keys(plain)) if (state[name]) words.set(name, state[name]);
   for (const [key, value] of Object.entries(state.set)) words.set(`set.${key}`, value);
-  if (state.text !== null && state.text.length < longest_address) words.set("text", state.text);
-  return `#${words}`;
+  if (text === null && !Object.keys(files).length) return {hash: `#${words}`, beyond: 0};
+  const word = await packed({text, files}),
+    length = `#${words}&own=${word}`.length;
+  if (length > longest_address) return {hash: `#${words}`, beyond: length};
+  words.set("own", word);
+  return {hash: `#${words}`, beyond: 0};
 }
 
 // Clamps to 32-bit integers: larger numbers would wrap round in the core. The core refuses the
 // largest integer.
 const whole_modes = modes => Math.max(0, Math.min(Math.round(Number(modes) || 0), 2 ** 31 - 1));
 
-function read_address(hash) {
+async function read_address(hash) {
   const words = new URLSearchParams(hash.replace(/^#/, ""));
   for (const [name, as] of Object.entries(plain))
     if (words.has(name)) state[name] = as(words.get(name));
@@ -59,7 +92,9 @@ function read_address(hash) {
   state.modes = whole_modes(state.modes);
   state.step = Math.round(state.step);
   if (state.compliance !== "matched") state.compliance = "own";
-  state.text = words.get("text");
+  Object.assign(state, {text: words.get("text"), files: {}});
+  if (words.has("own"))
+    Object.assign(state, await unpacked_own(words.get("own")).catch(() => ({})));
   state.set = Object.fromEntries(
     [...words]
       .filter(([name]) => name.startsWith("set."))
@@ -84,6 +119,14 @@ const handles = [
     "",
     s => s.barrier[0]?.stiffness,
     times(1e-3, 100),
+    1,
+  ],
+  [
+    "bridge_curve",
+    "barrier.0.coefficient",
+    "1/m",
+    s => s.barrier[0]?.coefficient,
+    times(0.25, 4),
     1,
   ],
   ["thread_position", "thread.position", "mm", s => s.thread?.position, near_end(3, 0.5)],

@@ -18,7 +18,7 @@ const signed = x => (x < 0 ? "\u2212" : "+") + Math.abs(x).toFixed(1);
 // Compares the chosen scheme with the exact solution over `duration`. The page already has both
 // over the window.
 const beside_exact = duration => ask("pair", {run: run_of({duration}), beside: exact()});
-async function brightness() {
+async function brighter_by() {
   return (
     `above 2 kHz the scheme has ${signed((await beside_exact(0.4)).louder)} dB against the ` +
     "exact solution"
@@ -89,7 +89,7 @@ const tours = {
         say:
           "Listen with the large button under the picture: each further press goes over to the " +
           "other of the two. The scheme has more high partials.",
-        number: brightness,
+        number: brighter_by,
       },
       {
         say:
@@ -110,7 +110,7 @@ const tours = {
       {
         say: "At 88.2 kHz the spectrum is close to the exact one as well.",
         set: {rate: 88200},
-        number: async () => `${error_now()}; ${await brightness()}`,
+        number: async () => `${error_now()}; ${await brighter_by()}`,
       },
     ],
   },
@@ -317,12 +317,12 @@ async function take_step() {
     textContent: walks ? "next" : "begin",
   });
   set("tour_end", {hidden: !walks});
-  if (!walks) return;
+  if (!walks || !client.list) return;
   number_text.textContent = "…";
   // Applies all steps so far: the address may begin in mid-tour.
   for (const before of tour.steps.slice(0, state.step + 1))
     Object.assign(state, structuredClone(before.set ?? {}));
-  state.text = null;
+  Object.assign(state, {text: null, files: {}});
   show_state(true);
   const request = ++take_step.count;
   try {

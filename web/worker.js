@@ -64,6 +64,7 @@ function pictured(run, scene, points) {
     step: run.step,
     facts: run.facts,
     dofs: run.dofs,
+    modes: run.modes,
     steps: run.steps,
     nut: Float64Array.from(run.tap(nut)),
     force: force < 0 ? null : Float64Array.from(run.tap(force)),
@@ -71,16 +72,101 @@ function pictured(run, scene, points) {
   };
 }
 
-// ---- The reference solution, kept until the string changes. The uncertainty is the estimated
-// change by further doublings of the modes.
+// ---- What a run is judged by, kept until the string changes: first an estimate by two runs, then
+// the exact solution. The uncertainty of the former is by the rule of `jvari run --within`
+// (bench/README.md): the difference between two runs, the finer with twice the rate and the modes,
+// counts 2.5 times as the error of the coarser, and so 1.5 times as that of the finer. The
+// uncertainty of the exact solution is the estimated change by further doublings of the modes.
 
-let reference = null;
+const kept = {key: "", estimate: null, exact: null};
 function forget() {
-  reference?.runs.forEach(run => run.free());
-  reference = null;
+  for (const of of [kept.estimate, kept.exact]) of?.runs.forEach(run => run.free());
+  Object.assign(kept, {key: "", estimate: null, exact: null});
 }
+// Windows after the pluck [s]; a run is judged over the longest that is known to a tenth.
+const windows = [50e-3, 20e-3, 10e-3, 5e-3],
+  known_to = 0.1;
+const known_over = uncertain => {
+  const k = uncertain.findIndex(u => u <= known_to);
+  return {window: windows[k] ?? null, uncertainty: uncertain[Math.max(0, k)]};
+};
+const differences = (a, b, tap) => windows.map(w => jvari.error(a, b, tap, w));
+
+const estimators = ["modal_two_moment", "modal_two_point"],
+  estimate_seconds = 0.6; // a finer run is made where it probably takes no longer
+async function estimate_of(state, scene, go_on) {
+  const {nut} = headline_of(scene),
+    able = name => scene.able.includes(name),
+    scheme = [...estimators, state.scheme].find(able),
+    profile = scene.string.some(s => s.barrier.some(b => b.shape === "profile")),
+    knows_points = jvari.known[scheme].options.some(o => o.name === "points"),
+    runs = [];
+  const run = (times, modes, options, points) => {
+    const request = {
+        ...{scheme, rate: 44100 * times, modes: Math.round(modes)},
+        options: profile && knows_points ? [...options, `points=${points}`] : options,
+      },
+      found = jvari.run({...asked_of(state, request), duration: state.window, shape: state.shape});
+    runs.push(found);
+    return Object.assign(found, {request, times, choice: options, points});
+  };
+  // Twice the rate, the points of a profile and the modes of a run; a table has no more modes.
+  const finer = (run_, factors) => {
+    let why;
+    for (const by of factors)
+      try {
+        return run(2 * run_.times, by * run_.modes, run_.choice, 2 * run_.points);
+      } catch (error) {
+        why = error;
+      }
+    throw why;
+  };
+  // Matched where the finer run can be too.
+  const first_pair = () => {
+    let why;
+    for (const factors of [[2, 1.5], [1]])
+      for (const compliance of ["matched", "own"])
+        try {
+          const coarse = run(2, 0, options_of(scheme, compliance), 16);
+          return [coarse, finer(coarse, factors)];
+        } catch (error) {
+          why = error;
+        }
+    throw why;
+  };
+  try {
+    let [coarse, fine] = first_pair();
+    const heard = [coarse.request, fine.request];
+    // A difference counts as a third of the one before at least.
+    const counted = before =>
+      differences(coarse, fine, nut).map((d, k) => Math.max(d, before[k] / 3));
+    let difference = counted(windows.map(() => 0));
+    while (fine.times < 32 && 4 * fine.wall < estimate_seconds && !(difference[0] < 0.01)) {
+      await go_on();
+      let next;
+      try {
+        next = finer(fine, [2, 1.5]);
+      } catch {
+        break;
+      }
+      [coarse, fine] = [fine, next];
+      difference = counted(difference);
+    }
+    return {
+      ...{runs, run: fine, estimated: true, recorded: estimators.includes(scheme), heard},
+      ...{...fine.request, modes: fine.modes, ...known_over(difference.map(d => 1.5 * d))},
+      horizon: jvari.horizon(coarse, fine, nut),
+      cost: fine.wall / state.window / (fine.times / 4) ** 2, // of the first finer run
+      picture: pictured(fine, scene, state.shape.length),
+    };
+  } catch (error) {
+    runs.forEach(r => r.free());
+    throw error;
+  }
+}
+
 // Scenes with an exact solution that takes seconds: masses, many contacts, a power law, or a pluck
-// in the closed form with many digits. The modes are not doubled for these.
+// in the closed form with many digits. It is computed at request, and its modes are not doubled.
 const dear = scene =>
   scene.string.some(
     s =>
@@ -89,10 +175,7 @@ const dear = scene =>
       s.barrier.some(b => b.shape === "profile" || b.exponent !== 1),
   ) ||
   (scene.reference === "exact_linear" && scene.string.some(s => s.pluck));
-async function reference_of(state, scene, go_on) {
-  const key = JSON.stringify([state.text, state.overrides, state.window, state.shape]);
-  if (reference?.key === key) return reference;
-  forget();
+async function exact_of(state, scene, go_on) {
   const {nut} = headline_of(scene),
     profile = scene.string.some(s => s.barrier.some(b => b.shape === "profile")),
     runs = [];
@@ -114,7 +197,7 @@ async function reference_of(state, scene, go_on) {
     return solution;
   };
   try {
-    const change = (fine, coarse) => jvari.error(fine, coarse, nut);
+    const change = (fine, coarse) => differences(fine, coarse, nut);
     let base;
     try {
       base = run(0, {shape: state.shape});
@@ -133,37 +216,62 @@ async function reference_of(state, scene, go_on) {
     await go_on();
     let best = base,
       changed = change(base, half),
-      left = jvari.left_after(changed, NaN, matched);
-    for (let more = 2; more <= 4 && !dear(scene) && !(left < 1e-3); more *= 2) {
+      left = changed.map(c => jvari.left_after(c, NaN, matched));
+    for (let more = 2; more <= 4 && !dear(scene) && !(left[0] < 1e-3); more *= 2) {
       const finer = run(more * modes, {shape: state.shape}),
         by = change(finer, best);
-      left = jvari.left_after(by, changed, matched);
+      left = by.map((b, k) => jvari.left_after(b, changed[k], matched));
       [best, changed] = [finer, by];
       await go_on();
     }
     const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};
-    reference = {
-      ...{key, runs, run: best, options, picture},
-      ...{modes: (best.dofs / 2) | 0, uncertainty: left},
+    return {
+      ...{runs, run: best, scheme: scene.reference, options, picture},
+      ...{modes: (best.dofs / 2) | 0, ...known_over(left)},
     };
-    return reference;
   } catch (error) {
     runs.forEach(r => r.free());
     throw error;
   }
 }
+// An exact solution that is known over no window gives way to an estimate that is.
+const best_kept = () =>
+  kept.exact?.window || !kept.estimate?.window ? (kept.exact ?? kept.estimate) : kept.estimate;
 
 // Verdict on a run at the headline's tap: the error, and the time of agreement within 10 %.
-function judged(run, scene, state) {
-  const {nut} = headline_of(scene);
+function judged(run, scene) {
+  const {nut} = headline_of(scene),
+    of = best_kept(),
+    {estimated, recorded, window, uncertainty, scheme, modes, options, rate} = of;
   return {
-    error: jvari.error(run, reference.run, nut),
-    horizon: jvari.horizon(run, reference.run, nut),
-    uncertainty: reference.uncertainty,
-    reference: scene.reference,
-    options: reference.options,
-    modes: reference.modes,
+    ...{estimated, recorded, window, uncertainty},
+    ...{reference: scheme, modes, options, reference_rate: rate},
+    error: jvari.error(run, of.run, nut, window ?? 0),
+    horizon: jvari.horizon(run, of.run, nut),
+    known_for: of.horizon ?? null,
   };
+}
+
+// How the scheme sounds, beside the finer of the first two runs of the estimate; and how the coarser
+// does, which says how far that is known.
+const words_seconds = 0.5, // of computing
+  words_heard = 1;
+async function words_of(state, scene, go_on) {
+  const [coarse, fine] = kept.estimate.heard,
+    seconds = Math.max(0.1, Math.min(words_heard, words_seconds / kept.estimate.cost)),
+    {nut} = headline_of(scene),
+    runs = [];
+  try {
+    for (const request of [{}, fine, coarse]) {
+      runs.push(jvari.run({...asked_of(state, request), duration: scene.free_from + seconds}));
+      await go_on();
+    }
+    const [a, b, c] = runs,
+      beside_fine = run => jvari.sounds(run, b, nut);
+    return {kind: "words", seconds, finer: fine, run: beside_fine(a), known: beside_fine(c)};
+  } finally {
+    runs.forEach(r => r.free());
+  }
 }
 
 // ---- The chart: schemes at several rates, each with error and cost [s per second of sound].
@@ -192,6 +300,27 @@ function quartiles(costs) {
       return (1 - rest) * sorted[low] + rest * sorted[Math.min(low + 1, sorted.length - 1)];
     };
   return {lower: at(0.25), cost: at(0.5), upper: at(0.75)};
+}
+
+// Costs of a line by one power of the rate, fitted to their logarithms: a disturbed sample does not
+// let the line run backwards. Quartiles move with their median.
+function fitted(cells) {
+  const found = cells.map(({label, costs}) => ({...label, ...quartiles(costs)})),
+    line_of = c => c.scheme + c.compliance;
+  for (const line of new Set(found.map(line_of))) {
+    const of = found.filter(c => line_of(c) === line),
+      mean = list => list.reduce((sum, x) => sum + x, 0) / list.length,
+      x = of.map(c => Math.log(c.rate)),
+      y = of.map(c => Math.log(c.cost)),
+      [x0, y0] = [mean(x), mean(y)],
+      spread = mean(x.map(v => (v - x0) ** 2)),
+      power = spread ? mean(x.map((v, k) => (v - x0) * (y[k] - y0))) / spread : 0;
+    of.forEach((c, k) => {
+      const by = Math.exp(y0 + Math.max(0.5, power) * (x[k] - x0) - y[k]);
+      for (const name of ["lower", "cost", "upper"]) c[name] *= by;
+    });
+  }
+  return found;
 }
 
 // Cells of the chart, twenty: five schemes able to run the scene, among them the chosen scheme, at
@@ -225,34 +354,34 @@ async function chart(state, scene, chosen, post, go_on) {
       };
       const point = sampled(request, run => ({
         ...label,
-        ...judged(run, scene, state),
+        ...judged(run, scene),
         outcome: run.outcome,
         dofs: run.dofs,
       }));
       post({kind: "point", point: {...point, lower: point.cost, upper: point.cost}});
-      cells.push({label, request, costs: []});
+      cells.push({label, request, costs: [point.cost]});
     } catch (error) {
       post({kind: "point", point: {...label, refused: error.message}});
     }
     await go_on();
   }
+  post({kind: "timed", last: false, costs: fitted(cells)});
   post({kind: "charted"});
+  for (const cell of cells) cell.costs = [];
   for (let round = 1; round <= rounds; ++round) {
     for (const {request, costs} of cells) {
       costs.push(sampled(request).cost);
       await go_on();
     }
-    post({
-      kind: "timed",
-      last: round === rounds,
-      costs: cells.map(({label, costs}) => ({...label, ...quartiles(costs)})),
-    });
+    post({kind: "timed", last: round === rounds, costs: fitted(cells)});
   }
 }
 
 // ---- One state of the page: the string, its motion, its sound, the reference, the chart.
 
+const first_heard = 1; // [s], at once; the rest of the sound follows
 async function show(request, post, go_on) {
+  for (const [name, text] of Object.entries(request.files)) jvari.write(name, text);
   const scene = jvari.scene(request.text, [
     ...request.overrides.filter(o => !o.startsWith("duration=")),
     `duration=${request.window}`,
@@ -260,34 +389,54 @@ async function show(request, post, go_on) {
   // Errors count after the pluck.
   const state = {...request, window: scene.free_from + request.window};
   const cells = cells_of(state, scene),
-    key = JSON.stringify([state.text, state.overrides, cells]),
-    kept = key === charted;
-  post({kind: "scene", scene, cells: cells.length, kept});
+    key = JSON.stringify([state.text, state.overrides, state.files, cells, state.exact]),
+    same = key === charted;
+  post({kind: "scene", scene, cells: cells.length, kept: same});
   const points = state.shape.length,
     run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
-  try {
-    const picture = pictured(run, scene, points);
-    post({kind: "motion", picture});
-    await go_on();
-    const sound = jvari.run(asked_of(state, {duration: state.heard}));
+  const sounds = seconds => {
+    const sound = jvari.run(asked_of(state, {duration: seconds}));
     post({
       kind: "sound",
-      of: "scheme",
+      whole: seconds === state.heard,
       rate: sound.rate,
       sound: Float32Array.from(sound.tap(headline_of(scene).nut)),
-      outcome: sound.outcome,
-      cost: sound.wall / state.heard,
+      cost: sound.wall / seconds,
     });
     sound.free();
+  };
+  try {
+    post({kind: "motion", picture: pictured(run, scene, points)});
     await go_on();
-    if (!scene.reference) return post({kind: "unreferenced"});
-    await reference_of(state, scene, go_on);
-    post({kind: "reference", picture: reference.picture, verdict: judged(run, scene, state)});
+    sounds(first_heard);
     await go_on();
+    const string = JSON.stringify([state.text, state.overrides, state.files, state.window]);
+    if (kept.key !== string) (forget(), (kept.key = string));
+    const tries_exact =
+      scene.reference && (state.exact === "on" || (state.exact === "quick" && !dear(scene)));
+    const post_verdict = last =>
+      post({
+        ...{kind: "reference", last, can_go_on: Boolean(scene.reference) && !kept.exact},
+        ...{picture: best_kept().picture, verdict: judged(run, scene)},
+      });
+    kept.estimate ??= await estimate_of(state, scene, go_on);
+    post_verdict(!tries_exact || Boolean(kept.exact));
+    await go_on();
+    if (run.outcome === "ok") post(await words_of(state, scene, go_on));
+    sounds(state.heard);
+    await go_on();
+    if (tries_exact && !kept.exact) {
+      kept.exact = await exact_of(state, scene, go_on).catch(error => {
+        if (error instanceof Stale) throw error;
+        return null; // refused: the estimate stays
+      });
+      post_verdict(true);
+      await go_on();
+    }
   } finally {
     run.free();
   }
-  if (kept) return post({kind: "charted", kept});
+  if (same) return post({kind: "charted", kept: same});
   await chart(state, scene, cells, post, go_on);
   charted = key;
 }
