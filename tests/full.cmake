@@ -105,7 +105,15 @@ set_tests_properties(Web.EverySchemeGivesTheProgramsNumbersAndSentences PROPERTI
 jvari_gate(Web.ThePlaygroundShowsSoundsAndIsWalked web/check.sh page.mjs $<TARGET_FILE:jvari>
     ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/node_modules)
 set_tests_properties(Web.ThePlaygroundShowsSoundsAndIsWalked PROPERTIES COST 100 LABELS web)
+if(JVARI_PYTHON)
+    set(python_module $<TARGET_FILE_DIR:jvari_python>)
+endif()
+jvari_gate(Web.WhatIsTakenCompilesAndPlaysTheString web/check.sh take.mjs $<TARGET_FILE:jvari>
+    ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${prefix} ${python_module})
+set_tests_properties(Web.WhatIsTakenCompilesAndPlaysTheString PROPERTIES LABELS web
+    FIXTURES_REQUIRED installed)
 jvari_full(Web.EverySchemeGivesTheProgramsNumbersAndSentences
+    Web.WhatIsTakenCompilesAndPlaysTheString
     Web.ThePlaygroundShowsSoundsAndIsWalked)
 
 jvari_gate(FirstMinutes.FromANewSceneToAnAnswerInFiveCommands first_minutes.sh $<TARGET_FILE:jvari>)

@@ -26,7 +26,7 @@ for (const [name, more] of Object.entries(strings)) {
     taps = [...text.matchAll(/quantity = "(\w+)"/g)].map(m => m[1]),
     string = {
       ...{about: `${name} is wrong by 1 %`, text, files: [], scheme: "modal_two_point"},
-      ...{rate: 44100, modes: 40, tap: Math.max(0, taps.indexOf("nut_force")), ...more},
+      ...{rate: 44100, modes: 30, tap: Math.max(0, taps.indexOf("nut_force")), ...more},
     },
     cpp = taken["C++"](string),
     folder = join(scratch, name);
@@ -50,7 +50,7 @@ for (const [name, more] of Object.entries(strings)) {
       .map(line => Number(line.split(": ")[1])),
     run = JSON.parse(
       ended(`${name} by the program`, [
-        ...[program, "run", name, "--scheme", "modal_two_point", "--modes", "40", "--json"],
+        ...[program, "run", name, "--scheme", "modal_two_point", "--modes", "30", "--json"],
         ...["--duration", String((64 * Math.floor(22050 / 64)) / 44100), "--out", "t.csv"],
         ...string.options.flatMap(o => ["--option", o]),
         ...string.overrides.flatMap(o => ["--set", o]),
