@@ -1075,6 +1075,21 @@ async function drag(browser, name, file) {
   await pull(browser, down.handle, [down.handle[0] + 60, down.handle[1]]);
   const again = await screen();
   expect(again.within > down.within, `and the sentence's tolerance: ${again.within}`);
+  const written = await browser.evaluate(
+    "(() => { const t = document.getElementById('typed'); t.value = '2,5'; t.onchange(); " +
+      "const of = g => [g.label, ...[...g.children].map(o => o.textContent)]; " +
+      "return {within: answer.within, text: t.value, groups: [...document.querySelectorAll(" +
+      "'h1 optgroup')].map(of)}; })()",
+  );
+  expect(
+    written.within === 0.025 && /^2\.5/.test(written.text),
+    `a tolerance is typed: ${written.within}, ${written.text}`,
+  );
+  expect(
+    written.groups.map(([label]) => label).join() === "waveform,loudness in bands,other" &&
+      written.groups[0].length > 1,
+    `measures stand in three groups: ${written.groups.join("; ")}`,
+  );
   await browser.evaluate(
     "(() => { const s = document.getElementById('within'); s.value = 1000; s.oninput(); })()",
   );
