@@ -112,6 +112,7 @@ jvari_gate(Web.WhatIsTakenCompilesAndPlaysTheString web/check.sh take.mjs $<TARG
     ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${prefix} ${python_module})
 set_tests_properties(Web.WhatIsTakenCompilesAndPlaysTheString PROPERTIES LABELS web
     FIXTURES_REQUIRED installed)
+jvari_gate(Web.TheKeptPagesAreOfTheseSources web/hosted.sh ${CMAKE_SOURCE_DIR})
 jvari_full(Web.EverySchemeGivesTheProgramsNumbersAndSentences
     Web.WhatIsTakenCompilesAndPlaysTheString
     Web.ThePlaygroundShowsSoundsAndIsWalked)
