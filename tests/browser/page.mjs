@@ -872,6 +872,22 @@ test("families are told apart by every kind of sight and seen on their page", ()
     });
   }
 });
+test("a run's picture for a column is at most 120 mm high, in letters of 7 pt or more", () => {
+  const file = join(scratch, "column.svg"),
+    words = "run tanpura_c3_release --scheme modal_two_point --energy --quiet --width 85mm --plot",
+    run = spawnSync(program, [...words.split(" "), file], {
+      encoding: "utf8",
+      env: {...process.env, JVARI_NODE_MODULES: modules},
+    });
+  if (!existsSync(join(modules, "vega"))) return;
+  assert.equal(run.status, 0, run.stderr);
+  const svg = readFileSync(file, "utf8"),
+    [, wide, high, box] = /width="([\d.]+)mm" height="([\d.]+)mm" viewBox="0 0 ([\d.]+)/.exec(svg),
+    points = ((72 / 25.4) * wide) / box; // of a pixel
+  assert.ok(high <= 120, `${high} mm`);
+  for (const [, pixels] of svg.matchAll(/font-size="([\d.]+)px/g))
+    assert.ok(pixels * points >= 7, `${pixels * points} pt`);
+});
 test("lines and points of the first chart keep the full colour of their family", () => {
   const of = whole(),
     section_ = section(of, "work-precision"),
