@@ -8,6 +8,7 @@
 #include "bench/store/machine.hpp"
 #include "bench/store/system/interruption.hpp"
 #include "python/judging.hpp"
+#include "python/notebook.hpp"
 #include "scenes/pitch.hpp"
 #include "schemes/making.hpp"
 
@@ -172,7 +173,10 @@ void add_outcome(RunClass& taken) {
             "`against` and `doubled`, which tell it. None of other runs.")
         .def("to_xarray", &python::to_xarray,
              "xarray.Dataset: a variable per column over `time` [s], each with its units, and the "
-             "facts as attributes. Needs xarray.");
+             "facts as attributes. Needs xarray.")
+        .def("_repr_html_", &python::html_of,
+             "The run in a notebook: a picture of each column and the sound of each tap, without "
+             "its mean and as loud as possible.");
 }
 
 void add_run(py::module_& m) {

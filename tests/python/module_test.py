@@ -5,9 +5,11 @@ module_test.py PROGRAM PLUGIN
 """
 
 import ast
+import base64
 import csv
 import gc
 import importlib.util
+import io
 import os
 import re
 import signal
@@ -18,6 +20,7 @@ import threading
 import time
 import unittest
 import warnings
+import wave
 
 import jvari
 import numpy as np
@@ -474,6 +477,24 @@ os._exit(1)"""
         self.assertTrue(np.shares_memory(data["nut"].values, run["nut"]))
         self.assertTrue(np.array_equal(data["time"].values, run.time))
         self.assertEqual(data.attrs, run.facts)
+
+    def test_a_run_in_a_notebook_is_a_picture_of_each_column_and_a_sound_of_each_tap(self):
+        run = jvari.run("tanpura_c3_release", "modal_two_moment", energy=True, **SHORT)
+        html = run._repr_html_()
+        captions = re.findall("<figcaption>(.*?):", html)
+        self.assertEqual(captions, run.keys())
+        sounds = re.findall('src="data:audio/wav;base64,([^"]*)"', html)
+        self.assertEqual(len(sounds), 4)
+        nut = run["nut"] - run["nut"].mean()
+        with wave.open(io.BytesIO(base64.b64decode(sounds[0]))) as wav:
+            self.assertEqual(wav.getframerate(), run.tap_rate)
+            heard = np.frombuffer(wav.readframes(wav.getnframes()), np.int16)
+        self.assertLess(abs(heard - 32767 * nut / abs(nut).max()).max(), 0.51)
+        path = [float(y) for y in re.findall(r",([\d.]+)", re.search('d="M([^"]*)', html)[1])]
+        self.assertEqual((min(path), max(path)), (0, 96))  # the whole height, upside down
+        first = run["nut"][: len(run["nut"]) // 640 or 1]
+        top = 96 * (run["nut"].max() - first.min()) / np.ptp(run["nut"])
+        self.assertLess(abs(path[0] - top), 0.06)
 
     def test_the_readme_runs_as_printed(self):
         readme = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "README.md")
