@@ -11,6 +11,7 @@
 #include "bench/compare/compare_plan.hpp"
 #include "bench/compare/record/cheapest.hpp"
 #include "bench/compare/record/findings.hpp"
+#include "bench/study/reference_size.hpp"
 #include "bench/study/truth.hpp"
 #include "reference/agreement.hpp"
 #include "reference/references.hpp"
@@ -48,6 +49,21 @@ Scene bar(double unit) {
     return scene;
 }
 
+TEST(Truth, IsAffordableWhateverTheUnitOfLengthAndTime) {
+    Scene large = bar(1), small = bar(1e-3);
+    for (Scene* scene : {&large, &small}) {  // work that grows with modes^2, and is too much
+        scene->duration *= 100;
+        scene->strings[0].tension = 1, scene->strings[0].bending_stiffness = 0;
+    }
+    int affordable = 0;
+    for (int modes = 64; modes <= 4096; modes *= 2) {
+        const bench::study::Size size{modes, 0};
+        const bool can = bench::study::within_budget(exact_contact, large, 32e3, size);
+        EXPECT_EQ(can, bench::study::within_budget(exact_contact, small, 32e6, size)) << modes;
+        affordable += can;
+    }
+    EXPECT_TRUE(affordable > 0 && affordable < 7) << affordable;
+}
 TEST(Truth, IsTheSameWhateverTheUnitOfLengthAndTime) {
     for (const int begin : {0, 12}) {
         const Truth large = truth_of(bar(1), 32e3, 0, begin, {}),
