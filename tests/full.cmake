@@ -110,7 +110,7 @@ if(JVARI_PYTHON)
 endif()
 jvari_gate(Web.WhatIsTakenCompilesAndPlaysTheString web/check.sh take.mjs $<TARGET_FILE:jvari>
     ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${prefix} ${python_module})
-set_tests_properties(Web.WhatIsTakenCompilesAndPlaysTheString PROPERTIES LABELS web
+set_tests_properties(Web.WhatIsTakenCompilesAndPlaysTheString PROPERTIES
     FIXTURES_REQUIRED installed)
 jvari_gate(Web.TheKeptPagesAreOfTheseSources web/hosted.sh ${CMAKE_SOURCE_DIR})
 jvari_full(Web.EverySchemeGivesTheProgramsNumbersAndSentences
