@@ -15,9 +15,10 @@ namespace jvari::bench::study {
 namespace {
 constexpr int most_modes_found = 4096;
 constexpr double rows_of_audio = 44100;  // rate for the numbers below [Hz]
-// Budget [s] for a run of ten to twenty seconds. The work is motion [s] times modes^2 times 1 + 2.5
-// points (or half the number of barriers beyond the second), times the relative cost of the
-// reference. A short or stiff string costs more than modes^2.
+// Budget [s] for a run of ten to twenty seconds. The work is motion [s] times modes^2 (times 1 +
+// half the number of barriers beyond the second), or times 14 modes^2 + 2800 points^2 for a
+// profile, times the relative cost of the reference. A short or stiff string costs more than
+// modes^2.
 constexpr double budget = 1.5e6;
 // Spacing of the modes [Hz]. Windows of the exact solution get as short as the fastest mode
 // requires. With this spacing or less, `modes^2` describes the work. For a shorter or stiffer
@@ -26,13 +27,14 @@ constexpr double mode_spacing = 500;
 
 // Relative cost for the same work, in units of the closed forms for a lumped linear contact,
 // measured on two_point_bridge and tanpura_c3_release. Integrating a contact in steps costs up to
-// twice as much for a lumped barrier, where the windows between contacts are most of the work, and
-// ten times for a profile. Points are measured on sitar_parabola. A stiff integrator costs more.
+// twice as much for a lumped barrier, where the windows between contacts are most of the work. For
+// a profile it costs 2 to 50 times as much, and the clock ends what takes too long. A stiff
+// integrator costs more.
 double dearness(const Descriptor& reference, const Scene& scene) {
     const Features needed = needed_by(scene);
     if (reference.name == std::string_view(sundials.name)) return 1000;
     if (!needed.has(Feature::power_law_contact) && !needed.has(Feature::contact_loss)) return 1;
-    return needed.any(any_profile) ? 10 : 2;
+    return 2;
 }
 
 // Number of measured modes if all strings are tables; else 0. Such a table is the string itself, so
@@ -105,14 +107,14 @@ bool within_budget(const Descriptor& reference, const Scene& scene, double tap_r
     std::size_t contacts = 2;  // The closed forms take two contacts at the same cost.
     for (const String& string : scene.strings)
         contacts = std::max(contacts, string.barriers.size() + string.masses.size());
-    const double coupled = s.points > 0 ? 2.5 * s.points : 0.5 * static_cast<double>(contacts - 2);
-    const int size = std::max(s.modes, s.points);  // Few measured modes may need many points.
+    const double coupled = s.points > 0 ? 13 : 0.5 * static_cast<double>(contacts - 2);
     const double unit = pace(scene, tap_rate) / rows_of_audio;
     double work = 0;
     for (const String& string : scene.strings) {
-        work += scene.duration * unit * size *
-                std::max<double>(size, highest_of(string, s.modes) / (unit * mode_spacing)) *
-                (1 + coupled);
+        const double fastest = highest_of(string, s.modes) / (unit * mode_spacing);
+        work += scene.duration * unit *
+                (s.modes * std::max<double>(s.modes, fastest) * (1 + coupled) +
+                 2800.0 * s.points * s.points);
     }
     return s.points <= most_points && s.modes <= most_modes_found &&
            work * dearness(reference, scene) <= budget * effort;
