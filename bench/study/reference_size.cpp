@@ -85,19 +85,26 @@ Sizes sizes_of(const ReferenceChoice& c, const Scene& scene, int modes, int begi
     if (needed_by(scene).any(any_profile))
         points = points_asked ? profile_points(c.settings).count : std::stoi(nodes_option.fallback);
     s.doubled = modes == 0 && !(points_asked && points > 0);
-    if (s.doubled) {
-        s.each = {{first, points}};
-        return s;
-    }
     Size last{modes > 0 ? modes : first, points};
-    for (int k = 0; modes == 0 && s.measured == 0 && k < 2; ++k)
+    for (int k = 0; modes == 0 && !s.doubled && s.measured == 0 && k < 2; ++k)
         if (const Size more{2 * last.modes, points};
             within_budget(*c.scheme, scene, c.settings.tap_rate, more))
             last = more;
-    for (const int part : {4, 2, 1}) {
-        const Size one{s.measured > 0 ? last.modes : std::max(1, last.modes / part), points / part};
+    const auto add = [&](int part, int part_of_points) {
+        const Size one{s.measured > 0 ? last.modes : std::max(1, last.modes / part),
+                       points / part_of_points};
         if ((points == 0 || one.points > 0) && (s.each.empty() || one != s.each.back()))
             s.each.push_back(one);
+    };
+    if (s.doubled) {
+        for (const int part : {4, 2, 1})
+            if (points > 0 || part == 1) add(part, 4);
+        return s;
+    }
+    add(4, 4);
+    for (const int part : {2, 1}) {
+        add(part, 2 * part);
+        add(part, part);
     }
     return s;
 }

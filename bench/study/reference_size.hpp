@@ -10,15 +10,15 @@ namespace jvari::bench::study {
 
 struct Size {
     int modes, points;  // points for a profile; 0: none, or the nodes of a grid
-    Size twice(int most) const { return {std::min(2 * modes, most), 2 * points}; }
     bool operator==(const Size&) const = default;
     std::string text() const;  // "266 modes and 64 points"
 };
 
-// Sizes for a reference. By default there is a single size, from which modes and points are
-// doubled. If the user asks for a number of modes or points, a quarter and a half of both run
-// first. The differences show the effect of the modes and points left out, because any finite
-// number leaves something out.
+// Sizes for a reference. From one to the next either the modes double or the points do, never both:
+// each difference then shows the effect of one of them. By default there is a single size, from
+// which they are doubled; a profile starts with a quarter of its modes and of the default points.
+// If the user asks for a number of modes or points, a quarter and a half of both run first, because
+// any finite number leaves something out.
 struct Sizes {
     std::vector<Size> each;  // the coarsest first
     bool doubled = false;    // true: doubling continues beyond the last entry of `each`

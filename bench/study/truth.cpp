@@ -1,9 +1,12 @@
 #include "bench/study/truth.hpp"
 
 #include <algorithm>
+#include <map>
+#include <ranges>
 
 #include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
+#include "reference/profile_points.hpp"
 #include "reference/references.hpp"
 #include "schemes/contact/compliance.hpp"
 
@@ -17,10 +20,47 @@ double change(const Trace& more, const Trace& fewer, int tap, double from, std::
                                measures()[waveform].window);
 }
 
+std::vector<Doubling> doublings(const Truth& t, bool points) {
+    struct Sized {
+        const Reference* run;
+        int doubled, other;  // numbers of modes and points, or of points and modes
+    };
+    std::vector<Sized> all;
+    const auto add = [&](const Reference& r) {
+        const Settings& s = r.choice.settings;
+        const int count = t.has_points ? profile_points(s).count : 0;
+        all.push_back(points ? Sized{&r, count, s.modes} : Sized{&r, s.modes, count});
+    };
+    for (const Reference& r : t.coarser) add(r);
+    add(t.reference);
+    std::ranges::sort(all, {}, &Sized::other);
+    std::map<int, Doubling> found;  // by the coarse number
+    for (const Sized& coarse : all)
+        for (const Sized& fine : all)
+            if (fine.other == coarse.other && fine.doubled > coarse.doubled &&
+                fine.doubled <= 2 * coarse.doubled + 1)
+                found[coarse.doubled] = {coarse.run, fine.run};
+    std::vector<Doubling> in_order;
+    for (const auto& [number, doubling] : found) in_order.push_back(doubling);
+    return in_order;
+}
+
+double left_by(const std::vector<Doubling>& steps, bool matched, const Apart& apart,
+               double solved_to) {
+    std::vector<double> changes;
+    for (const auto& [coarse, fine] : steps)
+        changes.push_back(apart(coarse->run.trace, fine->run.trace));
+    const double left = left_after(changes, matched);
+    // Changes below the accuracy of both solutions do not grow.
+    return std::isnan(left) && !changes.empty() && changes.back() <= solved_to
+               ? left_after({&changes.back(), 1}, matched)
+               : left;
+}
+
 // Accuracy of the solution: the certificate's figure, else the noise floor, because rounding errors
 // grow like a change at the start. The effect of the modes left out is estimated from the
 // doublings.
-Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double from) {
+Trust trust_of(const Trust& solved, const Truth& truth, double from) {
     Trust t = solved;
     const Reference &last = truth.reference, &before = truth.coarser.back();
     const Trace &more = last.run.trace, &fewer = before.run.trace;
@@ -40,9 +80,7 @@ Trust trust_of(const Trust& solved, const Truth& truth, const Size& of, double f
             if (std::isnan(t.figure[k][w])) t.figure[k][w] = apart(more, last.moved.trace);
             t.left_out[k][w] = left_out(truth, apart, t.figure[k][w]);
         }
-    t.doubled = of.points == 0                                               ? "modes"
-                : last.choice.settings.modes == before.choice.settings.modes ? "points"
-                                                                             : "modes and points";
+    t.doubled = !truth.has_points ? "modes" : truth.all_modes ? "points" : "modes and points";
     return t;
 }
 
@@ -70,19 +108,17 @@ std::vector<Trace> own_motion(const ReferenceChoice& matched, const Scene& scene
 }
 
 double left_out(const Truth& t, const Apart& apart, double solved_to) {
-    std::vector<double> changes;
-    for (std::size_t n = 0; n < t.coarser.size(); ++n)
-        changes.push_back(
-            apart(t.coarser[n].run.trace,
-                  (n + 1 < t.coarser.size() ? t.coarser[n + 1] : t.reference).run.trace));
-    if (changes.empty()) return nan;
-    double left = left_after(changes, t.matched);
-    // Changes below the accuracy of both solutions do not grow.
-    if (std::isnan(left) && changes.back() <= solved_to)
-        left = left_after({&changes.back(), 1}, t.matched);
+    const auto left = [&](bool points) {
+        const auto steps = doublings(t, points);
+        return steps.empty() || steps.back().fine != &t.reference
+                   ? nan
+                   : left_by(steps, t.matched, apart, solved_to);
+    };
+    const double by_modes = t.all_modes && t.has_points ? 0 : left(false),
+                 both = t.has_points ? by_modes + left(true) : by_modes;
     return t.own.empty()
-               ? left
-               : no_less(left, apart(t.own[0], t.reference.run.trace), apart(t.own[1], t.own[0]));
+               ? both
+               : no_less(both, apart(t.own[0], t.reference.run.trace), apart(t.own[1], t.own[0]));
 }
 
 const Reference* of_modes(const Cell& cell, const Reference& model, const Truth& truth) {
@@ -91,9 +127,9 @@ const Reference* of_modes(const Cell& cell, const Reference& model, const Truth&
     const auto is_model = [&](const Reference& r) {
         return r.choice.settings.modes == modes && is_matched(r.choice.settings.options) == matched;
     };
-    for (const Reference& r : truth.coarser)
-        if (is_model(r)) return &r;
     if (is_model(truth.reference)) return &truth.reference;
+    for (const Reference& r : truth.coarser | std::views::reverse)  // of a profile: most points
+        if (is_model(r)) return &r;
     return is_model(model) || (model.choice.settings.modes == modes && !matched) ? &model : nullptr;
 }
 

@@ -67,10 +67,13 @@ public:
 
 private:
     Truth first(const std::vector<ReferenceChoice>&, int modes, int begin);
-    std::optional<Size> next() const;
-    bool more();  // false: this is the last size
+    std::vector<Size> next() const;  // the first one that is not too long is to be run
+    bool more();                     // false: this is the last size
     void judge();
+    double left(bool points) const;  // estimate for the headline figure, also from coarser runs
+    bool lacks(bool points) const;   // no doubling of the modes, or of the points, ends here
     void half();
+    void add_coarser(const Size&);
     void own();
     void describe();
     void say_what_would_help();
@@ -96,7 +99,8 @@ private:
     Trust solved_;
     Sizes sizes_;
     Size size_{};
-    double spent_ = 0;             // [s]
+    double spent_ = 0;                            // [s]
+    std::array<bool, 2> too_long_{false, false};  // twice the modes; twice the points
     double unsettled_ = HUGE_VAL;  // effect on the headline figure of the modes and points left out
 };
 
@@ -131,59 +135,101 @@ Truth Search::first(const std::vector<ReferenceChoice>& choices, int modes, int 
     }
 }
 
-std::optional<Size> Search::next() const {
+double Search::left(bool points) const {
+    const auto steps = doublings(t_, points);
+    if (steps.empty()) return HUGE_VAL;
+    const Apart apart = [this](const Trace& coarse, const Trace& fine) {
+        return change(fine, coarse, static_cast<int>(tap()), from_, window_);
+    };
+    const double left =
+        left_by(steps, t_.matched, apart, t_.reference.trust.in_model(tap(), window_));
+    return std::isnan(left) ? HUGE_VAL : left;
+}
+
+bool Search::lacks(bool points) const {
+    const auto steps = doublings(t_, points);
+    return steps.empty() || steps.back().fine != &t_.reference;
+}
+
+std::vector<Size> Search::next() const {
     const auto at = std::ranges::find(sizes_.each, size_);
-    if (at != sizes_.each.end() && at + 1 != sizes_.each.end()) return *(at + 1);
-    const Size twice = size_.twice(sizes_.most_modes());
-    if (!sizes_.doubled || unsettled_ < settled || twice == size_ ||
-        !within_budget(*choice_.scheme, scene_, choice_.settings.tap_rate, twice, effort_))
-        return {};
-    return twice;
+    if (at != sizes_.each.end() && at + 1 != sizes_.each.end()) return {*(at + 1)};
+    if (!sizes_.doubled) return {};
+    const double by_modes = t_.all_modes ? 0 : left(false),
+                 by_points = t_.has_points ? left(true) : 0;
+    if (by_modes + by_points < settled) return {};
+    std::vector<Size> all{{std::min(2 * size_.modes, sizes_.most_modes()), size_.points},
+                          {size_.modes, 2 * size_.points}};
+    if (by_points > by_modes) std::swap(all[0], all[1]);
+    std::erase_if(all, [&](const Size& s) {
+        return s == size_ || too_long_[s.modes == size_.modes] ||
+               !within_budget(*choice_.scheme, scene_, choice_.settings.tap_rate, s, effort_);
+    });
+    return all;
 }
 
 bool Search::more() {
-    const std::optional<Size> size = next();
-    const double left = sizes_.doubled ? patience * effort_ - spent_ : HUGE_VAL;
-    if (!size || left <= 0) return false;
-    Reference finer;
-    try {
-        finer = run(sized(choice_, *size), TimeLimit{std::min(time_limit_, left)});
-    } catch (const store::PastItsLimit&) {
-        // The best result so far stands, with its bound.
-        if (time_limit_ <= left) throw;
-        return false;
-    } catch (const BadScene&) {
-        return false;  // No string has so many modes, or the table of measured modes has no more.
-    } catch (const Refusal&) {
-        return false;  // All measured modes are in: none is left out that could be matched.
+    for (const Size& size : next()) {
+        const double left = sizes_.doubled ? patience * effort_ - spent_ : HUGE_VAL;
+        if (left <= 0) return false;
+        // the other one of modes and points may still be affordable
+        const double judged_after = t_.has_points ? left / 4 : HUGE_VAL;
+        Reference finer;
+        try {
+            finer = run(sized(choice_, size), TimeLimit{std::min(time_limit_, left), judged_after});
+        } catch (const store::PastItsLimit&) {
+            // The best result so far stands, with its bound.
+            if (time_limit_ <= left) throw;
+            too_long_[size.modes == size_.modes] = true;
+            continue;
+        } catch (const BadScene&) {
+            continue;  // No string has so many modes, or the table has no more.
+        } catch (const Refusal&) {
+            continue;  // All measured modes are in: none is left out that could be matched.
+        }
+        spent_ += finer.run.wall_seconds;
+        size_ = size;
+        t_.coarser.push_back(std::move(t_.reference));
+        t_.reference = std::move(finer);
+        judge();
+        return true;
     }
-    spent_ += finer.run.wall_seconds;
-    size_ = *size;
-    t_.coarser.push_back(std::move(t_.reference));
-    t_.reference = std::move(finer);
-    judge();
-    return true;
+    return false;
 }
 
 void Search::judge() {
-    t_.reference.trust = trust_of(solved_, t_, size_, from_);
+    t_.reference.trust = trust_of(solved_, t_, from_);
     unsettled_ = t_.reference.trust.left_out[tap()][window_];
-    const Trace &finer = t_.reference.run.trace, &fewer = t_.coarser.back().run.trace;
-    const auto free = [&](const Trace& t) {
-        return rows_from(t.column(static_cast<int>(tap())), from_, t.tap_rate);
-    };
-    t_.horizon = horizon(free(fewer), free(finer), finer.tap_rate);
+    t_.horizon = HUGE_VAL;
+    for (const bool points : {false, true}) {
+        const auto steps = doublings(t_, points);
+        if (steps.empty()) continue;
+        const Trace &finer = steps.back().fine->run.trace, &fewer = steps.back().coarse->run.trace;
+        const auto free = [&](const Trace& t) {
+            return rows_from(t.column(static_cast<int>(tap())), from_, t.tap_rate);
+        };
+        t_.horizon = std::min(t_.horizon, horizon(free(fewer), free(finer), finer.tap_rate));
+    }
 }
 
-// Runs half the size if even one doubling takes too long, because half the size also tells
-// something about the error.
-void Search::half() {
-    const Size half{sizes_.measured > 0 ? size_.modes : size_.modes / 2, size_.points / 2};
-    if (!find_ || !unknown() || half.modes == 0 || half == size_) return;
+void Search::add_coarser(const Size& size) {
+    const double limit =
+        find_ && t_.has_points ? std::min(time_limit_, patience * effort_) : time_limit_;
     try {
-        t_.coarser.push_back(run(sized(choice_, half), TimeLimit{time_limit_}));
+        t_.coarser.push_back(run(sized(choice_, size), TimeLimit{limit}));
         judge();
+    } catch (const store::PastItsLimit&) {
+        if (!t_.has_points || !find_) throw;
     } catch (const Refusal&) {}
+}
+
+// Runs half the modes of the last size, or half the points, if no doubling ends there. Half the
+// size also tells something about the error if even one doubling takes too long.
+void Search::half() {
+    const bool by_modes = t_.has_points ? lacks(false) : find_ && unknown();
+    if (by_modes && !t_.all_modes && size_.modes > 1) add_coarser({size_.modes / 2, size_.points});
+    if (t_.has_points && lacks(true) && size_.points > 1)
+        add_coarser({size_.modes, size_.points / 2});
 }
 
 void Search::own() {
@@ -193,7 +239,7 @@ void Search::own() {
                             find_ ? std::min(time_limit_, patience * effort_) : time_limit_);
     } catch (const store::PastItsLimit&) {  // the doublings alone then give the estimate
     } catch (const Refusal&) {}
-    if (!t_.own.empty()) t_.reference.trust = trust_of(solved_, t_, size_, from_);
+    if (!t_.own.empty()) t_.reference.trust = trust_of(solved_, t_, from_);
     unsettled_ = t_.reference.trust.left_out[tap()][window_];
 }
 
@@ -210,12 +256,22 @@ void Search::describe() {
                         highest / 1000);
     }
     if (t_.coarser.empty()) return;
-    t_.description +=
-        fmt::format("; half of them change {} over {} by {:.1e}", scene_.taps.at(tap()).name,
-                    std::isinf(end_) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end_),
-                    change(t_.reference.run.trace, t_.coarser.back().run.trace,
-                           static_cast<int>(tap()), from_, window_));
-    if (std::isnan(unsettled_))
+    const auto half_of = [&](bool points) {
+        const auto [coarse, fine] = doublings(t_, points).back();
+        return fmt::format("{:.1e}", change(fine->run.trace, coarse->run.trace,
+                                            static_cast<int>(tap()), from_, window_));
+    };
+    const std::string what =
+        fmt::format("change {} over {} by ", scene_.taps.at(tap()).name,
+                    std::isinf(end_) ? "the whole run" : fmt::format("{:.0f} ms", 1e3 * end_));
+    if (!t_.has_points) t_.description += "; half of them " + what + half_of(false);
+    else if (!t_.all_modes && !lacks(false))
+        t_.description += "; half the modes " + what + half_of(false);
+    if (t_.has_points && !lacks(true))
+        t_.description += "; half the points " + what + half_of(true);
+    if (t_.has_points && (lacks(true) || (lacks(false) && !t_.all_modes)))
+        t_.description += ", so what they leave out is unknown";
+    else if (std::isnan(unsettled_))
         t_.description +=
             ". The last doubling changes it most, so what they leave out is unknown. A start with "
             "a sharp corner can do that to forces, and few points of a profile: try a `smoothing`, "
@@ -257,6 +313,8 @@ Truth Search::of(const std::vector<ReferenceChoice>& choices, int modes, int beg
     certified.modes =
         sizes_.measured > 0 ? sizes_.measured : modes_to_begin_with(scene_, certified.tap_rate, 0);
     solved_ = trust_of(scene_, choice_.scheme->name, certified, scene_.duration);
+    t_.has_points = size_.points > 0;
+    t_.all_modes = sizes_.measured > 0;
     t_.matched =
         is_matched(choice_.settings.options) || needed_by(scene_).has(Feature::rigid_barrier);
     while (more()) {}
