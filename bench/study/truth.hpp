@@ -33,10 +33,10 @@ constexpr double settled = 1e-4;
 
 // Reference with the modes of the scene. `modes` 0: found by doubling, from `begin`. `modes` N: N/4
 // and N/2 run before N, to estimate the effect of the modes left out. Points of a profile follow
-// the same rule if the user asks for points or modes (Sizes). A stand-in is left unchanged. `description`:
-// how far the doubling went. `effort`: factor on all limits that nobody asked for. `settles_whole`:
-// the doubling has to settle the whole run, not only the headline's window. Throws like
-// run_reference; PastItsLimit also if the first size would take more than ten minutes.
+// the same rule if the user asks for points or modes (Sizes). A stand-in is left unchanged.
+// `description`: how far the doubling went. `effort`: factor on all limits that nobody asked for.
+// `settles_whole`: the doubling has to settle the whole run, not only the headline's window. Throws
+// like run_reference; PastItsLimit also if the first size would take more than ten minutes.
 struct Truth {
     Reference reference;
     bool matched = false;  // also true without the option: over a rigid barrier
