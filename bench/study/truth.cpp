@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "bench/study/errors.hpp"
 #include "reference/agreement.hpp"
@@ -128,8 +127,9 @@ const Reference* of_modes(const Cell& cell, const Reference& model, const Truth&
         return r.choice.settings.modes == modes && is_matched(r.choice.settings.options) == matched;
     };
     if (is_model(truth.reference)) return &truth.reference;
-    for (const Reference& r : truth.coarser | std::views::reverse)  // of a profile: most points
-        if (is_model(r)) return &r;
+    // of a profile: the one with most points
+    const auto found = std::find_if(truth.coarser.rbegin(), truth.coarser.rend(), is_model);
+    if (found != truth.coarser.rend()) return &*found;
     return is_model(model) || (model.choice.settings.modes == modes && !matched) ? &model : nullptr;
 }
 
