@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/store/encoding.hpp"
 #include "python/values.hpp"
 
 namespace jvari::python {
@@ -49,18 +50,13 @@ inline std::string sound_of(std::span<const double> x, double rate) {
     wav.attr("setparams")(py::make_tuple(1, 2, std::lround(rate), 0, "NONE", "not compressed"));
     wav.attr("writeframes")(py::bytes(samples));
     wav.attr("close")();
-    return py::module_::import("base64")
-        .attr("b64encode")(file.attr("getvalue")())
-        .attr("decode")()
-        .cast<std::string>();
+    return bench::store::base64(file.attr("getvalue")().cast<std::string>());
 }
 
 inline std::string html_of(const TakenRun& r) {
     constexpr int width = 640, height = 96;
     const Trace& trace = r.run.trace;
-    const auto escaped = [](const std::string& text) {
-        return py::module_::import("html").attr("escape")(text).cast<std::string>();
-    };
+    using bench::store::escaped;
     const auto number = [](double v) {
         return py::str("{:.4g}").attr("format")(v).cast<std::string>();
     };
