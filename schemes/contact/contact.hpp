@@ -22,13 +22,17 @@ inline int halves_in(double a) {
     const int halves = a <= 6 ? static_cast<int>(2 * a) : 0;
     return halves == 2 * a ? halves : 0;
 }
+// x^(halves/2), x >= 0. root: of x, for an odd number of halves
+inline double power_of_halves(double x, double root, int halves) {
+    double product = halves % 2 == 1 ? root : 1;
+    for (int i = halves / 2; i > 0; --i) product *= x;
+    return product;
+}
 // x^a, x >= 0. Halves of whole numbers, such as Hertz's exponent, take a root and products.
 inline double power(double x, double a) {
     const int halves = halves_in(a);
     if (halves <= 0) return std::pow(x, a);
-    double product = halves % 2 == 1 ? std::sqrt(x) : 1;
-    for (int i = halves / 2; i > 0; --i) product *= x;
-    return product;
+    return power_of_halves(x, halves % 2 == 1 ? std::sqrt(x) : 1, halves);
 }
 
 struct ContactLaw {

@@ -1,7 +1,6 @@
 // Solves two to five linear contacts without losses, by the discrete gradient, inline for the
 // kernels that make whole steps: the equations of contact_gram.hpp, in three tiers.
-//   1. One contact alone touches, its own equation (contact.hpp): the only one that would touch
-//      without forces, or that touches before the step, or else the deepest without forces.
+//   1. One contact alone touches (tried_alone): its own equation (contact.hpp).
 //   2. The contacts that touch before the step, two or more, are in full contact, the others out:
 //      with D = k/2, F = (1/D + Theta)^-1 (2 eta + b) of them. The inverses of all sets, at most
 //      31, are kept.
@@ -11,6 +10,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,6 +18,19 @@
 #include "schemes/contact/products.hpp"
 
 namespace jvari {
+
+// Contact that may touch alone: the only one that would touch without forces, else the only one
+// that touches before the step, else the deepest without forces. -1 if several touch before the
+// step. depth: without forces [m]
+[[gnu::always_inline]] inline int tried_alone(std::uint64_t would_touch, std::uint64_t touches,
+                                              const double* depth, int contacts) noexcept {
+    if (std::has_single_bit(would_touch)) return std::countr_zero(would_touch);
+    if (touches != 0) return std::has_single_bit(touches) ? std::countr_zero(touches) : -1;
+    int one = 0;
+    for (int a = 1; a < contacts; ++a)
+        if (depth[a] > depth[one]) one = a;
+    return one;
+}
 
 class FewContacts {
 public:
@@ -46,20 +59,19 @@ private:
                                       double* force) const noexcept {
         unsigned set = 0, enter = 0;
         for (int a = 0; a < n; ++a) {
+            depth[a] = eta[a] + b[a];
             set |= static_cast<unsigned>(eta[a] > 0) << a;
-            enter |= static_cast<unsigned>(eta[a] + b[a] > 0) << a;
+            enter |= static_cast<unsigned>(depth[a] > 0) << a;
         }
         const unsigned touch = set | enter;
         if (touch == 0) {
-            for (int a = 0; a < n; ++a) force[a] = 0, depth[a] = eta[a] + b[a];
+            for (int a = 0; a < n; ++a) force[a] = 0;
             return 0;
         }
-        if (!std::has_single_bit(touch) && (set & (set - 1)) != 0) {
+        const int one = tried_alone(touch, set, depth, n);
+        if (one < 0) {
             if (in_full<n>(set, eta, b, depth, force)) return 0;
         } else {
-            int one = std::countr_zero(set != 0 ? set : touch);
-            for (int a = 0; set == 0 && a < n; ++a)
-                if (eta[a] + b[a] > eta[one] + b[one]) one = a;
             const double* to = theta_ + one * n;
             const ContactSolution s = solve_linear_contact(k_[one], eta[one], b[one], to[one]);
             bool fits = true;

@@ -37,13 +37,9 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
 
 [[gnu::always_inline]] inline MomentRule::Powers MomentRule::powers(double eta) const noexcept {
     if (!(eta > 0)) return {0, 0, 0, 0};
-    double root = 0, by = law_.k;
-    if (halves_ > 0) {
-        if (halves_ % 2 == 1) by *= root = std::sqrt(eta);
-        for (int i = (halves_ - 2) / 2; i > 0; --i) by *= eta;
-    } else {
-        by *= std::pow(eta, law_.alpha - 1);
-    }
+    const double root = halves_ % 2 == 1 ? std::sqrt(eta) : 0,
+                 by = law_.k * (halves_ > 0 ? power_of_halves(eta, root, halves_ - 2)
+                                            : std::pow(eta, law_.alpha - 1));
     const double force = by * eta;
     return {force * eta * share_, force, law_.alpha * by, root};
 }
@@ -68,20 +64,16 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
     double from, double to, const Powers& a, const Powers& b) const noexcept {
     if (from <= 0 && to <= 0) return {0, 0, 0};
     const double d = to - from;
-    if (from > 0 && to > 0 && halves_ > 0) {
-        const double value = quotient_by_sums(from, to, a, b);
-        if (law_.alpha == 1 || std::abs(d) < 1e-8 * from)
-            return {value, 0.5 * a.slope, 0.5 * b.slope};
-        const double by = 1 / d;
-        return {value, (value - a.force) * by, (b.force - value) * by};
-    }
-    if (from > 0 && std::abs(d) < 0.05 * from) {  // avoids the difference in V
+    const bool by_sums = from > 0 && to > 0 && halves_ > 0;
+    if (!by_sums && from > 0 && std::abs(d) < 0.05 * from) {  // avoids the difference in V
         const double by = 1 / from;
         const auto [value, slope] = power_quotient(law_.alpha + 1, d * by);
         const double mean = a.force * share_ * value, by_to = a.force * share_ * slope * by;
         return {mean, (law_.alpha * mean - to * by_to) * by, by_to};  // DV is homogeneous
     }
-    const double by = 1 / d, value = (b.V - a.V) * by;
+    const double by = 1 / d, value = by_sums ? quotient_by_sums(from, to, a, b) : (b.V - a.V) * by;
+    if (by_sums && (law_.alpha == 1 || std::abs(d) < 1e-8 * from))
+        return {value, 0.5 * a.slope, 0.5 * b.slope};
     return {value, (value - a.force) * by, (b.force - value) * by};
 }
 
@@ -507,13 +499,13 @@ void MomentRule::by_rule_d(const MomentMatrix& T, double eta, double b_0, double
         return;
     }
     without_loss(T, eta, eta + b_1, eta - b_0, s);
-    s.by_lines = true;
+    s.lost_by_ends = true;
 }
 
 void MomentRule::solve(const MomentMatrix& T, double eta, double b_0, double b_1,
                        MomentContact& s) const noexcept {
     s = {};
-    if (linear_ && by_lines(T, eta + b_1, eta - b_0, s)) s.by_lines = true;
+    if (linear_ && by_lines(T, eta + b_1, eta - b_0, s)) s.lost_by_ends = true;
     else if (galerkin_) by_galerkin(T, eta, b_0, b_1, s);
     else by_rule_d(T, eta, b_0, b_1, s);
     s.touches = s.to > 0;

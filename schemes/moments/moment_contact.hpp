@@ -40,7 +40,7 @@ struct MomentContact {            // over a step
     double lost = 0;              // by rule G, or with contact loss [J]
     bool touches = false;         // at the end of the step
     bool by_parabola = false;     // by rule G
-    bool by_lines = false;        // by rule D without contact loss: lost() computes (7)
+    bool lost_by_ends = false;    // by rule D without contact loss: lost() computes (7)
     MomentMatrix slope;           // d phi/d r, if requested [N/m]
     int iterations = 0;           // 0: closed form
     bool converged = true;
@@ -78,7 +78,7 @@ public:
                        : 0.5 * law_.k * from * (from - 2 * eta);
     }
     double lost(double eta, const MomentContact& s) const {  // in a step from eta [J]
-        return s.by_lines ? lost(eta, s.from) : s.lost;
+        return s.lost_by_ends ? lost(eta, s.from) : s.lost;
     }
 
 private:

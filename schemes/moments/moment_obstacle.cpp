@@ -242,7 +242,7 @@ double MomentObstacle::loss() const {
 void MomentObstacle::take(int a, const MomentContact& s) noexcept {
     Point& p = at_[a];
     moved_[a] = p.eta - s.to;
-    p = {s.to, p.eta, s.from, s.by_lines, s.lost};
+    p = {s.to, p.eta, s.from, s.lost_by_ends, s.lost};
     if (s.touches && rules_[a].is_linear()) set_ |= std::uint64_t{1} << a;
     if (s.phi_0 != 0 || s.phi_1 != 0) tally_.note(s.phi_0, std::max({p.eta_before, p.eta, s.from}));
 }

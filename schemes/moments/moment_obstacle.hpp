@@ -10,9 +10,7 @@
 // matrices make phi_c and the next x.
 //
 // Several contacts (docs/two-moments.md, section 7):
-//   1. one contact alone, by its own equation, the others out: the only one that reaches its
-//      barrier in free motion, or that touched after the last step, or else the deepest in free
-//      motion;
+//   1. one contact alone, by its own equation, the others out (tried_alone in few_contacts.hpp);
 //   2. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
 //   3. if one contact contradicts this, its own equation with the others eliminated;
@@ -65,7 +63,7 @@ public:
     const double* moved() const { return moved_.data(); }
     double lost_by(int a, double) const noexcept {  // by a contact in the last step [J]
         const Point& p = at_[a];
-        return p.by_lines ? rules_[a].lost(p.eta_before, p.from) : p.lost;
+        return p.lost_by_ends ? rules_[a].lost(p.eta_before, p.from) : p.lost;
     }
 
     double potential(const double*, int = 0) const;  // [J]
@@ -78,12 +76,12 @@ public:
     bool has_series() const { return ladder_.has_value(); }
 
 private:
-    struct Point {              // a contact
-        double eta = 0;         // penetration [m]
-        double eta_before = 0;  // at the beginning of the last step
-        double from = 0;        // e_0 in the last step,
-        bool by_lines = true;   // by rule D without contact loss; otherwise
-        double lost = 0;        // [J]
+    struct Point {                 // a contact
+        double eta = 0;            // penetration [m]
+        double eta_before = 0;     // at the beginning of the last step
+        double from = 0;           // e_0 in the last step,
+        bool lost_by_ends = true;  // by rule D without contact loss; otherwise
+        double lost = 0;           // [J]
     };
     struct Kept {  // a set of linear contacts in full contact
         std::uint64_t set = 0;
@@ -274,12 +272,9 @@ template <int few, bool thread>
         set_ = 0;
         return true;
     }
-    if (std::has_single_bit(touch) || (set_ & (set_ - 1)) == 0) {
-        int one = std::countr_zero(set_ != 0 ? set_ : touch);
-        for (int a = 0; set_ == 0 && a < n; ++a)
-            if (ends[a] > ends[one]) one = a;
-        if (only<few, thread>(one, b, ends, r, force)) return true;
-    }
+    if (const int one = tried_alone(touch, set_, ends, n);
+        one >= 0 && only<few, thread>(one, b, ends, r, force))
+        return true;
     const std::uint64_t set = set_;
     product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
     product_of_pairs<few>(T_.data(), phi, r);
