@@ -44,6 +44,10 @@ std::vector<Doubling> doublings(const Truth& t, bool points) {
     return in_order;
 }
 
+bool ends_at_reference(const std::vector<Doubling>& steps, const Truth& t) {
+    return !steps.empty() && steps.back().fine == &t.reference;
+}
+
 double left_by(const std::vector<Doubling>& steps, bool matched, const Apart& apart,
                double solved_to) {
     std::vector<double> changes;
@@ -109,9 +113,7 @@ std::vector<Trace> own_motion(const ReferenceChoice& matched, const Scene& scene
 double left_out(const Truth& t, const Apart& apart, double solved_to) {
     const auto left = [&](bool points) {
         const auto steps = doublings(t, points);
-        return steps.empty() || steps.back().fine != &t.reference
-                   ? nan
-                   : left_by(steps, t.matched, apart, solved_to);
+        return ends_at_reference(steps, t) ? left_by(steps, t.matched, apart, solved_to) : nan;
     };
     const double by_modes = t.all_modes && t.has_points ? 0 : left(false),
                  both = t.has_points ? by_modes + left(true) : by_modes;

@@ -75,6 +75,8 @@ struct Doubling {
 // Doublings of a profile's points, or of the modes, the coarsest first. If there are several from
 // the same number of modes, the one with the most points, and vice versa.
 std::vector<Doubling> doublings(const Truth&, bool points);
+// The last one doubles to the truth itself.
+bool ends_at_reference(const std::vector<Doubling>&, const Truth&);
 // The estimate from these doublings, wherever the last one ends.
 double left_by(const std::vector<Doubling>&, bool matched, const Apart&, double solved_to);
 // Trust in a doubled truth; `solved` comes from the certificate.

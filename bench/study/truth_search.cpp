@@ -146,10 +146,7 @@ double Search::left(bool points) const {
     return std::isnan(left) ? HUGE_VAL : left;
 }
 
-bool Search::lacks(bool points) const {
-    const auto steps = doublings(t_, points);
-    return steps.empty() || steps.back().fine != &t_.reference;
-}
+bool Search::lacks(bool points) const { return !ends_at_reference(doublings(t_, points), t_); }
 
 std::vector<Size> Search::next() const {
     const auto at = std::ranges::find(sizes_.each, size_);

@@ -66,6 +66,7 @@ TEST(Truth, IsAffordableWhateverTheUnitOfLengthAndTime) {
     }
     EXPECT_TRUE(affordable > 0 && affordable < 7) << affordable;
 }
+
 TEST(Truth, IsTheSameWhateverTheUnitOfLengthAndTime) {
     for (const int begin : {0, 12}) {
         const Truth large = truth_of(bar(1), 32e3, 0, begin, {}),
