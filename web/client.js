@@ -15,9 +15,7 @@ const patience = 1500, // [ms]
   late_seconds = 8; // for the exact solution
 
 async function unpacked(base64) {
-  const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+  return WebAssembly.compile(await through(bytes_of(base64), new DecompressionStream("gzip")));
 }
 
 const script_of = (...ids) =>

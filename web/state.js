@@ -37,11 +37,12 @@ const texts = {scene: String, scheme: String, compliance: String, tour: String},
   plain = {...texts, rate: Number, modes: Number, step: Number};
 const longest_address = 8192; // [characters]
 
-// A scene of the reader's own and its tables, compressed.
+const bytes_of = base64 => Uint8Array.from(atob(base64), c => c.charCodeAt(0));
 async function through(bytes, stream) {
   const found = new Blob([bytes]).stream().pipeThrough(stream);
   return new Uint8Array(await new Response(found).arrayBuffer());
 }
+// A scene of the reader's own and its tables, compressed.
 async function packed(value) {
   const text = new TextEncoder().encode(JSON.stringify(value)),
     bytes = await through(text, new CompressionStream("deflate-raw"));
@@ -51,8 +52,7 @@ async function packed(value) {
     .replace(/=+$/, "");
 }
 async function unpacked_own(word) {
-  const text = atob(word.replaceAll("-", "+").replaceAll("_", "/")),
-    bytes = Uint8Array.from(text, c => c.charCodeAt(0)),
+  const bytes = bytes_of(word.replaceAll("-", "+").replaceAll("_", "/")),
     plain = await through(bytes, new DecompressionStream("deflate-raw")),
     {text: scene = null, files = {}} = JSON.parse(new TextDecoder().decode(plain));
   return {text: scene && String(scene), files: texts_of(files)};

@@ -73,10 +73,11 @@ function pictured(run, scene, points) {
 }
 
 // ---- What a run is judged by, kept until the string changes: first an estimate by two runs, then
-// the exact solution. The uncertainty of the former is by the rule of `jvari run --within`
-// (bench/README.md): the difference between two runs, the finer with twice the rate and the modes,
-// counts 2.5 times as the error of the coarser, and so 1.5 times as that of the finer. The
-// uncertainty of the exact solution is the estimated change by further doublings of the modes.
+// the exact solution. `jvari run --within` (bench/README.md) counts the difference between two
+// runs, the finer with twice the rate and 1.5 or 2 times the modes, 2.5 times as the error of the
+// coarser. If both err to the same side, that leaves 1.5 times for the finer, the uncertainty here;
+// no record verifies it. The uncertainty of the exact solution is the estimated change by further
+// doublings of the modes.
 
 const kept = {key: "", estimate: null, exact: null};
 function forget() {
