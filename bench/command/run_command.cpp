@@ -159,11 +159,9 @@ store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& 
                    {}};
     for (const auto& [string, i] : all) {
         const int mass = i.barrier - static_cast<int>(scene.strings[string].barriers.size());
-        t.rows.push_back({std::to_string(string),
-                          mass < 0 ? std::to_string(i.barrier) : fmt::format("mass.{}", mass)});
-        for (const double x :
-             {i.start, i.end, i.largest_force, i.impulse, i.speed_in, i.speed_out, i.energy_lost})
-            t.rows.back().push_back(store::text_of(x));
+        t.rows.push_back({string, mass < 0 ? store::Field(i.barrier) : fmt::format("mass.{}", mass),
+                          i.start, i.end, i.largest_force, i.impulse, i.speed_in, i.speed_out,
+                          i.energy_lost});
     }
     return t;
 }

@@ -96,7 +96,7 @@ void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Jud
         if (sounds.back().samples.empty()) return;
     }
     const trim::Model& model = t.last().model;
-    const auto named = [&](std::vector<std::string> who, const char* file,
+    const auto named = [&](std::vector<store::Field> who, const char* file,
                            const store::Sound& sound, const char* reference) {
         return store::NamedSound{std::move(who),   file,
                                  judge.tap().name, name_of(judge.tap().quantity),
@@ -106,8 +106,7 @@ void keep_sounds(const fs::path& folder, const trim::Trimmed& t, const trim::Jud
         folder, {"scheme", "options", "rate", "modes", "what"},
         {named({"reference", "", "", "", "the whole scene"}, "whole", sounds[0], ""),
          named({model.scheme->name, store::options_text(model.settings.options),
-                store::text_of(model.settings.sample_rate), std::to_string(model.settings.modes),
-                "the trimmed model"},
+                model.settings.sample_rate, model.settings.modes, "the trimmed model"},
                "trimmed", sounds[1], "whole")});
 }
 

@@ -16,7 +16,8 @@ namespace jvari::bench::judge {
 namespace {
 constexpr double near_row = 0.1;  // fraction of a row: other programs print six digits
 
-double number_in(const std::string& field, const std::string& where) {  // NaN and inf are numbers
+double number_in(const store::Field& value, const std::string& where) {  // NaN and inf are numbers
+    const std::string field = value.text();
     const auto from = field.find_first_not_of(" \t\r"), to = field.find_last_not_of(" \t\r");
     if (from == std::string::npos)
         throw store::UsageError(where + ": found nothing, expected a number");

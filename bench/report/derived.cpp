@@ -44,7 +44,7 @@ Table cells_table(const Results& r, const std::vector<std::string>& lines) {
     Table t = study::table_of(r.cells, study::Contents::everything);
     t.columns.insert(t.columns.begin(), {"problem", "series"});
     t.columns.insert(t.columns.end(), {"trusted", "may_win", "run", "line"});
-    const auto yes = [](bool holds) { return holds ? std::string("1") : ""; };
+    const auto yes = [](bool holds) { return holds ? store::Field(true) : store::Field(); };
     for (std::size_t i = 0; i < r.cells.size(); ++i) {
         const Cell& c = r.cells[i];
         t.rows[i].insert(t.rows[i].begin(), {c.problem(), r.series[i]});
@@ -74,7 +74,6 @@ std::vector<ErrorName> errors_in(const study::Cells& cells) {
 
 Table figures_table(const study::Cells& cells) {
     Table t{{"row", "tap", "measure", "value", "floor", "certificate", "shown", "text"}, {}};
-    const auto text = [](double x) { return store::text_of(x); };
     for (const auto& [m, tap] : errors_in(cells))
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const study::Figure& f = cells[i].figure(m, tap);
@@ -83,8 +82,8 @@ Table figures_table(const study::Cells& cells) {
             const bool bounded =
                 study::is_waveform(m) && (b.says() == compare::Bound::Says::at_most ||
                                           b.says() == compare::Bound::Says::unknown);
-            t.rows.push_back({std::to_string(i), tap, study::measures()[m].column, text(f.value),
-                              text(f.floor), text(f.certificate), bounded ? text(b.shown()) : "",
+            t.rows.push_back({i, tap, study::measures()[m].column, f.value, f.floor, f.certificate,
+                              bounded ? b.shown() : nan,
                               bounded ? compare::error_text(b, "{:.2e}") : ""});
         }
     return t;
@@ -97,7 +96,7 @@ Table scenes_table(const study::Cells& cells) {
         study::Cells own;
         for (const std::size_t i : rows) own.push_back(cells[i]);
         t.rows.push_back({own[0].problem(), study::measures()[headline].column,
-                          store::text_of(compare::bound_of(own[0], headline).certificate),
+                          compare::bound_of(own[0], headline).certificate,
                           compare::busy_text(own)});
     }
     return t;
@@ -126,8 +125,8 @@ Table orders_of(const Results& r) {
             if (const Order o = compare::fall_over_rates(r.cells, rows, measure, tap).order;
                 o.points >= 2)
                 t.rows.push_back({r.cells[rows[0]].problem(), r.series[rows[0]], tap,
-                                  study::measures()[measure].column, store::text_of(o.order),
-                                  store::text_of(o.half_width), std::to_string(o.points)});
+                                  study::measures()[measure].column, o.order, o.half_width,
+                                  o.points});
     return t;
 }
 }  // namespace

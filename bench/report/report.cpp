@@ -33,14 +33,11 @@ constexpr double longest_heard = 4;  // [s]
 }  // namespace
 
 store::Table fitting(store::Table t, Json& left_out) {
-    const auto size = [](const std::vector<std::string>& fields, std::size_t k) {
-        return fields[k].size() + 1;
-    };
     // bytes, column number
     std::vector<std::pair<std::size_t, std::size_t>> columns(t.columns.size());
     std::size_t all = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        for (const auto& row : t.rows) columns[k].first += size(row, k);
+        for (const auto& row : t.rows) columns[k].first += row[k].text().size() + 1;
         columns[k].second = k;
         all += columns[k].first;
     }
@@ -77,11 +74,11 @@ namespace {
 void shorten_errors(store::Table& t, Json& left_out) {
     std::size_t size = 0;
     for (const auto& row : t.rows)
-        for (const std::string& field : row) size += field.size() + 1;
+        for (const store::Field& field : row) size += field.text().size() + 1;
     if (size <= table_limit) return;
     const auto tap = t.column("tap"), measure = t.column("measure");
     std::erase_if(t.rows, [&](const auto& row) {
-        return !row[tap].empty() && !row[measure].starts_with("error_l2") &&
+        return !row[tap].empty() && !row[measure].text().starts_with("error_l2") &&
                row[measure] != "third_octave_db";
     });
     left_out.push_back(
@@ -110,7 +107,7 @@ Json kept_levels(const Results& r) {
         std::vector<double> signal;
         for (const int x : sound.samples) signal.push_back(x * sound.peak / 32767);
         all.push_back(json_of(study::levels_of(signal, sound.rate)));
-        all.back()["problem"] = r.sounds.at(i, "problem");
+        all.back()["problem"] = r.sounds.text(i, "problem");
     }
     return all;
 }
@@ -180,7 +177,7 @@ Results best_of(const Results& r, std::size_t cells) {
         auto& [least, place] =
             best.try_emplace(c.problem() + "|" + c.scheme, HUGE_VAL, i).first->second;
         if (shown < least) least = shown, place = i;
-        first[i] = first[i] || c.pareto == 1;
+        first[i] = first[i] || c.pareto == true;
     }
     for (const auto& [who, of] : best) first[of.second] = true;
     study::Rows order = study::all_rows(r.cells);

@@ -28,12 +28,15 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 struct Named {  // distinguishes the series of rows
-    std::string problem, variant, rate, modes;
+    std::string problem, variant;
+    store::Field rate, modes;
 };
 std::vector<std::string> series_of(const std::vector<Named>& rows) {
-    const auto place = [](const Named& n) { return n.problem + "|" + n.variant + "|" + n.rate; };
+    const auto place = [](const Named& n) {
+        return n.problem + "|" + n.variant + "|" + n.rate.text();
+    };
     std::map<std::string, std::set<std::string>> modes;  // for a scheme on a problem at a rate
-    for (const Named& n : rows) modes[place(n)].insert(n.modes);
+    for (const Named& n : rows) modes[place(n)].insert(n.modes.text());
     // Schemes with more than one number of modes at the same rate. Rows without a rate keep a
     // single series, stepped by modes.
     std::set<std::string> several;
@@ -42,7 +45,7 @@ std::vector<std::string> series_of(const std::vector<Named>& rows) {
     std::vector<std::string> series;
     for (const Named& n : rows)
         series.push_back(n.variant +
-                         (several.contains(n.variant) ? ", " + n.modes + " modes" : ""));
+                         (several.contains(n.variant) ? ", " + n.modes.text() + " modes" : ""));
     return series;
 }
 
@@ -53,11 +56,11 @@ void name_rows(store::Table& t, const std::string& scene) {
     const std::vector<std::string> keys(swept ? from + 1 : to, to);
     std::vector<Named> rows;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        std::string problem = from == t.columns.end() ? scene : t.at(i, "scene");
+        std::string problem = from == t.columns.end() ? scene : t.text(i, "scene");
         for (const std::string& key : keys)
             if (key != "map" && !t.at(i, key).empty())
-                problem += fmt::format(", {} = {}", key, t.at(i, key));
-        rows.push_back({problem, store::variant_name(t.at(i, "scheme"), t.at(i, "options")),
+                problem += fmt::format(", {} = {}", key, t.text(i, key));
+        rows.push_back({problem, store::variant_name(t.text(i, "scheme"), t.text(i, "options")),
                         t.at(i, "rate"), t.at(i, "modes")});
     }
     const auto series = series_of(rows);
@@ -111,8 +114,7 @@ Results read_results(const fs::path& path) {
             name_rows(table, r.name);
     std::vector<Named> named;
     for (const study::TabledCell& c : r.cells)
-        named.push_back(
-            {c.problem(), c.variant(), store::text_of(c.rate), store::text_of(c.modes)});
+        named.push_back({c.problem(), c.variant(), c.rate, c.modes});
     r.series = series_of(named);
     r.sounds = r.tables["sounds"];
     return r;
@@ -156,7 +158,7 @@ Json json_of(const store::Sound& s, double longest) {
 }
 
 fs::path sound_file(const Results& r, std::size_t row) {
-    const fs::path file = r.sounds.at(row, "file");
+    const fs::path file = r.sounds.text(row, "file");
     if (file.is_absolute() || std::find(file.begin(), file.end(), "..") != file.end())
         throw store::UsageError(fmt::format("{}: found the file {}, expected one below the folder",
                                             (r.folder / "sounds.csv").string(), file.string()));

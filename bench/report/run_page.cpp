@@ -21,9 +21,7 @@ constexpr long most_points = 1000;
 constexpr std::size_t most_contacts = 2000;
 constexpr double longest_kept = 20;  // [s]
 
-std::string short_text(double x) {  // a point needs only six digits
-    return std::isfinite(x) ? fmt::format("{:.6g}", x) : "";
-}
+store::Field short_number(double x) { return store::Field::rounded(x, 6); }
 
 Table wave_of(std::span<const double> x, double rate) {
     Table t{{"t", "low", "high"}, {}};
@@ -32,8 +30,8 @@ Table wave_of(std::span<const double> x, double rate) {
         const long from = k * rows / count;
         const auto [least, most] =
             std::minmax_element(x.begin() + from, x.begin() + (k + 1) * rows / count);
-        t.rows.push_back(
-            {short_text(static_cast<double>(from) / rate), short_text(*least), short_text(*most)});
+        t.rows.push_back({short_number(static_cast<double>(from) / rate), short_number(*least),
+                          short_number(*most)});
     }
     return t;
 }
@@ -53,8 +51,8 @@ Table spectrum_of(std::span<const double> x, double rate) {  // strongest bin in
     Table t{{"f", "level"}, {}};
     for (int k = 0; k < bands; ++k)
         if (const double p = strongest[static_cast<std::size_t>(k)]; p > 0)
-            t.rows.push_back({short_text(lowest * std::exp(span * (k + 0.5) / bands)),
-                              short_text(std::max(-140.0, 10 * std::log10(p / most)))});
+            t.rows.push_back({short_number(lowest * std::exp(span * (k + 0.5) / bands)),
+                              short_number(std::max(-140.0, 10 * std::log10(p / most)))});
     return t;
 }
 
@@ -72,8 +70,8 @@ Table ledger_of(const Trace& trace) {
             in += supplied[row];
             out += dissipated[row];
         }
-        t.rows.push_back({short_text(static_cast<double>(row - 1) / trace.tap_rate),
-                          short_text(stored[row - 1]), short_text(in), short_text(out)});
+        t.rows.push_back({short_number(static_cast<double>(row - 1) / trace.tap_rate),
+                          short_number(stored[row - 1]), short_number(in), short_number(out)});
     }
     return t;
 }
@@ -95,8 +93,8 @@ Table contacts_of(const DrawnRun& r, Json& caption) {
                          to = static_cast<double>(n) / rate;
             sum += to - from;
             if (++count <= most_contacts)
-                t.rows.push_back(
-                    {r.trace.names[static_cast<std::size_t>(k)], short_text(from), short_text(to)});
+                t.rows.push_back({r.trace.names[static_cast<std::size_t>(k)], short_number(from),
+                                  short_number(to)});
         }
     }
     const double until = static_cast<double>(r.trace.rows - 1) / rate;

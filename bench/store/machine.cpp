@@ -92,9 +92,9 @@ Stamp stamp_now() {
                 " " + m.flags,
             host,
             now_utc(),
-            {},
+            nan,
             {}};
-    if (double load = 0; getloadavg(&load, 1) == 1) s.load = text_of(load);
+    if (double load = 0; getloadavg(&load, 1) == 1) s.load = load;
     std::ifstream("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor") >> s.governor;
     return s;
 }
@@ -103,12 +103,12 @@ nlohmann::ordered_json json_of(const Stamp& s) {
     return {{"name", s.name},
             {"host", s.host},
             {"at", s.at},
-            {"load", s.load},
+            {"load", text_of(s.load)},
             {"governor", s.governor}};
 }
 
 Stamp stamp_of(const nlohmann::ordered_json& j) {
-    return {j.at("name"), j.at("host"), j.at("at"), j.at("load"), j.at("governor")};
+    return {j.at("name"), j.at("host"), j.at("at"), number_of(j.at("load")), j.at("governor")};
 }
 
 nlohmann::ordered_json made_by() {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "schemes/trace.hpp"
+
 namespace jvari::bench::store {
 
 struct Machine {
@@ -34,8 +36,7 @@ std::string program_identity(const std::vector<std::string>& plugins, const Mach
 struct Stamp {
     std::string name;      // "AMD EPYC 7763, 2 cores, AVX2, GNU 12.2.0 -O3 -ffp-contract=off"
     std::string host, at;  // at: now_utc
-    // average number of running processes over a minute, "" if unknown
-    std::string load;
+    double load = nan;     // average number of running processes over a minute, NaN if unknown
     std::string governor;  // frequency governor of the processors: "performance"; "" if unknown
 };
 Stamp stamp_now();

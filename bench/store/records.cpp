@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -34,13 +33,49 @@ std::string variant_name(const std::string& scheme, const std::string& options) 
     return options.empty() ? scheme : scheme + " " + options;
 }
 
+// ---- Fields
+
+Field Field::as_written(std::string digits) {
+    Field v(std::move(digits));
+    if (!std::isnan(v.number())) v.content_ = Digits{v.text()};
+    return v;
+}
+
+Field Field::rounded(double x, int digits) {
+    return std::isfinite(x) ? as_written(fmt::format("{:.{}g}", x, digits)) : Field();
+}
+
+std::string Field::text() const {
+    if (const auto* x = std::get_if<double>(&content_)) return text_of(*x);
+    if (const auto* holds = std::get_if<bool>(&content_)) return *holds ? "1" : "0";
+    if (const auto* digits = std::get_if<Digits>(&content_)) return digits->text;
+    return std::get<std::string>(content_);
+}
+
+double Field::number() const {
+    const auto* x = std::get_if<double>(&content_);
+    return x ? *x : number_of(text());
+}
+
+nlohmann::ordered_json Field::json() const {
+    if (const auto* words = std::get_if<std::string>(&content_)) return *words;
+    if (const auto* holds = std::get_if<bool>(&content_)) return *holds;
+    const double x = number();
+    // JSON of a count: 532, where a double would have 532.0
+    constexpr double most_digits = 1e16;
+    if (!std::signbit(x) && x < most_digits && x == std::floor(x)) return static_cast<long>(x);
+    return x;
+}
+
+// ---- Tables
+
 int Table::column(const std::string& name) const {
     const auto found = std::find(columns.begin(), columns.end(), name);
     return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
-const std::string& Table::at(std::size_t row, const std::string& name) const {
-    static const std::string nothing;
+const Field& Table::at(std::size_t row, const std::string& name) const {
+    static const Field nothing;
     const int k = column(name);
     return k < 0 ? nothing : rows.at(row).at(k);
 }
@@ -79,12 +114,13 @@ std::string quoted(const std::string& plain) {
 
 std::string csv(const Table& table) {
     std::string text;
-    const auto line = [&text](const std::vector<std::string>& fields) {
-        for (std::size_t k = 0; k < fields.size(); ++k) text += (k ? "," : "") + quoted(fields[k]);
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+        text += (k ? "," : "") + quoted(table.columns[k]);
+    text += '\n';
+    for (const auto& row : table.rows) {
+        for (std::size_t k = 0; k < row.size(); ++k) text += (k ? "," : "") + quoted(row[k].text());
         text += '\n';
-    };
-    line(table.columns);
-    for (const auto& row : table.rows) line(row);
+    }
     return text;
 }
 
@@ -108,7 +144,8 @@ Table read_csv(const std::string& text) {
             throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line,
                                                  fields.size(), table.columns.size()));
         } else {
-            table.rows.push_back(fields);
+            table.rows.emplace_back(std::make_move_iterator(fields.begin()),
+                                    std::make_move_iterator(fields.end()));
         }
         fields.assign(1, "");
         begun = false;
@@ -139,23 +176,10 @@ Table read_csv(const std::string& text) {
 }
 
 nlohmann::ordered_json rows_json(const Table& table) {
-    static const std::set<std::string> texts{
-        "scheme",       "status",  "reason",    "flags",   "below_floor", "cell",
-        "scene",        "options", "reference", "measure", "ties",        "run",
-        "as_published", "perhaps", "why",       "machine", "governor"};
     auto rows = nlohmann::ordered_json::array();
     for (const auto& row : table.rows) {
         auto j = nlohmann::ordered_json::object();
-        for (std::size_t k = 0; k < row.size(); ++k) {
-            const std::string& name = table.columns[k];
-            const bool digits = !row[k].empty() && row[k].size() < 18 &&
-                                row[k].find_first_not_of("0123456789") == std::string::npos;
-            const double x = number_of(row[k]);
-            if (name == "pareto") j[name] = row[k] == "1";
-            else if (texts.contains(name) || (std::isnan(x) && !row[k].empty())) j[name] = row[k];
-            else if (digits) j[name] = std::stol(row[k]);
-            else j[name] = x;  // "" and infinities become null
-        }
+        for (std::size_t k = 0; k < row.size(); ++k) j[table.columns[k]] = row[k].json();
         rows.push_back(std::move(j));
     }
     return rows;

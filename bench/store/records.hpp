@@ -1,12 +1,14 @@
-// Results are rows: a table of text with named columns, written and read as CSV (RFC 4180). A
+// Results are rows: a table of fields with named columns, written and read as CSV (RFC 4180). A
 // spreadsheet would take a text that begins with = + - @ and is no number for a formula, so the
 // file puts an apostrophe in front. Texts that begin with an apostrophe get another one.
 #pragma once
 
+#include <concepts>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "schemes/trace.hpp"
@@ -24,24 +26,53 @@ std::string options_text(const Options&);
 // "sitar_fdm control=none", or the scheme alone
 std::string variant_name(const std::string& scheme, const std::string& options);
 
+// Field of a table: a number, a truth value or a text. Its type decides the form in JSON. Equal
+// fields have the same text in CSV.
+class Field {
+public:
+    Field(double x = nan) : content_(x) {}  // NaN: blank
+    template <std::integral Whole>
+    Field(Whole n) : content_(static_cast<double>(n)) {}
+    Field(bool holds) : content_(holds) {}  // CSV has "1" or "0"
+    Field(std::string text) : content_(std::move(text)) {}
+    Field(const char* text) : content_(std::string(text)) {}
+    // Number with the digits of a suite file, "1e+05"; a text if `digits` is no number.
+    static Field as_written(std::string digits);
+    static Field rounded(double x, int digits);  // significant digits; blank for an infinity
+
+    std::string text() const;  // "" for a blank
+    double number() const;     // NaN for a blank, and for a text that is no number
+    bool empty() const { return text().empty(); }
+    nlohmann::ordered_json json() const;  // null for a blank and for an infinity
+    friend bool operator==(const Field& a, const Field& b) { return a.text() == b.text(); }
+
+private:
+    struct Digits {
+        std::string text;
+    };
+    std::variant<double, bool, std::string, Digits> content_;
+};
+
 struct Table {
     std::vector<std::string> columns;
-    std::vector<std::vector<std::string>> rows;
+    std::vector<std::vector<Field>> rows;
 
     int column(const std::string& name) const;  // -1: absent
-    // "" for an absent column
-    const std::string& at(std::size_t row, const std::string& name) const;
-    double number(std::size_t row, const std::string& name) const {
-        return number_of(at(row, name));
+    // blank for an absent column
+    const Field& at(std::size_t row, const std::string& name) const;
+    std::string text(std::size_t row, const std::string& name) const {
+        return at(row, name).text();
     }
+    double number(std::size_t row, const std::string& name) const { return at(row, name).number(); }
     // Selects columns in the given order; absent ones are left out.
     Table only(const std::vector<std::string>& names) const;
 };
 
 std::string quoted(const std::string& field);    // CSV form
-nlohmann::ordered_json rows_json(const Table&);  // one object per row, numbers as numbers
+nlohmann::ordered_json rows_json(const Table&);  // one object per row
 std::string csv(const Table&);
-// Throws std::runtime_error with the line if a row has too few or too many fields.
+// Fields of a CSV file are texts. Throws std::runtime_error with the line if a row has too few or
+// too many fields.
 Table read_csv(const std::string& text);
 
 // A folder of results: its manifest and its tables. An unreadable file throws UsageError with the

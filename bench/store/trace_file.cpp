@@ -101,9 +101,9 @@ void write_sounds(const fs::path& folder, const std::vector<std::string>& who,
     for (const NamedSound& s : sounds) {
         write_fresh(folder / "sounds" / (s.file + ".wav"), wav_of(*s.sound));
         auto& row = t.rows.emplace_back(s.who);
-        row.insert(row.end(), {s.tap, s.quantity, text_of(s.sound->rate), text_of(s.sound->peak),
-                               "sounds/" + s.file + ".wav",
-                               s.reference.empty() ? "" : "sounds/" + s.reference + ".wav"});
+        row.insert(row.end(),
+                   {s.tap, s.quantity, s.sound->rate, s.sound->peak, "sounds/" + s.file + ".wav",
+                    s.reference.empty() ? "" : "sounds/" + s.reference + ".wav"});
     }
     write_fresh(folder / "sounds.csv", csv(t));
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/store/records.hpp"
 #include "schemes/trace.hpp"
 
 namespace jvari::bench::store {
@@ -36,8 +37,8 @@ Signal read_signal(const std::filesystem::path&,
                    const std::function<void(const std::string& why)>& refuse);
 
 struct NamedSound {
-    std::vector<std::string> who;  // cell columns
-    std::string file;              // without folder and extension
+    std::vector<Field> who;  // cell columns
+    std::string file;        // without folder and extension
     std::string tap, quantity;
     const Sound* sound;
     std::string reference;  // file of the reference's sound, "" if there is none

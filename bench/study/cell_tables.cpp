@@ -99,9 +99,11 @@ const std::vector<Column>& columns() {
     return all;
 }
 
-std::string Column::text(const TabledCell& c) const {
+store::Field Column::value(const TabledCell& c) const {
     if (const auto* words = std::get_if<std::string C::*>(&field)) return c.*(*words);
-    return store::text_of(c.*std::get<double C::*>(field));
+    if (const auto* number = std::get_if<double C::*>(&field)) return c.*(*number);
+    const std::optional<bool> holds = c.*std::get<std::optional<bool> C::*>(field);
+    return holds ? store::Field(*holds) : store::Field();
 }
 
 // ---- Tables
@@ -126,31 +128,32 @@ bool belongs(const Column& c, Contents to) {
 }  // namespace
 
 store::Table table_of(const Cells& cells, Contents contents) {
-    store::Table t{{"cell"}, std::vector<Texts>(cells.size())};
-    for (std::size_t i = 0; i < cells.size(); ++i) t.rows[i].push_back(cells[i].cell);
-    const auto add = [&](const std::string& name, const auto& text) {
+    store::Table t{{"cell"}, std::vector<std::vector<store::Field>>(cells.size())};
+    for (std::size_t i = 0; i < cells.size(); ++i) t.rows[i].emplace_back(cells[i].cell);
+    const auto add = [&](const std::string& name, const auto& value) {
         t.columns.push_back(name);
-        for (std::size_t i = 0; i < cells.size(); ++i) t.rows[i].push_back(text(cells[i]));
+        for (std::size_t i = 0; i < cells.size(); ++i) t.rows[i].push_back(value(cells[i]));
     };
     for (const Column& column : columns()) {
         if (belongs(column, contents))
-            add(column.name, [&](const TabledCell& c) { return column.text(c); });
+            add(column.name, [&](const TabledCell& c) { return column.value(c); });
         const std::string name = column.name;
         if (name == "scene")
             for (const std::string& key : swept_keys(cells))
                 add(key, [&](const TabledCell& c) {
                     const auto own = std::ranges::find(c.swept, key,
                                                        &std::pair<std::string, std::string>::first);
-                    return own == c.swept.end() ? "" : own->second;
+                    return own == c.swept.end() ? store::Field()
+                                                : store::Field::as_written(own->second);
                 });
         if (name == "flags" && (contents == Contents::cells || contents == Contents::everything))
             for (std::size_t m = 0; m < measures().size(); ++m)
                 add(measures()[m].column,
-                    [m](const TabledCell& c) { return store::text_of(c.figure(m).value); });
+                    [m](const TabledCell& c) -> store::Field { return c.figure(m).value; });
     }
     if (contents == Contents::facts || contents == Contents::everything)
         for (const std::string& name : fact_names(cells))
-            add("fact_" + name, [&](const TabledCell& c) { return store::text_of(c.fact(name)); });
+            add("fact_" + name, [&](const TabledCell& c) -> store::Field { return c.fact(name); });
     return t;
 }
 
@@ -160,11 +163,11 @@ store::Table errors_table(const Cells& cells) {
     for (const TabledCell& c : cells)
         for (std::size_t tap = 0; tap < c.taps.size(); ++tap)
             for (std::size_t m = 0; m < measures().size(); ++m) {
-                Texts row{c.cell, c.taps[tap], measures()[m].column};
+                std::vector<store::Field> row{c.cell, c.taps[tap], measures()[m].column};
                 for (const auto& [name, part] : figure_parts)
-                    row.push_back(store::text_of(c.figures[tap][m].*part));
+                    row.emplace_back(c.figures[tap][m].*part);
                 if (std::any_of(row.begin() + 3, row.end(),
-                                [](const std::string& text) { return !text.empty(); }))
+                                [](const store::Field& v) { return !v.empty(); }))
                     t.rows.push_back(std::move(row));
             }
     return t;
@@ -176,9 +179,12 @@ namespace {
 void fill(TabledCell& c, const store::Table& t, std::size_t row) {
     for (const Column& column : columns()) {
         if (t.column(column.name) < 0) continue;
+        const store::Field& v = t.at(row, column.name);
         if (const auto* words = std::get_if<std::string C::*>(&column.field))
-            c.*(*words) = t.at(row, column.name);
-        else c.*std::get<double C::*>(column.field) = t.number(row, column.name);
+            c.*(*words) = v.text();
+        else if (const auto* number = std::get_if<double C::*>(&column.field))
+            c.*(*number) = v.number();
+        else if (!v.empty()) c.*std::get<std::optional<bool> C::*>(column.field) = v.number() == 1;
     }
 }
 
@@ -192,14 +198,14 @@ Cells cells_in(const store::Table& facts) {
     const int from = facts.column("scene"), to = facts.column("scheme");
     for (std::size_t i = 0; i < cells.size(); ++i) {
         TabledCell& c = cells[i];
-        c.cell = facts.at(i, "cell");
+        c.cell = facts.text(i, "cell");
         fill(c, facts, i);
         for (int k = from + 1; from >= 0 && k < to; ++k)
             if (!facts.rows[i][k].empty() && is_swept(facts.columns[k]))
-                c.swept.emplace_back(facts.columns[k], facts.rows[i][k]);
+                c.swept.emplace_back(facts.columns[k], facts.rows[i][k].text());
         for (std::size_t k = 0; k < facts.columns.size(); ++k) {
             if (!facts.columns[k].starts_with("fact_")) continue;
-            if (const double x = store::number_of(facts.rows[i][k]); !std::isnan(x))
+            if (const double x = facts.rows[i][k].number(); !std::isnan(x))
                 c.facts.emplace_back(facts.columns[k].substr(5), x);
         }
     }
@@ -238,25 +244,26 @@ Cells read_cells(const std::filesystem::path& path, bool whole) {
     const store::Table errors = with("errors", {"cell", "tap", "measure", "value", "floor"}),
                        cost = with("cost", {"cell", "scheme", "rate"});
     for (std::size_t i = 0; i < errors.rows.size(); ++i) {
-        const auto found = named.find(errors.at(i, "cell"));
-        if (found == named.end()) refuse("errors.csv", errors.at(i, "cell"));
+        const auto found = named.find(errors.text(i, "cell"));
+        if (found == named.end()) refuse("errors.csv", errors.text(i, "cell"));
         TabledCell& c = *found->second;
-        const std::size_t m = measure(errors.at(i, "measure")),
-                          tap = place_of(c.taps, errors.at(i, "tap"));
+        const std::string name_of_tap = errors.text(i, "tap");
+        const std::size_t m = measure(errors.text(i, "measure")),
+                          tap = place_of(c.taps, name_of_tap);
         if (m == measures().size()) continue;
         if (tap == c.taps.size()) {
-            c.taps.push_back(errors.at(i, "tap"));
+            c.taps.push_back(name_of_tap);
             c.figures.emplace_back(measures().size());
         }
         for (const auto& [name, part] : figure_parts)
             c.figures[tap][m].*part = errors.number(i, name);
     }
     for (std::size_t i = 0; i < cost.rows.size(); ++i) {
-        const auto found = named.find(cost.at(i, "cell"));
-        const bool same = found != named.end() && found->second->scheme == cost.at(i, "scheme") &&
-                          store::text_of(found->second->rate) == cost.at(i, "rate");
+        const auto found = named.find(cost.text(i, "cell"));
+        const bool same = found != named.end() && found->second->scheme == cost.text(i, "scheme") &&
+                          found->second->rate == cost.at(i, "rate");
         if (same) fill(*found->second, cost, i);
-        else if (whole) refuse("cost.csv", cost.at(i, "cell"));
+        else if (whole) refuse("cost.csv", cost.text(i, "cell"));
     }
     return cells;
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,13 +38,14 @@ constexpr std::pair<const char*, double Figure::*> figure_parts[] = {
 struct TabledCell {
     std::string cell, scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value
-    std::string scheme, options, status, flags, machine, load, governor, untimed, below_floor,
-        reference, reason, cause, reference_doubling, headline_nut, headline_bridge;
+    std::string scheme, options, status, flags, machine, governor, untimed, below_floor, reference,
+        reason, cause, reference_doubling, headline_nut, headline_bridge;
     double rate = nan, modes = nan;
     double cost_s_per_s = nan, cost_lower = nan, cost_upper = nan, processor_s_per_s = nan,
            processor_lower = nan, processor_upper = nan, wall_seconds = nan,
            wall_seconds_lower = nan, wall_seconds_upper = nan, ns_per_step = nan,
-           times_real_time = nan, worst_block_of_deadline = nan, repeats = nan, pareto = nan;
+           times_real_time = nan, worst_block_of_deadline = nan, repeats = nan, load = nan;
+    std::optional<bool> pareto;
     double energy_residual_per_step = nan, energy_residual_accumulated = nan,
            smallest_contact_force = nan, deepest_penetration = nan, dofs = nan, state_bytes = nan,
            steps = nan, failed_step = nan, failed_at_s = nan, reference_modes = nan,
@@ -86,10 +88,11 @@ struct Column {
     const char* name;
     const char* unit;
     Rule rule;
-    std::variant<std::string TabledCell::*, double TabledCell::*> field;
+    std::variant<std::string TabledCell::*, double TabledCell::*, std::optional<bool> TabledCell::*>
+        field;
     const char* meaning;   // "" if the column before has the meaning
     bool in_cells = true;  // true: also in cells.csv
-    std::string text(const TabledCell&) const;
+    store::Field value(const TabledCell&) const;
 };
 const std::vector<Column>& columns();  // all columns except `cell` and the swept keys
 
@@ -113,10 +116,11 @@ std::vector<std::string> swept_keys(const Cells&);
 // Groups `rows` by key(row), in the order of first appearance.
 template <class Key>
 std::vector<Rows> alike(const Rows& rows, Key key) {
-    std::vector<std::pair<std::string, Rows>> groups;
+    using Name = std::decay_t<decltype(key(std::size_t{}))>;
+    std::vector<std::pair<Name, Rows>> groups;
     for (const std::size_t row : rows) {
-        const std::string name = key(row);
-        auto it = std::ranges::find(groups, name, &std::pair<std::string, Rows>::first);
+        const Name name = key(row);
+        auto it = std::ranges::find(groups, name, &std::pair<Name, Rows>::first);
         if (it == groups.end()) it = groups.insert(groups.end(), {name, {}});
         it->second.push_back(row);
     }

@@ -31,7 +31,7 @@ std::string cell_text(const study::TabledCell& c) {
     std::string text = c.scene;
     for (const auto& [key, value] : c.swept) text += " " + key + "=" + value;
     text += " " + c.variant();
-    return text + (std::isnan(c.rate) ? "" : " " + store::text_of(c.rate) + " Hz");
+    return text + (std::isnan(c.rate) ? "" : fmt::format(" {} Hz", c.rate));
 }
 
 // True if two cells differ only in modes.
@@ -59,7 +59,7 @@ Named named_rows(const store::Table& t, const std::vector<std::string>& columns)
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         std::string text;
         for (const std::string& name : columns)
-            if (!t.at(i, name).empty()) text += (text.empty() ? "" : " ") + t.at(i, name);
+            if (!t.at(i, name).empty()) text += (text.empty() ? "" : " ") + t.text(i, name);
         named[counted(seen, text)] = i;
     }
     return named;
@@ -71,13 +71,13 @@ std::vector<Finding> altered(const Results& f) {
     if (f.shown.columns.empty()) return {};
     std::vector<Finding> all;
     const auto add = [&](const std::string& cell, const std::string& column,
-                         const std::string& follows, const std::string& found) {
+                         const store::Field& follows, const store::Field& found) {
         all.push_back({Turn::worse, f.name + "/cells.csv " + cell, column, follows, found,
                        "altered: it follows from the other files"});
     };
     const store::Table follows = study::table_of(f.cells, study::Contents::cells);
     if (f.shown.rows.size() != follows.rows.size()) {
-        add("", "rows", std::to_string(follows.rows.size()), std::to_string(f.shown.rows.size()));
+        add("", "rows", follows.rows.size(), f.shown.rows.size());
         return all;
     }
     for (const std::string& column : follows.columns) {
@@ -86,8 +86,8 @@ std::vector<Finding> altered(const Results& f) {
             continue;
         }
         for (std::size_t i = 0; i < f.cells.size(); ++i)
-            if (const std::string& is = f.shown.at(i, column), &was = follows.at(i, column);
-                is != was && !(store::number_of(is) == store::number_of(was)))
+            if (const store::Field& is = f.shown.at(i, column), &was = follows.at(i, column);
+                is != was && is.number() != was.number())
                 add(cell_text(f.cells[i]), column, was, is);
     }
     return all;
@@ -135,14 +135,14 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
                             const study::TabledCell& after, const std::vector<std::string>& facts,
                             const std::set<std::string>& measures, Difference& d) {
     CellDifference own;
-    const auto add = [&](const std::string& column, Turn turn, const std::string& was,
-                         const std::string& is) {
+    const auto add = [&](const std::string& column, Turn turn, const store::Field& was,
+                         const store::Field& is) {
         ++d.compared;
         own.same_digits = own.same_digits && was == is;
         if (turn == Turn::same) return;
         d.findings.push_back({turn, name, column, was, is, ""});
         if (column == "reference" || column == "reference_modes" || column == "reference_doubling")
-            own.references.push_back(fmt::format("{} {} -> {}", column, was, is));
+            own.references.push_back(fmt::format("{} {} -> {}", column, was.text(), is.text()));
     };
     const auto add_figures = [&](const std::string& tap) {
         for (const auto& [part_name, part] : study::figure_parts)
@@ -153,19 +153,17 @@ CellDifference compare_cell(const std::string& name, const study::TabledCell& be
                     continue;  // not measured, or same value: the headline's
                 add((part == &study::Figure::value ? "" : std::string(part_name) + " of ") +
                         measure.column + (tap.empty() ? "" : " of " + tap),
-                    turn_of(part, m, tap, before, after),
-                    store::text_of(before.figure(m, tap).*part),
-                    store::text_of(after.figure(m, tap).*part));
+                    turn_of(part, m, tap, before, after), before.figure(m, tap).*part,
+                    after.figure(m, tap).*part);
             }
     };
     for (const study::Column& c : study::columns()) {
         if (c.rule == study::Rule::clock || c.rule == study::Rule::name) continue;
-        add(c.name, turn_of(c, before, after), c.text(before), c.text(after));
+        add(c.name, turn_of(c, before, after), c.value(before), c.value(after));
         if (std::string(c.name) == "flags") add_figures("");
     }
     for (const std::string& fact : facts)
-        add("fact_" + fact, turn_of_fact(fact, before, after), store::text_of(before.fact(fact)),
-            store::text_of(after.fact(fact)));
+        add("fact_" + fact, turn_of_fact(fact, before, after), before.fact(fact), after.fact(fact));
     for (const std::string& tap : before.taps) add_figures(tap);
     return own;
 }
@@ -211,15 +209,15 @@ void compare_maps(const Results& a, const Results& b, Difference& d) {
     const std::vector<std::string> names{"map", "scene", "scheme", "x_key", "x", "y_key", "y"};
     for (const Pair& p : in_both(named_rows(a.maps, names), named_rows(b.maps, names), d.points)) {
         ++d.compared;
-        const std::string &was = a.maps.at(p.before, "outcome"),
-                          &is = b.maps.at(p.after, "outcome");
+        const store::Field &was = a.maps.at(p.before, "outcome"),
+                           &is = b.maps.at(p.after, "outcome");
         const Turn turn = was == is        ? Turn::same
                           : was == "sound" ? Turn::worse
                           : is == "sound"  ? Turn::better
                                            : Turn::moved;
         if (turn != Turn::same)
             d.findings.push_back(
-                {turn, "map " + p.name, "outcome", was, is, b.maps.at(p.after, "detail")});
+                {turn, "map " + p.name, "outcome", was, is, b.maps.text(p.after, "detail")});
     }
     const std::vector<std::string> lines{"map", "scheme", "x_key", "y_key", "y", "between"};
     for (const Pair& p :

@@ -55,7 +55,7 @@ struct Finding {
     Turn turn;
     std::string row;     // name of the row: "tanpura_c3_release modal_two_point 44100 Hz"
     std::string column;  // "error_l2_50ms", "cost_s_per_s", "outcome"
-    std::string before, after;
+    store::Field before, after;
     // further explanation; for a cost: the ratio and the number of cells
     std::string detail;
 };

@@ -39,7 +39,8 @@ constexpr std::size_t fewest_series = 3;
 constexpr double noted_drift = 1.25;  // ratio
 
 struct Ratio {
-    std::string series, rate, name;
+    std::string series, name;
+    double rate;                // 0: continuous time
     std::size_t before, after;  // rows
     double value;               // after over before
     double drift = 1;           // drift of the cells timed beside this one
@@ -59,9 +60,9 @@ void take_off_drift(std::vector<Ratio>& ratios) {
     const auto middle = [](const std::vector<Ratio>& of) {
         return median_of(of, [](const Ratio& r) { return r.value; });
     };
-    std::map<std::string, std::vector<Ratio>> by_rate;
+    std::map<double, std::vector<Ratio>> by_rate;
     for (const Ratio& r : ratios) by_rate[r.rate].push_back(r);
-    std::map<std::string, double> drift;
+    std::map<double, double> drift;
     for (const auto& [rate, beside] : by_rate)
         drift[rate] = middle(beside.size() < fewest_series ? ratios : beside);
     for (Ratio& r : ratios) r.drift = drift[r.rate];
@@ -122,8 +123,9 @@ std::vector<Ratio> ratios_of(const Results& a, const Results& b, const std::vect
         const C& before = a.cells[p.before];
         const double was = before.*clock.compared, is = b.cells[p.after].*clock.compared;
         if (was > 0 && is > 0)
-            ratios.push_back({before.problem() + "|" + before.variant(),
-                              store::text_of(before.rate), p.name, p.before, p.after, is / was});
+            ratios.push_back({before.problem() + "|" + before.variant(), p.name,
+                              std::isnan(before.rate) ? 0 : before.rate, p.before, p.after,
+                              is / was});
     }
     return ratios;
 }
@@ -137,9 +139,8 @@ void find_missing_costs(const Results& a, const Results& b, const std::vector<Pa
         if (after.status != "ok") continue;
         for (const Clock& c : {wall, processor})
             if (before.*c.median > 0 && !(after.*c.median > 0))
-                d.findings.push_back({Turn::worse, p.name, c.column,
-                                      store::text_of(before.*c.median),
-                                      store::text_of(after.*c.median), "its cost is gone"});
+                d.findings.push_back({Turn::worse, p.name, c.column, before.*c.median,
+                                      after.*c.median, "its cost is gone"});
     }
 }
 
@@ -210,8 +211,8 @@ void compare_costs(const Results& a, const Results& b, const std::vector<Pair>& 
                 : fmt::format("{:.2f} times beyond a drift of {:.2f}", change, drift_of(cells));
         for (const Ratio& r : cells)
             d.findings.push_back({few ? Turn::moved : turn, r.name, clock.column,
-                                  store::text_of(a.cells[r.before].*clock.median),
-                                  store::text_of(b.cells[r.after].*clock.median), detail});
+                                  a.cells[r.before].*clock.median, b.cells[r.after].*clock.median,
+                                  detail});
     }
 }
 

@@ -12,14 +12,14 @@ namespace jvari::bench::suite {
 namespace {
 using Json = nlohmann::ordered_json;
 
-std::string shown(const std::string& field) {
+std::string shown(const store::Field& field) {
     if (field.empty()) return "-";
-    const double x = store::number_of(field);
-    return std::isnan(x) ? field : fmt::format("{:.4g}", x);
+    const double x = field.number();
+    return std::isnan(x) ? field.text() : fmt::format("{:.4g}", x);
 }
 
 std::string change_of(const Finding& f) {
-    const double was = store::number_of(f.before), is = store::number_of(f.after);
+    const double was = f.before.number(), is = f.after.number();
     if (!std::isfinite(was) || !std::isfinite(is) || was == 0) return "";
     const double change = 100 * (is / was - 1);
     return std::abs(change) < 1000 ? fmt::format("{:+.2g} %", change)
@@ -111,8 +111,8 @@ std::string json_of(const Difference& d, const Results& before, const Results& a
         findings.push_back({{"turn", name_of(f.turn)},
                             {"row", f.row},
                             {"column", f.column},
-                            {"before", f.before},
-                            {"after", f.after},
+                            {"before", f.before.text()},
+                            {"after", f.after.text()},
                             {"detail", f.detail}});
     Json alone = Json::object();
     for (const auto& [what, only] : d.alone())

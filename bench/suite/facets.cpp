@@ -36,8 +36,8 @@ void write_sounds(const std::filesystem::path& folder, const study::Plan& plan,
         const study::Record& r = records[i];
         if (r.cell.sound.samples.empty()) continue;
         const Tap& tap = heard_tap(plan.jobs[i].point->scene);
-        store::NamedSound own{cells.rows[i],         cells.at(i, "cell"), tap.name,
-                              name_of(tap.quantity), &r.cell.sound,       ""};
+        store::NamedSound own{cells.rows[i],         cells.text(i, "cell"), tap.name,
+                              name_of(tap.quantity), &r.cell.sound,         ""};
         if (!r.reference_sound.samples.empty()) {
             const std::string samples =
                 store::base64(r.reference_sound.samples) + store::text_of(r.reference_sound.peak);
@@ -48,7 +48,7 @@ void write_sounds(const std::filesystem::path& folder, const study::Plan& plan,
                 reference.file = file;
                 reference.sound = &r.reference_sound;
                 for (const char* column : {"cell", "options", "rate"})
-                    reference.who[static_cast<std::size_t>(cells.column(column))].clear();
+                    reference.who[static_cast<std::size_t>(cells.column(column))] = {};
                 reference.who[static_cast<std::size_t>(cells.column("scheme"))] = "reference";
             }
             own.reference = file;

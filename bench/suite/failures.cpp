@@ -96,10 +96,9 @@ void write_failures(const fs::path& folder, const std::vector<Reproducer>& all) 
     for (const Reproducer& r : all) {
         store::write_fresh(folder / r.file, scene_text(r));
         const Settings& s = r.trial.settings;
-        index.rows.push_back({r.file, r.trial.scheme->name, store::text_of(s.sample_rate),
-                              std::to_string(s.modes), store::options_text(s.options),
-                              r.trial.reference, std::to_string(r.trial.reference_modes),
-                              name_of(r.expected.verdict), std::to_string(r.expected.step),
+        index.rows.push_back({r.file, r.trial.scheme->name, s.sample_rate, s.modes,
+                              store::options_text(s.options), r.trial.reference,
+                              r.trial.reference_modes, name_of(r.expected.verdict), r.expected.step,
                               r.expected.detail});
     }
     store::write_fresh(folder / "index.csv", store::csv(index));
@@ -109,11 +108,11 @@ std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Cat
     const store::Table index = store::read_csv(store::read_whole(folder / "index.csv"));
     std::vector<Reproducer> all;
     for (std::size_t i = 0; i < index.rows.size(); ++i) {
-        Reproducer r{index.at(i, "file"),
-                     {&catalogue.find(index.at(i, "scheme")),
+        Reproducer r{index.text(i, "file"),
+                     {&catalogue.find(index.text(i, "scheme")),
                       {},
                       {},
-                      index.at(i, "reference"),
+                      index.text(i, "reference"),
                       static_cast<int>(index.number(i, "reference_modes"))},
                      {}};
         r.trial.scene = read_scene((folder / r.file).string());
@@ -121,10 +120,10 @@ std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Cat
         s.sample_rate = index.number(i, "rate");
         s.tap_rate = row_rate(s.sample_rate);
         s.modes = static_cast<int>(index.number(i, "modes"));
-        std::istringstream options(index.at(i, "options"));
+        std::istringstream options(index.text(i, "options"));
         for (std::string word; options >> word;)
             s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
-        r.expected = {study::verdict_named(index.at(i, "outcome")), index.at(i, "detail"),
+        r.expected = {study::verdict_named(index.text(i, "outcome")), index.text(i, "detail"),
                       static_cast<long>(index.number(i, "step"))};
         all.push_back(std::move(r));
     }

@@ -165,9 +165,10 @@ store::Table maps_table(const MapRun& run) {
     for (const JudgedPoint& p : run.points) {
         const study::Summary& s = p.tried.record.cell.summary;
         const bool ran = p.tried.record.cell.ran();
-        const auto number = [ran](double x) { return store::text_of(ran ? x : nan); };
+        const auto number = [ran](double x) { return ran ? x : nan; };
         t.rows.push_back({p.at.map->name, p.at.map->scene, p.at.scheme->name, p.at.map->x.key,
-                          p.at.x, p.at.map->y.key, p.at.y, name_of(p.tried.judgement.verdict),
+                          store::Field::as_written(p.at.x), p.at.map->y.key,
+                          store::Field::as_written(p.at.y), name_of(p.tried.judgement.verdict),
                           p.tried.judgement.detail, ran ? p.tried.record.against.reference : "",
                           number(s.largest_over_bound), number(s.energy_gain),
                           number(study::pull_of(s.smallest_contact_force, s.largest_contact_force)),
@@ -188,10 +189,11 @@ store::Table boundaries_table(const MapRun& run, const Reproducers& reproducers)
                     b.map->reproduce ? reproducers.find({b.scheme->name, side}) : reproducers.end();
                 r != reproducers.end())
                 file = r->second;
-        t.rows.push_back({b.map->name, b.scheme->name, b.map->x.key, b.map->y.key, b.y,
-                          fmt::format("{}|{}", name_of(b.low), name_of(b.high)), b.x_low, b.x_high,
-                          store::text_of(b.theory), store::text_of(b.relative_difference()), file,
-                          std::isnan(b.theory) ? "" : motion_of(b.map->theory)});
+        t.rows.push_back(
+            {b.map->name, b.scheme->name, b.map->x.key, b.map->y.key, store::Field::as_written(b.y),
+             fmt::format("{}|{}", name_of(b.low), name_of(b.high)),
+             store::Field::as_written(b.x_low), store::Field::as_written(b.x_high), b.theory,
+             b.relative_difference(), file, std::isnan(b.theory) ? "" : motion_of(b.map->theory)});
     }
     return t;
 }

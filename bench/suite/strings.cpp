@@ -29,7 +29,7 @@ namespace jvari::bench::suite {
 
 namespace {
 using Json = nlohmann::ordered_json;
-using store::text_of;
+using store::Field;
 
 constexpr double nudge = 1e-6;        // displacement of the obstacle over the swing
 constexpr double longest_nudged = 3;  // limit for each of two runs [s of processor]
@@ -80,7 +80,7 @@ Contact contact_of(const String& s) {
     return {b.from + wide / 2, wide, 0, b.stiffness.K * wide, b.exponent};
 }
 
-using Ratios = std::vector<std::pair<const char*, std::string>>;
+using Ratios = std::vector<std::pair<const char*, Field>>;
 
 // Numbers of a string: f_0 and modes below 20 kHz, then ratios. First come B, Q of the first mode,
 // and place and width of the first contact over the length. Next is the contact's secant stiffness
@@ -95,13 +95,13 @@ Ratios numbers_of(const Scene& scene) {
                  secant =
                      c.stiffness * std::pow(force / c.stiffness, (c.exponent - 1) / c.exponent);
     const Features needed = needed_by(scene);
-    const auto yes = [&](Features f) { return std::string(needed.any(f) ? "1" : "0"); };
+    const auto yes = [&](Features f) { return needed.any(f) ? 1 : 0; };
     const auto number = [](double x) {
-        return text_of(store::number_of(fmt::format("{:.6g}", x)));
+        return std::isfinite(x) ? Field::rounded(x, 6).number() : x;
     };
     const auto* triangle = s.start ? std::get_if<TriangleShape>(&*s.start) : nullptr;
     return {{"f0_hz", number(pitch_of(s))},
-            {"modes_below_20khz", std::to_string(modes_below(s, 20e3))},
+            {"modes_below_20khz", modes_below(s, 20e3)},
             {"inharmonicity", number(inharmonicity(s))},
             {"q_first", number(first.omega0[0] / (2 * first.sigma[0]))},
             {"contact", number(c.position / s.length)},
@@ -110,7 +110,7 @@ Ratios numbers_of(const Scene& scene) {
             {"exponent", number(c.exponent)},
             {"gap", number(-c.height / past)},
             {"smoothing", number(triangle ? triangle->smoothing / s.length : nan)},
-            {"contacts", std::to_string(s.barriers.size() + s.masses.size())},
+            {"contacts", s.barriers.size() + s.masses.size()},
             {"profile", yes(any_profile)},
             {"rigid", yes(any_rigid)},
             {"loss", yes(Feature::contact_loss | Feature::clipped_loss)},
@@ -169,7 +169,7 @@ Json advice_on(const Scene& scene, double within, const study::Truth* truth,
             compare::advise(scene, request, catalogue, store::Listener()).back();
         j = compare::json_of(a);
         if (a.scheme && truth)
-            j["error"] = text_of(true_error(scene, a, truth->reference.run.trace));
+            j["error"] = store::text_of(true_error(scene, a, truth->reference.run.trace));
     } catch (const std::exception& e) { j["text"] = e.what(); }
     return j;
 }
@@ -177,7 +177,7 @@ Json advice_on(const Scene& scene, double within, const study::Truth* truth,
 
 std::string examined(const study::Point& point, const study::Truth* truth,
                      const compare::Catalogue& catalogue) {
-    Json j{{"amplification", text_of(truth ? amplification(point.scene, *truth) : nan)},
+    Json j{{"amplification", store::text_of(truth ? amplification(point.scene, *truth) : nan)},
            {"advice", Json::array()}};
     for (const double within : compare::accuracies)
         j["advice"].push_back(advice_on(point.scene, within, truth, catalogue));
@@ -209,6 +209,7 @@ double uncertainty_of(const study::Cells& cells, const Rows& rows) {
         if (const double c = cells[i].figure(whole).certificate; !std::isnan(c)) return c;
     return nan;
 }
+std::string within_column(double within) { return fmt::format("within_{}", within); }
 bool is_decided(double uncertainty, double within) { return uncertainty <= known_to * within; }
 
 double error_of(const TabledCell& c) {  // upper bound for a trusted cell
@@ -233,7 +234,7 @@ std::string reason_of(const study::Cells& cells, const Rows& rows) {
     return "";
 }
 
-std::vector<std::string> string_row(const StringOf& s, const study::Cells& cells) {
+std::vector<Field> string_row(const StringOf& s, const study::Cells& cells) {
     const double uncertainty = uncertainty_of(cells, s.rows);
     const TabledCell& first = cells[s.rows.front()];
     const bool refused =
@@ -246,11 +247,11 @@ std::vector<std::string> string_row(const StringOf& s, const study::Cells& cells
     for (const double within : compare::accuracies)
         if (!refused && is_decided(uncertainty, within))
             outcome = "decided within " + percent(within);
-    std::vector<std::string> row{s.set->drawn->name};
-    for (const auto& [name, text] : numbers_of(*s.set->drawn)) row.push_back(text);
-    row.insert(row.end(), {text_of(s.set->drawn->duration - free_from(*s.set->drawn)),
-                           first.reference, text_of(first.reference_modes), text_of(uncertainty),
-                           s.examined.value("amplification", ""), outcome, reason});
+    std::vector<Field> row{s.set->drawn->name};
+    for (const auto& [name, value] : numbers_of(*s.set->drawn)) row.push_back(value);
+    row.insert(row.end(), {s.set->drawn->duration - free_from(*s.set->drawn), first.reference,
+                           first.reference_modes, uncertainty,
+                           number_in(s.examined, "amplification"), outcome, reason});
     return row;
 }
 
@@ -282,19 +283,18 @@ void add_advice(store::Table& t, const StringOf& s, double uncertainty) {
     for (std::size_t k = 0; k < advice.size(); ++k) {
         const Json& a = advice[k];
         const double within = compare::accuracies[k], error = number_in(a, "error");
-        t.rows.push_back({s.set->drawn->name, text_of(within), a.value("scheme", ""),
-                          a.value("options", ""), text_of(number_in(a, "rate")),
-                          text_of(number_in(a, "modes")), text_of(number_in(a, "estimate")),
-                          text_of(error), text_of(uncertainty),
-                          advice_outcome(a, within, error, uncertainty), a.value("text", "")});
+        t.rows.push_back({s.set->drawn->name, within, a.value("scheme", ""), a.value("options", ""),
+                          number_in(a, "rate"), number_in(a, "modes"), number_in(a, "estimate"),
+                          error, uncertainty, advice_outcome(a, within, error, uncertainty),
+                          a.value("text", "")});
     }
 }
 
 std::string counted(const store::Table& t, const std::string& column, const std::string& where,
-                    const std::string& is) {
+                    const Field& is) {
     std::map<std::string, int> counts;
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        if (where.empty() || t.at(i, where) == is) ++counts[t.at(i, column)];
+        if (where.empty() || t.at(i, where) == is) ++counts[t.text(i, column)];
     std::string text;
     for (const auto& [what, count] : counts)
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
@@ -313,14 +313,14 @@ StringTables string_tables(const Suite& suite, const study::Cells& cells,
     }
     StringTables t;
     t.strings.columns = {"string"};
-    for (const auto& [name, text] : numbers_of(*suite.sets.front().drawn))
+    for (const auto& [name, value] : numbers_of(*suite.sets.front().drawn))
         t.strings.columns.emplace_back(name);
     for (const char* column : {"window_s", "reference", "reference_modes", "uncertainty",
                                "amplification", "outcome", "reason"})
         t.strings.columns.emplace_back(column);
     t.outcomes.columns = {"string", "scheme", "options", "error"};
     for (const double within : compare::accuracies)
-        t.outcomes.columns.push_back("within_" + text_of(within));
+        t.outcomes.columns.push_back(within_column(within));
     t.outcomes.columns.emplace_back("reason");
     t.advice.columns = {"string",   "tolerance", "scheme",      "options", "rate", "modes",
                         "estimate", "error",     "uncertainty", "outcome", "text"};
@@ -337,24 +337,24 @@ StringTables string_tables(const Suite& suite, const study::Cells& cells,
             for (const std::size_t i : rows) least = std::fmin(least, error_of(cells[i]));
             const TabledCell& c = cells[rows.front()];
             auto& row = t.outcomes.rows.emplace_back(
-                std::vector{c.scene, c.scheme, c.options, text_of(least)});
+                std::vector<Field>{c.scene, c.scheme, c.options, least});
             for (const double within : compare::accuracies)
                 row.emplace_back(outcome_of(cells, rows, within, uncertainty));
-            row.push_back(reason_of(cells, rows));
+            row.emplace_back(reason_of(cells, rows));
             for (const std::size_t i : front_of(cells, rows))
-                t.fronts.rows.push_back({c.scene, c.scheme, c.options, text_of(cells[i].rate),
-                                         text_of(cells[i].modes), text_of(error_of(cells[i])),
-                                         text_of(cells[i].processor_s_per_s)});
+                t.fronts.rows.push_back({c.scene, c.scheme, c.options, cells[i].rate,
+                                         cells[i].modes, error_of(cells[i]),
+                                         cells[i].processor_s_per_s});
         }
     }
     t.text = fmt::format("{} strings: {}\n", t.strings.rows.size(),
                          counted(t.strings, "outcome", "", ""));
     for (const double within : compare::accuracies) {
         t.text += fmt::format("within {}: {} (strings x variants)\n", percent(within),
-                              counted(t.outcomes, "within_" + text_of(within), "", ""));
+                              counted(t.outcomes, within_column(within), "", ""));
         if (!t.advice.rows.empty())
-            t.text += fmt::format("  advice: {}\n",
-                                  counted(t.advice, "outcome", "tolerance", text_of(within)));
+            t.text +=
+                fmt::format("  advice: {}\n", counted(t.advice, "outcome", "tolerance", within));
     }
     return t;
 }

@@ -185,9 +185,8 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
 namespace {
 using Json = nlohmann::ordered_json;
 
-std::string rounded(double x) {  // three digits, the precision of errors and times
-    return std::isfinite(x) ? fmt::format("{:.3g}", x) : "";
-}
+// three digits, the precision of errors and times
+store::Field rounded(double x) { return store::Field::rounded(x, 3); }
 
 // Line of TOML, safe for any name in the text.
 std::string comment(std::string text) {
@@ -222,13 +221,11 @@ store::Table path_table(const Trimmed& t, Judge& judge) {
     for (std::size_t k = 0; k < t.path.steps.size(); ++k) {
         const Step& s = t.path.steps[k];
         table.rows.push_back(
-            {std::to_string(k), s.change, s.model.scheme->name,
-             store::options_text(s.model.settings.options),
-             s.model.settings.modes > 0 ? std::to_string(s.model.settings.modes) : "",
-             store::text_of(s.model.settings.sample_rate), rounded(s.error),
-             rounded(judge.certificate(0)), s.within ? "yes" : "no", rounded(t.costs[k].median),
-             rounded(t.costs[k].lower), rounded(t.costs[k].upper),
-             std::to_string(s.model.left_out.size()), judge.target().title,
+            {k, s.change, s.model.scheme->name, store::options_text(s.model.settings.options),
+             s.model.settings.modes > 0 ? store::Field(s.model.settings.modes) : store::Field(),
+             s.model.settings.sample_rate, rounded(s.error), rounded(judge.certificate(0)),
+             s.within ? "yes" : "no", rounded(t.costs[k].median), rounded(t.costs[k].lower),
+             rounded(t.costs[k].upper), s.model.left_out.size(), judge.target().title,
              rounded(judge.target().most)});
     }
     return table;
@@ -255,11 +252,11 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
     if (t.independent() == 0)
         text +=
             comment(" Every start that there is judged the search: none was left to verify it.");
-    text +=
-        comment(fmt::format(" It costs {} s of computing per second of sound; {}, with all parts "
-                            "and its own compliance, {} for an error of {}.",
-                            rounded(t.costs.back().median), full.model.settings_text(),
-                            rounded(t.costs.front().median), target.text(full.error)));
+    text += comment(
+        fmt::format(" It costs {:.3g} s of computing per second of sound; {}, with all parts "
+                    "and its own compliance, {:.3g} for an error of {}.",
+                    t.costs.back().median, full.model.settings_text(), t.costs.front().median,
+                    target.text(full.error)));
     text += comment("") + comment(" What went:");
     for (const int k : last.model.left_out) {
         const Reduction& r = judge.reductions()[k];

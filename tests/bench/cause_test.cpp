@@ -31,8 +31,8 @@ std::string said_of(const Change& change, const std::string& run = "",
     change(y);
     t.rows.resize(y.size());
     for (std::size_t n = 0; n < y.size(); ++n)
-        t.rows[n][static_cast<std::size_t>(t.column("y"))] = bench::store::text_of(y[n]),
-        t.rows[n][0] = bench::store::text_of(static_cast<double>(n) / 44100);
+        t.rows[n][static_cast<std::size_t>(t.column("y"))] = y[n],
+        t.rows[n][0] = static_cast<double>(n) / 44100;
     std::ofstream(scratch / "t.csv") << bench::store::csv(t);
     const Ended o = jvari(
         scratch, "judge " + (scratch / "loop.toml") + " --trace 44100=" + (scratch / "t.csv"));
@@ -222,8 +222,8 @@ TEST(Cause, OfAWaveformThatComesNearerWhileItsSpectrumDoesNotIsSaid) {
                   0);
         bench::store::Table t = bench::store::read_csv(content(file));
         for (std::size_t n = 0; n < t.rows.size(); ++n)
-            t.rows[n][static_cast<std::size_t>(t.column("y"))] = bench::store::text_of(
-                times == 1 ? 1.05 * t.number(n, "y") : t.number(n, "y") + (n % 9 == 4 ? 1e-5 : 0));
+            t.rows[n][static_cast<std::size_t>(t.column("y"))] =
+                times == 1 ? 1.05 * t.number(n, "y") : t.number(n, "y") + (n % 9 == 4 ? 1e-5 : 0);
         std::ofstream(file) << bench::store::csv(t);
         traces += " --trace " + std::to_string(44100 * times) + "=" + file;
     }

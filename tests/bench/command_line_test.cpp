@@ -384,8 +384,8 @@ TEST(CommandLine, AForeignTraceThatGrowsIsCalledDivergedWhateverItsError) {
     bench::store::Table t = bench::store::read_csv(content(whole));
     for (std::size_t n = 0; n < t.rows.size(); ++n)
         for (std::size_t k = 1; k < t.columns.size(); ++k)
-            t.rows[n][k] = bench::store::text_of(
-                std::stod(t.rows[n][k]) * std::pow(9000, static_cast<double>(n) / t.rows.size()));
+            t.rows[n][k] =
+                t.rows[n][k].number() * std::pow(9000, static_cast<double>(n) / t.rows.size());
     std::ofstream(grown) << bench::store::csv(t);
     const auto judged = [&](const std::string& file) {
         return jvari(scratch, "judge free_string --duration 0.1 --trace 44100=" + file);
@@ -470,16 +470,16 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
                               cost = bench::store::read_csv(content(out + "/cost.csv"));
     ASSERT_EQ(cells.rows.size(), 6u);
     ASSERT_EQ(cost.rows.size(), 6u);
-    EXPECT_EQ(cells.at(2, "status"), "refused");
-    EXPECT_EQ(cells.at(2, "reason"), "stumbling has no rates above 150 kHz, only walks");
-    EXPECT_EQ(cells.at(2, "error_l2_10ms"), "");
+    EXPECT_EQ(cells.text(2, "status"), "refused");
+    EXPECT_EQ(cells.text(2, "reason"), "stumbling has no rates above 150 kHz, only walks");
+    EXPECT_EQ(cells.text(2, "error_l2_10ms"), "");
     for (std::size_t i = 3; i < 6; ++i) {
         EXPECT_LT(cells.number(i, "error_l2_50ms"), 0.1);
         EXPECT_EQ(cells.number(i, "modes"), 133);
         EXPECT_GT(cells.number(i, "cost_s_per_s"), 0);
     }
     for (std::size_t i = 0; i < 6; ++i) {
-        if (cells.at(i, "status") == "refused") continue;
+        if (cells.text(i, "status") == "refused") continue;
         EXPECT_LE(cells.number(i, "cost_lower"), cells.number(i, "cost_s_per_s")) << i;
         EXPECT_LE(cells.number(i, "cost_s_per_s"), cells.number(i, "cost_upper")) << i;
         EXPECT_LE(cost.number(i, "wall_seconds_lower"), cost.number(i, "wall_seconds")) << i;
@@ -511,6 +511,19 @@ TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
     std::filesystem::remove(out + "/report.html");
     ASSERT_EQ(jvari(scratch, "report " + out).code, 0);
     EXPECT_EQ(content(out + "/report.html"), page);
+}
+
+TEST(CommandLine, ATapThatIsCalled7IsATextInJsonAndEmptyTextsAreTexts) {
+    const Scratch scratch;
+    const auto cell = json_from(scratch,
+                                "compare free_string --schemes modal_two_point --rates 44100 "
+                                "--modes 5 --duration 0.002 --repeats 1 --set 'tap.0.name=\"7\"'")
+                          .at("cells")
+                          .at(0);
+    EXPECT_EQ(cell.at("headline_nut"), "7");
+    EXPECT_TRUE(cell.at("errors").contains("7"));
+    for (const char* text : {"reason", "cause", "untimed"}) EXPECT_EQ(cell.at(text), "") << text;
+    EXPECT_TRUE(cell.at("load").is_number() || cell.at("load").is_null());
 }
 
 TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
@@ -670,10 +683,10 @@ TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
     ASSERT_EQ(o.code, 0) << o.err;
     const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
     ASSERT_EQ(cells.rows.size(), 9u);
-    EXPECT_EQ(cells.at(0, "status"), "ok");
-    EXPECT_EQ(cells.at(1, "scheme"), "modal_two_point");  // with the modes that are advised
-    EXPECT_EQ(cells.at(2, "reason"), "not made today");
-    for (std::size_t i = 2; i < 9; ++i) EXPECT_GT(cells.at(i, "reason").size(), 10u) << i;
+    EXPECT_EQ(cells.text(0, "status"), "ok");
+    EXPECT_EQ(cells.text(1, "scheme"), "modal_two_point");  // with the modes that are advised
+    EXPECT_EQ(cells.text(2, "reason"), "not made today");
+    for (std::size_t i = 2; i < 9; ++i) EXPECT_GT(cells.text(i, "reason").size(), 10u) << i;
 }
 
 TEST(CommandLine, AReferenceThatFailsOnItsWayIsARowOfEveryVerb) {
@@ -711,7 +724,7 @@ TEST(CommandLine, APluckedStringIsJudgedOnceItIsLetGo) {
     const bench::store::Table cells = bench::store::read_csv(content(out + "/cells.csv"));
     EXPECT_EQ(cells.number(0, "free_from_s"), 0.05);
     EXPECT_GT(cells.number(0, "error_l2_10ms"), 0);
-    EXPECT_EQ(cells.at(0, "error_l2_50ms"), "");  // not covered
+    EXPECT_EQ(cells.text(0, "error_l2_50ms"), "");  // not covered
 }
 
 // ---- A scene of one's own

@@ -152,7 +152,7 @@ TEST(External, ItsCostIsTheOneThatIsReported) {
         if (row[cost.column("scheme")] == "mine")
             for (const char* name :
                  {"options", "rate", "cost_s_per_s", "processor_s_per_s", "untimed", "machine"})
-                found += row[cost.column(name)] + "|";
+                found += row[cost.column(name)].text() + "|";
     EXPECT_EQ(found, "cost=as_reported|44100|0.5|0.5|||cost=as_reported|88200|1.5|1.5|||");
     EXPECT_TRUE(ends(shell(scratch, compare + "0.5"), 2, "found 1 costs for 2 --rates"));
     EXPECT_TRUE(ends(shell(scratch, compare + "1,-1"), 2, "expected a number > 0"));
@@ -179,7 +179,7 @@ TEST(Judge, ATraceThatHoldsNoNumberIsAFailedRowAtItsRateAndNoMore) {
     EXPECT_TRUE(says(o.out, "holds no number in row 299, at 0.00678005 s"));
     const bench::store::Table cells = bench::store::read_csv(content(scratch / "out/cells.csv"));
     std::string status;
-    for (const auto& row : cells.rows) status += row[cells.column("status")] + " ";
+    for (const auto& row : cells.rows) status += row[cells.column("status")].text() + " ";
     EXPECT_EQ(status, "ok diverged ok ");
     EXPECT_TRUE(ends(shell(scratch, judge + " --trace 88200=nan.csv"), 4, "")) << "nothing is left";
 }

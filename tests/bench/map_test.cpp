@@ -192,9 +192,9 @@ TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
     }
     const bench::store::Table t = bench::suite::boundaries_table(run, {});
     for (std::size_t i = 0; i < t.rows.size(); ++i)
-        EXPECT_EQ(t.at(i, "theory_holds_for").starts_with("lasting contact;"),
-                  t.at(i, "map") == "penalty")
-            << t.at(i, "theory_holds_for");
+        EXPECT_EQ(t.text(i, "theory_holds_for").starts_with("lasting contact;"),
+                  t.text(i, "map") == "penalty")
+            << t.text(i, "theory_holds_for");
     EXPECT_TRUE(says(bench::suite::maps_text(run), "theory holds for lasting contact;"));
 }
 
@@ -242,15 +242,15 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     const bench::suite::MapRun run = run_of(suite);
     const bench::store::Table t = bench::suite::maps_table(run);
     ASSERT_EQ(t.rows.size(), 8u);
-    EXPECT_EQ(t.at(0, "outcome"), "sound");
-    EXPECT_EQ(t.at(0, "reference"), "exact_linear");
-    EXPECT_EQ(t.at(1, "outcome"), "refused");
-    EXPECT_TRUE(says(t.at(1, "detail"), "half the sample rate"));
+    EXPECT_EQ(t.text(0, "outcome"), "sound");
+    EXPECT_EQ(t.text(0, "reference"), "exact_linear");
+    EXPECT_EQ(t.text(1, "outcome"), "refused");
+    EXPECT_TRUE(says(t.text(1, "detail"), "half the sample rate"));
     const bench::store::Table boundaries = bench::suite::boundaries_table(
         run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
     ASSERT_GE(boundaries.rows.size(), 2u);
-    EXPECT_EQ(boundaries.at(0, "between"), "sound|refused");
-    EXPECT_EQ(boundaries.at(0, "reproducer"), "failures/a.toml");
+    EXPECT_EQ(boundaries.text(0, "between"), "sound|refused");
+    EXPECT_EQ(boundaries.text(0, "reproducer"), "failures/a.toml");
 }
 
 // ---- Stopped and taken up again
@@ -295,7 +295,7 @@ TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {
     EXPECT_EQ(r.code, 0) << r.err;
     const bench::store::Table t = bench::store::read_csv(content(scratch / "out/maps.csv"));
     ASSERT_EQ(t.rows.size(), 2u);
-    EXPECT_EQ(t.at(1, "outcome"), "sound");
+    EXPECT_EQ(t.text(1, "outcome"), "sound");
     EXPECT_TRUE(fs::exists(scratch / "out/boundaries.csv"));
     EXPECT_FALSE(fs::exists(scratch / "out/cells.csv"));
     const auto bad = jvari(scratch, "suite " + (scratch / "none.toml"));

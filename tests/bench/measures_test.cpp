@@ -105,7 +105,7 @@ TEST(Compliance, GoesToTheTrueOneWithTheSquareOfTheStep) {
 
 // ---- Observed orders
 
-bench::study::Cells cells_with(const std::vector<std::vector<std::string>>& rows) {
+bench::study::Cells cells_with(const std::vector<std::vector<bench::store::Field>>& rows) {
     return test::cells_from(
         {{"scheme", "rate", "modes", "status", "error_l2_10ms_nut", "floor_error_l2_10ms_nut"},
          rows});
@@ -127,15 +127,15 @@ TEST(ConvergenceTable, FitsWhatServesAndSaysFromWhereToWhere) {
     ASSERT_EQ(t.rows.size(), 2u);
     EXPECT_NEAR(t.number(0, "order"), 2, 1e-9);
     EXPECT_NEAR(t.number(0, "half_width"), 0, 1e-6);
-    EXPECT_EQ(t.at(0, "points"), "3");
-    EXPECT_EQ(t.at(0, "from_hz"), "200");
-    EXPECT_EQ(t.at(0, "to_hz"), "800");
-    EXPECT_EQ(t.at(0, "modes"), "");  // a grid's change with the rate
-    EXPECT_EQ(t.at(0, "window"), "10ms");
-    EXPECT_EQ(t.at(0, "tap"), "nut");
+    EXPECT_EQ(t.text(0, "points"), "3");
+    EXPECT_EQ(t.text(0, "from_hz"), "200");
+    EXPECT_EQ(t.text(0, "to_hz"), "800");
+    EXPECT_EQ(t.text(0, "modes"), "");  // a grid's change with the rate
+    EXPECT_EQ(t.text(0, "window"), "10ms");
+    EXPECT_EQ(t.text(0, "tap"), "nut");
     EXPECT_NEAR(t.number(1, "order"), 1, 1e-9);
-    EXPECT_EQ(t.at(1, "modes"), "10");
-    EXPECT_EQ(t.at(1, "half_width"), "");  // two points leave no scatter to judge by
+    EXPECT_EQ(t.text(1, "modes"), "10");
+    EXPECT_EQ(t.text(1, "half_width"), "");  // two points leave no scatter to judge by
 }
 
 TEST(ConvergenceTable, ModesThatAreSweptAreSeriesOfTheirOwn) {

@@ -130,10 +130,10 @@ TEST(Population, EachStringIsCountedOnceForEachVariantAndRunsAgainToTheLastDigit
     const std::set<std::string> known{"solved", "missed", "undecided", "refused", "failed"};
     for (std::size_t i = 0; i < t.outcomes.rows.size(); ++i)
         for (const char* within : {"within_0.1", "within_0.01", "within_0.001"})
-            EXPECT_TRUE(known.contains(t.outcomes.at(i, within))) << t.outcomes.at(i, within);
+            EXPECT_TRUE(known.contains(t.outcomes.text(i, within))) << t.outcomes.text(i, within);
     for (std::size_t i = 0; i < t.strings.rows.size(); ++i)
-        EXPECT_GT(t.strings.number(i, "amplification"), 0.01) << t.strings.at(i, "string");
-    EXPECT_EQ(t.strings.at(2, "string"), "tanpura_c3_release");
+        EXPECT_GT(t.strings.number(i, "amplification"), 0.01) << t.strings.text(i, "string");
+    EXPECT_EQ(t.strings.text(2, "string"), "tanpura_c3_release");
     EXPECT_NEAR(t.strings.number(2, "f0_hz"), 130.9, 0.1);
     EXPECT_NEAR(t.strings.number(2, "contact"), 0.01, 1e-12);
     EXPECT_EQ(text_of(tables_of(suite)), text_of(t));
@@ -151,7 +151,7 @@ TEST(Population, ThreeStringsOfTheRecordAreWhatTheyWereWhenItWasMade) {
                                       {"outcomes", &now.outcomes},
                                       {"advice", &now.advice}}) {
         Table then = bench::store::Folder{root / "results/population"}.table(name);
-        std::erase_if(then.rows, [&](const auto& row) { return !three.contains(row[0]); });
+        std::erase_if(then.rows, [&](const auto& row) { return !three.contains(row[0].text()); });
         ASSERT_EQ(then.columns, table->columns);
         ASSERT_EQ(then.rows.size(), table->rows.size()) << name;
         for (std::size_t i = 0; i < then.rows.size(); ++i)

@@ -42,6 +42,18 @@ TEST(Records, NumbersReadBackAsTheSameDouble) {
     EXPECT_TRUE(std::isinf(bench::store::number_of(bench::store::text_of(HUGE_VAL))));
 }
 
+TEST(Records, AFieldHasItsOwnTypeInJsonWhateverItsTextLooksLike) {
+    const auto written = bench::store::Field::as_written;
+    const bench::store::Table t{
+        {"tap", "modes", "error", "front", "key", "word", "none", "endless", "empty"},
+        {{"7", 133, 0.25, true, written("1e+05"), written("own"), nan, HUGE_VAL, ""}}};
+    EXPECT_EQ(bench::store::compact(bench::store::rows_json(t)),
+              R"([{"tap":"7","modes":133,"error":0.25,"front":true,"key":100000,"word":"own",)"
+              R"("none":null,"endless":null,"empty":""}])");
+    EXPECT_EQ(csv(t),
+              "tap,modes,error,front,key,word,none,endless,empty\n7,133,0.25,1,1e+05,own,,inf,\n");
+}
+
 TEST(Records, ARowOfTheWrongLengthIsAnErrorWithItsLine) {
     try {
         bench::store::read_csv("a,b\n1,2\n3\n");
@@ -56,7 +68,7 @@ TEST(Records, APartOfATableKeepsTheOrderAskedFor) {
     const bench::store::Table t{{"a", "b", "c"}, {{"1", "2", "3"}}};
     const bench::store::Table part = t.only({"c", "absent", "a"});
     EXPECT_EQ(part.columns, (std::vector<std::string>{"c", "a"}));
-    EXPECT_EQ(part.rows[0], (std::vector<std::string>{"3", "1"}));
+    EXPECT_EQ(part.rows[0], (std::vector<bench::store::Field>{"3", "1"}));
 }
 
 // Of nothing as the definition of XXH3 in 128 bits has it; and that a change of one bit changes it.

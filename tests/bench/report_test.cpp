@@ -135,9 +135,9 @@ TEST(Report, AnErrorThatIsBoundedStandsAtItAndItsCertificateTogether) {
           {"a", "b", "88200", "10", "ok", "1e-3", "6e-4"}}});
     r.series = {"b", "b"};
     const bench::store::Table errors = bench::report::derived_tables(r).at("errors");
-    ASSERT_EQ(errors.rows.size(), 4u);     // of the headline, and of its tap
-    EXPECT_EQ(errors.at(0, "shown"), "");  // 6 % of the first: as measured
-    EXPECT_EQ(errors.at(1, "row"), "1");
+    ASSERT_EQ(errors.rows.size(), 4u);       // of the headline, and of its tap
+    EXPECT_EQ(errors.text(0, "shown"), "");  // 6 % of the first: as measured
+    EXPECT_EQ(errors.text(1, "row"), "1");
     EXPECT_NEAR(errors.number(1, "shown"), 1.6e-3, 1e-12);
 }
 
@@ -194,15 +194,16 @@ TEST(Report, OfASuiteEachCellThatEndedIsHeardAndCellsOfOneSceneShareTheirReferen
     ASSERT_EQ(r.sounds.rows.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
         const bool truth = i % 3 == 0;
-        EXPECT_EQ(r.sounds.at(i, "scheme"), truth ? "reference" : "modal_two_point");
-        EXPECT_EQ(r.sounds.at(i, "reference_file"), truth ? "" : r.sounds.at(i / 3 * 3, "file"));
-        EXPECT_EQ(r.sounds.at(i, "problem"), i < 3 ? "tanpura_c3_release, string.0.tension = 30"
-                                                   : "tanpura_c3_release, string.0.tension = 31");
-        EXPECT_EQ(
-            bench::store::read_wav(scratch.path / "out" / r.sounds.at(i, "file"), 1).samples.size(),
-            1324u);  // rows at 0 and 30 ms too
+        EXPECT_EQ(r.sounds.text(i, "scheme"), truth ? "reference" : "modal_two_point");
+        EXPECT_EQ(r.sounds.text(i, "reference_file"),
+                  truth ? "" : r.sounds.text(i / 3 * 3, "file"));
+        EXPECT_EQ(r.sounds.text(i, "problem"), i < 3 ? "tanpura_c3_release, string.0.tension = 30"
+                                                     : "tanpura_c3_release, string.0.tension = 31");
+        EXPECT_EQ(bench::store::read_wav(scratch.path / "out" / r.sounds.text(i, "file"), 1)
+                      .samples.size(),
+                  1324u);  // rows at 0 and 30 ms too
     }
-    EXPECT_NE(r.sounds.at(0, "file"), r.sounds.at(3, "file"));
+    EXPECT_NE(r.sounds.text(0, "file"), r.sounds.text(3, "file"));
     ASSERT_EQ(jvari(scratch, command + " --resume", none).code, 0);
     EXPECT_EQ(content(scratch / "out/sounds.csv"), first);
     const Json sounds = data_of(page).at("sounds");
@@ -256,7 +257,8 @@ TEST(Report, APageOfManyCellsKeepsItsSizeAndTheBestOfEachScheme) {
         for (int k = 0; k < 60; ++k)
             for (auto row : t.rows) {
                 for (const char* key : {"cell", "scene"})
-                    if (const int at = t.column(key); at >= 0) row[at] += fmt::format("_{}", k);
+                    if (const int at = t.column(key); at >= 0)
+                        row[at] = fmt::format("{}_{}", row[at].text(), k);
                 all.rows.push_back(row);
             }
         overwrite(folder / name, bench::store::csv(all));

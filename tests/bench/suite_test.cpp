@@ -321,11 +321,11 @@ TEST(SuiteRun, WhatIsResumedAfterItsEndDoesNothingTwice) {
 
     const bench::store::Table t = all_of(plan, first.records);
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
-        EXPECT_EQ(t.at(i, "status"), "ok") << t.at(i, "reason");
+        EXPECT_EQ(t.text(i, "status"), "ok") << t.text(i, "reason");
         EXPECT_GT(t.number(i, "error_l2_whole"), 0);
         EXPECT_GT(t.number(i, "cost_s_per_s"), 0);
-        EXPECT_EQ(t.at(i, "string.0.tension"), i % 4 < 2 ? "30" : "33");
-        EXPECT_FALSE(t.at(i, "reference").empty());
+        EXPECT_EQ(t.text(i, "string.0.tension"), i % 4 < 2 ? "30" : "33");
+        EXPECT_FALSE(t.text(i, "reference").empty());
     }
 }
 
@@ -459,9 +459,9 @@ TEST(SuiteRun, WhatRefusesFailsOrPassesItsTimeLimitIsARowWithItsReason) {
         {"past_time_limit", "past its time limit of 0.45 s"}};
     ASSERT_EQ(t.rows.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
-        EXPECT_EQ(t.at(i, "status"), expected[i].first);
-        EXPECT_EQ(t.at(i, "reason"), expected[i].second);
-        EXPECT_EQ(t.at(i, "cost_s_per_s").empty(), i > 0);
+        EXPECT_EQ(t.text(i, "status"), expected[i].first);
+        EXPECT_EQ(t.text(i, "reason"), expected[i].second);
+        EXPECT_EQ(t.text(i, "cost_s_per_s").empty(), i > 0);
     }
 }
 
@@ -480,9 +480,9 @@ TEST(SuiteRun, AReferenceThatPassesTheTimeLimitIsSaidInTheRow) {
     )",
                        w.catalogue);
     const bench::store::Table t = all_of(plan, plan.run(1).records);
-    EXPECT_EQ(t.at(0, "status"), "ok");
-    EXPECT_EQ(t.at(0, "error_l2_50ms"), "");
-    EXPECT_EQ(t.at(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");
+    EXPECT_EQ(t.text(0, "status"), "ok");
+    EXPECT_EQ(t.text(0, "error_l2_50ms"), "");
+    EXPECT_EQ(t.text(0, "reason"), "reference oversampled slow: past its time limit of 0.5 s");
     for (const char* of_the_clock :
          {"cost_s_per_s", "cost_lower", "processor_s_per_s", "wall_seconds", "ns_per_step",
           "times_real_time", "worst_block_of_deadline", "repeats"})

@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 const double x = t.number(i, name);
                 promise(
                     std::isnan(x) || bench::store::number_of(jvari::bench::store::text_of(x)) == x,
-                    "a number reads back as itself", t.at(i, name));
+                    "a number reads back as itself", t.text(i, name));
             }
         if (!t.columns.empty() && !written_as_nothing(t)) {
             const bench::store::Table again = bench::store::read_csv(bench::store::csv(t));

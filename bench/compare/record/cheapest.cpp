@@ -158,12 +158,10 @@ store::Table table_of(const std::vector<Answer>& answers, const Cells& cells) {
         const auto& own = names.rows[a.of];
         auto& row =
             t.rows.emplace_back(own.begin() + 1, own.begin() + (scheme - names.columns.begin()));
-        row.insert(row.end(),
-                   {study::measures()[a.measure].column, store::text_of(a.most),
-                    std::string(a.status), a.cell ? found.run() : "", found.scheme, found.options,
-                    store::text_of(found.rate), store::text_of(found.modes),
-                    store::text_of(a.bound.error), store::text_of(a.bound.most()),
-                    store::text_of(found.cost_s_per_s), a.ties, a.perhaps, a.as_published, a.why});
+        row.insert(row.end(), {study::measures()[a.measure].column, a.most, a.status,
+                               a.cell ? found.run() : "", found.scheme, found.options, found.rate,
+                               found.modes, a.bound.error, a.bound.most(), found.cost_s_per_s,
+                               a.ties, a.perhaps, a.as_published, a.why});
     }
     return t;
 }

@@ -159,8 +159,7 @@ std::string file_of(const study::Cell& cell) {  // "modal_two_point-compliance=m
     if (!unfit_as_file(name).empty())
         // a plugin's option may be a path
         name = fmt::format("{}-{}", cell.scheme->name, store::hash_of(name));
-    if (cell.settings.sample_rate > 0)
-        name += fmt::format("-{}", store::text_of(cell.settings.sample_rate));
+    if (cell.settings.sample_rate > 0) name += fmt::format("-{}", cell.settings.sample_rate);
     return fmt::format("{}-{}", name, cell.modes());
 }
 }  // namespace
@@ -181,12 +180,10 @@ void write_sounds(const Comparison& c, const std::filesystem::path& folder) {
     for (const study::Record& r : c.outcome.records) {
         const study::Cell& cell = r.cell;
         if (cell.sound.samples.empty() || (samples > most_samples && !at_an_end(c, cell))) continue;
-        const std::string rate = cell.scheme->clock == Clock::continuous
-                                     ? ""
-                                     : store::text_of(cell.settings.sample_rate);
+        const double rate =
+            cell.scheme->clock == Clock::continuous ? nan : cell.settings.sample_rate;
         sounds.push_back(
-            {{cell.scheme->name, store::options_text(cell.settings.options), rate,
-              std::to_string(cell.modes())},
+            {{cell.scheme->name, store::options_text(cell.settings.options), rate, cell.modes()},
              file_of(cell),
              tap.name,
              name_of(tap.quantity),

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "analysis/statistics.hpp"
 #include "bench/compare/bound.hpp"
@@ -65,10 +64,9 @@ std::vector<Rows> differing_in_rate(const Cells& cells) {
     for (const Rows& group : study::alike(study::all_rows(cells), [&](std::size_t i) {
              return cells[i].problem() + "|" + cells[i].variant();
          })) {
-        const auto modes = [&](std::size_t i) { return store::text_of(cells[i].modes); };
-        std::set<std::string> rates;
-        for (const std::size_t i : group) rates.insert(store::text_of(cells[i].rate));
-        if (rates.size() == group.size()) all.push_back(group);
+        const auto modes = [&](std::size_t i) { return store::Field(cells[i].modes); };
+        const auto rate = [&](std::size_t i) { return store::Field(cells[i].rate); };
+        if (study::alike(group, rate).size() == group.size()) all.push_back(group);
         else std::ranges::move(study::alike(group, modes), std::back_inserter(all));
     }
     return all;
@@ -137,11 +135,9 @@ store::Table convergence_table(const Cells& cells) {
     for (const auto& [first, m, tap, modes, order, from, to] : convergence_of(cells)) {
         auto& row =
             t.rows.emplace_back(named.rows[first].begin() + 1, named.rows[first].begin() + rate);
-        row.insert(row.end(),
-                   {store::text_of(modes), tap, study::measures()[m].column.substr(9),
-                    store::text_of(order.order),
-                    std::isfinite(order.half_width) ? store::text_of(order.half_width) : "",
-                    std::to_string(order.points), store::text_of(from), store::text_of(to)});
+        row.insert(row.end(), {modes, tap, study::measures()[m].column.substr(9), order.order,
+                               std::isfinite(order.half_width) ? order.half_width : nan,
+                               order.points, from, to});
     }
     return t;
 }
