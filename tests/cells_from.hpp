@@ -36,12 +36,8 @@ inline bench::study::Cells cells_from(const bench::store::Table& t) {
         study::TabledCell& c = cells[i];
         c.cell = t.text(i, "cell");
         c.headline_nut = c.headline_bridge = "headline";
-        for (const study::Column& column : study::columns()) {
-            if (t.column(column.name) < 0) continue;
-            if (const auto* words = std::get_if<std::string study::TabledCell::*>(&column.field))
-                c.*(*words) = t.text(i, column.name);
-            else c.*std::get<double study::TabledCell::*>(column.field) = t.number(i, column.name);
-        }
+        for (const study::Column& column : study::columns())
+            if (t.column(column.name) >= 0) column.read(c, t.at(i, column.name));
     }
     return cells;
 }

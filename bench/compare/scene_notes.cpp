@@ -8,6 +8,7 @@
 #include "analysis/convergence.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/store/usage.hpp"
+#include "reference/references.hpp"
 #include "scenes/barrier.hpp"
 #include "scenes/excitation.hpp"
 #include "scenes/modes.hpp"
@@ -258,9 +259,7 @@ std::string of_more_modes(const Cell& cell, std::size_t measure) {
 }
 
 std::string of_the_compliance(const Cells& cells, const Rows& rows, const Cell& cell) {
-    const auto matched = [&](std::size_t i) {
-        return cells[i].options.find("compliance=matched") != std::string::npos;
-    };
+    const auto matched = [&](std::size_t i) { return is_matched(cells[i].options); };
     const auto has_both = [&](const Descriptor& d) {
         return d.name == cell.scheme && declares(d, compliance_option.name);
     };

@@ -119,6 +119,8 @@ Json data_of(const Results& r) {
     data["source"] = r.source;
     data["command"] = r.command;
     data["measures"] = measures();
+    for (const study::TabledCell& c : r.cells)
+        data["options"][store::options_text(c.options)] = c.options;
     data["manifest"] = r.manifest.empty() ? Json() : store::parsed(r.manifest);
     auto tables = derived_tables(r);
     const store::Table cheapest = tables["cheapest"];
@@ -141,6 +143,7 @@ nlohmann::ordered_json empty_data(const std::string& title, const std::string& a
               {"about", about},
               {"schemes", known},
               {"tables", Json::object()},
+              {"options", Json::object()},
               {"manifest", Json::object()}};
     for (const char* text : {"source", "command", "missing"}) data[text] = "";
     for (const char* list : {"measures", "sounds", "levels"}) data[list] = none;

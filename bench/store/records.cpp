@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -27,6 +28,20 @@ std::string options_text(const Options& options) {
     for (const auto& [name, value] : options)
         text += (text.empty() ? "" : " ") + name + "=" + value;
     return text;
+}
+
+Options options_in(const std::string& text) {
+    Options options;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ' ');) {
+        const auto equals = std::min(word.find('='), word.size());
+        // a value may have a space: the path of a file
+        if (equals == word.size() && !options.empty()) options.back().second += " " + word;
+        else
+            options.emplace_back(word.substr(0, equals),
+                                 word.substr(std::min(equals + 1, word.size())));
+    }
+    return options;
 }
 
 std::string variant_name(const std::string& scheme, const std::string& options) {

@@ -23,6 +23,7 @@ double number_of(const std::string&);  // NaN for "" and for any text that is no
 using Options = std::vector<std::pair<std::string, std::string>>;
 // "control=none tolerance=1e-9"
 std::string options_text(const Options&);
+Options options_in(const std::string& text);  // reads options_text
 // "sitar_fdm control=none", or the scheme alone
 std::string variant_name(const std::string& scheme, const std::string& options);
 

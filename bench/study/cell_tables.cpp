@@ -102,8 +102,18 @@ const std::vector<Column>& columns() {
 store::Field Column::value(const TabledCell& c) const {
     if (const auto* words = std::get_if<std::string C::*>(&field)) return c.*(*words);
     if (const auto* number = std::get_if<double C::*>(&field)) return c.*(*number);
+    if (const auto* options = std::get_if<store::Options C::*>(&field))
+        return store::options_text(c.*(*options));
     const std::optional<bool> holds = c.*std::get<std::optional<bool> C::*>(field);
     return holds ? store::Field(*holds) : store::Field();
+}
+
+void Column::read(TabledCell& c, const store::Field& from) const {
+    if (const auto* words = std::get_if<std::string C::*>(&field)) c.*(*words) = from.text();
+    else if (const auto* number = std::get_if<double C::*>(&field)) c.*(*number) = from.number();
+    else if (const auto* options = std::get_if<store::Options C::*>(&field))
+        c.*(*options) = store::options_in(from.text());
+    else if (!from.empty()) c.*std::get<std::optional<bool> C::*>(field) = from.number() == 1;
 }
 
 // ---- Tables
@@ -177,15 +187,8 @@ store::Table errors_table(const Cells& cells) {
 
 namespace {
 void fill(TabledCell& c, const store::Table& t, std::size_t row) {
-    for (const Column& column : columns()) {
-        if (t.column(column.name) < 0) continue;
-        const store::Field& v = t.at(row, column.name);
-        if (const auto* words = std::get_if<std::string C::*>(&column.field))
-            c.*(*words) = v.text();
-        else if (const auto* number = std::get_if<double C::*>(&column.field))
-            c.*(*number) = v.number();
-        else if (!v.empty()) c.*std::get<std::optional<bool> C::*>(column.field) = v.number() == 1;
-    }
+    for (const Column& column : columns())
+        if (t.column(column.name) >= 0) column.read(c, t.at(row, column.name));
 }
 
 bool is_swept(const std::string& column) {  // column between scene and scheme

@@ -177,7 +177,7 @@ TabledCell cell_of(const Job& job, const Record& r) {
     c.scene = scene.name;
     c.swept = job.point->swept;
     c.scheme = r.cell.scheme->name;
-    c.options = store::options_text(r.cell.settings.options);
+    c.options = r.cell.settings.options;
     if (r.cell.scheme->clock != Clock::continuous) c.rate = r.cell.settings.sample_rate;
     if (r.cell.modes() > 0) c.modes = r.cell.modes();
     c.status = r.cell.status();

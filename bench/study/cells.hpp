@@ -38,8 +38,9 @@ constexpr std::pair<const char*, double Figure::*> figure_parts[] = {
 struct TabledCell {
     std::string cell, scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value
-    std::string scheme, options, status, flags, machine, governor, untimed, below_floor, reference,
-        reason, cause, reference_doubling, headline_nut, headline_bridge;
+    store::Options options;
+    std::string scheme, status, flags, machine, governor, untimed, below_floor, reference, reason,
+        cause, reference_doubling, headline_nut, headline_bridge;
     double rate = nan, modes = nan;
     double cost_s_per_s = nan, cost_lower = nan, cost_upper = nan, processor_s_per_s = nan,
            processor_lower = nan, processor_upper = nan, wall_seconds = nan,
@@ -57,7 +58,9 @@ struct TabledCell {
     // `tap` "": the headline's
     const Figure& figure(std::size_t measure, const std::string& tap = "") const;
     double fact(const std::string& name) const;  // NaN if absent
-    std::string variant() const { return store::variant_name(scheme, options); }
+    std::string variant() const {
+        return store::variant_name(scheme, store::options_text(options));
+    }
     bool same_series(const TabledCell& o) const {  // same but for rate and modes
         return scene == o.scene && swept == o.swept && scheme == o.scheme && options == o.options;
     }
@@ -88,11 +91,13 @@ struct Column {
     const char* name;
     const char* unit;
     Rule rule;
-    std::variant<std::string TabledCell::*, double TabledCell::*, std::optional<bool> TabledCell::*>
+    std::variant<std::string TabledCell::*, double TabledCell::*, std::optional<bool> TabledCell::*,
+                 store::Options TabledCell::*>
         field;
     const char* meaning;   // "" if the column before has the meaning
     bool in_cells = true;  // true: also in cells.csv
     store::Field value(const TabledCell&) const;
+    void read(TabledCell&, const store::Field&) const;
 };
 const std::vector<Column>& columns();  // all columns except `cell` and the swept keys
 

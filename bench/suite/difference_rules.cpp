@@ -126,10 +126,10 @@ const char* name_of(Turn t) {
 }
 
 Turn turn_of(const study::Column& column, const Cell& before, const Cell& after) {
-    if (const auto* words = std::get_if<std::string Cell::*>(&column.field))
-        return turn_of(column.name, before.*(*words), after.*(*words));
-    const auto number = std::get<double Cell::*>(column.field);
-    const double was = before.*number, is = after.*number, moves = motion(before, after, was);
+    const auto* number = std::get_if<double Cell::*>(&column.field);
+    if (!number)
+        return turn_of(column.name, column.value(before).text(), column.value(after).text());
+    const double was = before.*(*number), is = after.*(*number), moves = motion(before, after, was);
     switch (column.rule) {
         case study::Rule::instant: return turn_of(was, is, {2 * row});
         case study::Rule::step: return turn_of(was, is, {2});

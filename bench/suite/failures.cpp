@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -120,9 +119,7 @@ std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Cat
         s.sample_rate = index.number(i, "rate");
         s.tap_rate = row_rate(s.sample_rate);
         s.modes = static_cast<int>(index.number(i, "modes"));
-        std::istringstream options(index.text(i, "options"));
-        for (std::string word; options >> word;)
-            s.options.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
+        s.options = store::options_in(index.text(i, "options"));
         r.expected = {study::verdict_named(index.text(i, "outcome")), index.text(i, "detail"),
                       static_cast<long>(index.number(i, "step"))};
         all.push_back(std::move(r));

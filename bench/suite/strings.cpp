@@ -337,13 +337,13 @@ StringTables string_tables(const Suite& suite, const study::Cells& cells,
             for (const std::size_t i : rows) least = std::fmin(least, error_of(cells[i]));
             const TabledCell& c = cells[rows.front()];
             auto& row = t.outcomes.rows.emplace_back(
-                std::vector<Field>{c.scene, c.scheme, c.options, least});
+                std::vector<Field>{c.scene, c.scheme, store::options_text(c.options), least});
             for (const double within : compare::accuracies)
                 row.emplace_back(outcome_of(cells, rows, within, uncertainty));
             row.emplace_back(reason_of(cells, rows));
             for (const std::size_t i : front_of(cells, rows))
-                t.fronts.rows.push_back({c.scene, c.scheme, c.options, cells[i].rate,
-                                         cells[i].modes, error_of(cells[i]),
+                t.fronts.rows.push_back({c.scene, c.scheme, store::options_text(c.options),
+                                         cells[i].rate, cells[i].modes, error_of(cells[i]),
                                          cells[i].processor_s_per_s});
         }
     }

@@ -227,8 +227,8 @@ TEST(Cheapest, SaysWhatTheBestWithoutMatchedComplianceCosts) {
                                           {"a", "88200", "", "0.0095", "0", "", 3},
                                           {"b", "88200", "", "0.0094", "0", "", 2.5},
                                           {"b", "44100", "", "0.09", "0", "", 0.5}});
-    cells[0].options = "compliance=matched";
-    cells[1].options = "compliance=own";
+    cells[0].options = {{"compliance", "matched"}};
+    cells[1].options = {{"compliance", "own"}};
     const bench::store::Table t = cheapest_in(cells);
     EXPECT_EQ(t.text(1, "run"), "a compliance=matched, 10 modes at 44.1 kHz");
     EXPECT_EQ(t.text(1, "as_published"), "b, 10 modes at 88.2 kHz, 0.94 %, 2.5 s per s");

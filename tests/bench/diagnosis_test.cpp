@@ -147,7 +147,7 @@ TEST(Diagnosis, SaysWhereMoreModesHelp) {
 TEST(Diagnosis, SaysThatMatchedComplianceWasNotRun) {
     study::Cells cells = cells_of(falling(0.1, 0.3), "modal_two_point");
     EXPECT_TRUE(says(why(cells, 0.01), "compliance=matched was not run."));
-    cells[1].options = "compliance=matched";
+    cells[1].options = {{"compliance", "matched"}};
     EXPECT_FALSE(says(why(cells, 0.01), "was not run"));
 }
 

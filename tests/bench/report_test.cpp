@@ -158,16 +158,16 @@ TEST(Report, MatchedComplianceThatErrsMoreThanOwnIsTold) {
         cells_from({{"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags",
                      "error_l2_50ms", "error_l2_50ms_fret", "certificate_l2_50ms_fret",
                      "error_l2_50ms_y", "certificate_l2_50ms_y"},
-                    {{"1", "s", "a", "compliance=own,levels=2", "44100", "40", "ok", "", "0.1",
+                    {{"1", "s", "a", "compliance=own levels=2", "44100", "40", "ok", "", "0.1",
                       "0.2", "0.01", "0.1", "0"},
-                     {"2", "s", "a", "compliance=matched,levels=2", "44100", "40", "ok", "", "0.1",
+                     {"2", "s", "a", "compliance=matched levels=2", "44100", "40", "ok", "", "0.1",
                       "0.3", "0.01", "0.1", "0"},
-                     {"3", "s", "a", "compliance=own,levels=3", "44100", "40", "ok", "", "0.1",
+                     {"3", "s", "a", "compliance=own levels=3", "44100", "40", "ok", "", "0.1",
                       "0.1", "0.01", "0.01", "0"}}});
     const std::string text = bench::compare::harm_text(cells);
     EXPECT_TRUE(says(text, "in 1 of 1 runs"));
     EXPECT_TRUE(says(text,
-                     "most at fret of 30 % by a compliance=matched,levels=2, 40 modes at 44.1 kHz, "
+                     "most at fret of 30 % by a compliance=matched levels=2, 40 modes at 44.1 kHz, "
                      "where own compliance has 20 %"));
     const auto fret = [&cells]() -> double& {
         return cells[1].figures[1][bench::study::measure("error_l2_50ms")].value;

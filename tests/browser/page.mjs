@@ -183,6 +183,12 @@ test("a command is read back by a shell as it was meant, whoever wrote the recor
     const page = {
         tables: {},
         schemes: [["modal_two_point", false]],
+        options: {
+          "compliance=matched nodes='3;x": [
+            ["compliance", "matched"],
+            ["nodes", "'3;x"],
+          ],
+        },
         manifest: {scene: {asked_as, set: ["string.0.material=phosphor bronze"]}},
       },
       of = on(page, [readFileSync(join(sources, "answer.js"), "utf8")]),

@@ -7,6 +7,7 @@
 
 #include "analysis/cheapest.hpp"
 #include "bench/compare/scene_notes.hpp"
+#include "reference/references.hpp"
 #include "schemes/controls.hpp"
 #include "schemes/registry.hpp"
 
@@ -78,8 +79,6 @@ std::string why_unknown(const Cells& cells, const Rows& rows, const Goal& goal) 
                   : std::string());
 }
 
-bool is_matched(const Cell& c) { return c.options.find("compliance=matched") != std::string::npos; }
-
 std::string published_text(const Cell* c, const Goal& goal) {
     if (!c) return "none";
     return fmt::format("{}, {}, {:.3g} s per s", c->run(),
@@ -104,8 +103,9 @@ Answer answer_of(const Cells& cells, const Rows& rows, const Goal& goal) {
     a.bound = bound_of(best, goal.measure);
     a.ties = named(cells, rows, choice.ties);
     a.perhaps = named(cells, rows, choice.perhaps);
-    const auto published = [&](const Cell& c) { return goal.met(c) && !is_matched(c); };
-    if (is_matched(best)) a.as_published = published_text(least_cost(cells, rows, published), goal);
+    const auto published = [&](const Cell& c) { return goal.met(c) && !is_matched(c.options); };
+    if (is_matched(best.options))
+        a.as_published = published_text(least_cost(cells, rows, published), goal);
     // for any measure
     if (std::isnan(certificate_of(cells, rows, headline_error(cells, rows))))
         a.why = "measured against a reference whose uncertainty is unknown";
@@ -158,10 +158,11 @@ store::Table table_of(const std::vector<Answer>& answers, const Cells& cells) {
         const auto& own = names.rows[a.of];
         auto& row =
             t.rows.emplace_back(own.begin() + 1, own.begin() + (scheme - names.columns.begin()));
-        row.insert(row.end(), {study::measures()[a.measure].column, a.most, a.status,
-                               a.cell ? found.run() : "", found.scheme, found.options, found.rate,
-                               found.modes, a.bound.error, a.bound.most(), found.cost_s_per_s,
-                               a.ties, a.perhaps, a.as_published, a.why});
+        row.insert(row.end(),
+                   {study::measures()[a.measure].column, a.most, a.status,
+                    a.cell ? found.run() : "", found.scheme, store::options_text(found.options),
+                    found.rate, found.modes, a.bound.error, a.bound.most(), found.cost_s_per_s,
+                    a.ties, a.perhaps, a.as_published, a.why});
     }
     return t;
 }

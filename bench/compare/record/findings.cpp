@@ -8,6 +8,8 @@
 #include "analysis/statistics.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/compare/scene_notes.hpp"
+#include "reference/references.hpp"
+#include "schemes/contact/compliance.hpp"
 
 namespace jvari::bench::compare {
 
@@ -147,7 +149,6 @@ store::Table convergence_table(const Cells& cells) {
 namespace {
 constexpr double calm = 0.2;
 constexpr double harmed = 1.2;  // times the error with own compliance
-constexpr const char *own = "compliance=own", *matched = "compliance=matched";
 }  // namespace
 
 double median_spread(const study::Cells& cells) {
@@ -180,11 +181,12 @@ std::string harm_text(const study::Cells& cells) {
     for (const study::Rows& alike : study::alike(study::all_rows(cells), but_options))
         for (const std::size_t i : alike)
             for (const std::size_t j : alike) {
-                std::string options = cells[i].options;
-                const auto at = options.find(matched);
-                if (at == std::string::npos || !trusted(cells[i]) || !trusted(cells[j])) continue;
-                if (options.replace(at, std::string(matched).size(), own) != cells[j].options)
+                if (!is_matched(cells[i].options) || !trusted(cells[i]) || !trusted(cells[j]))
                     continue;
+                store::Options own = cells[i].options;
+                for (auto& [name, value] : own)
+                    if (name == compliance_option.name) value = "own";
+                if (own != cells[j].options) continue;
                 ++pairs;
                 bool any = false;
                 for (const std::string& tap : cells[i].taps) {
@@ -223,11 +225,10 @@ std::string cause_text(const study::Cells& cells) {
 Verdict verdict_on(const Advice& a, const study::Cells& cells) {
     Verdict v;
     if (!a.scheme) return {.text = "nothing was advised"};
-    const std::string options = store::options_text(a.settings.options);
     for (std::size_t i = 0; i < cells.size() && !v.cell; ++i)
         if (const study::TabledCell& c = cells[i];
-            c.scheme == a.scheme->name && c.options == options && c.modes == a.settings.modes &&
-            c.rate == a.settings.sample_rate)
+            c.scheme == a.scheme->name && c.options == a.settings.options &&
+            c.modes == a.settings.modes && c.rate == a.settings.sample_rate)
             v.cell = i;
     if (v.cell) v.bound = bound_of(cells[*v.cell], a.target.measure, a.tap);
     const Target& t = a.target;

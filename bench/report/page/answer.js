@@ -54,18 +54,17 @@ const literal = text => JSON.stringify(text);
 function commands(c) {
   const {asked_as = c.scene ?? page.title, set = []} = page.manifest?.scene ?? {},
     changed = [...set, ...swept_keys().flatMap(key => (c[key] ? [`${key}=${c[key]}`] : []))],
-    options = c.options ? c.options.split(" ") : [],
+    options = options_of(c),
     rate = number(c.rate) > 0 ? number(c.rate) : 0,
     modes = number(c.modes) > 0 && !(number(c.fact_grid_intervals) > 0) ? number(c.modes) : 0,
     pairs = (...[open, between, close]) =>
       options
-        .map(o => o.split(/=(.*)/s))
-        .map(([name, value]) => open + literal(name) + between + literal(value ?? "") + close)
+        .map(([name, value]) => open + literal(name) + between + literal(value) + close)
         .join(", ");
   const shell = [
     `jvari run ${shell_word(asked_as)} --scheme ${shell_word(c.scheme)}`,
     [rate && `--rate ${rate}`, modes && `--modes ${modes}`].filter(Boolean).join(" "),
-    ...options.map(o => `--option ${shell_word(o)}`),
+    ...options.map(([name, value]) => `--option ${shell_word(`${name}=${value}`)}`),
     ...changed.map(text => `--set ${shell_word(text)}`),
     "--out string.wav",
   ];

@@ -76,6 +76,9 @@ function cells() {
   for (const e of records("errors")) joined[e.row].errors[error_name(e)] = e;
   return joined;
 }
+const options_of = c => page.options[c.options] ?? []; // [[name, value]]
+const is_matched = c =>
+  options_of(c).some(([name, value]) => name === "compliance" && value === "matched");
 // Figure `what` for an error: value, floor, certificate; for a bound also shown, text.
 const figure_of = (cell, error, what) => number(cell.errors[error]?.[what]);
 const is_bounded = (cell, error) => Boolean(cell.errors[error]?.text);

@@ -2,9 +2,10 @@
 // repeats analysis/cheapest.hpp, because readers drag the tolerance; facts about each cell come
 // from the program.
 const scheme_words = name => spoken(name).replaceAll("_", " ");
-// Modes and rate: ": 133 modes at 88.2 kHz", " at 88.2 kHz".
+// Modes and rate: ": 133 modes at 88.2 kHz". A grid takes its nodes from the rate: " at 88.2 kHz".
 const place_words = c =>
-  c.run.slice(variant(c).length).replace(/^,/, ":").replace(" kHz", "\u00a0kHz");
+  (c.modes && !(number(c.fact_grid_intervals) > 0) ? `: ${c.modes} modes` : "") +
+  (c.rate ? ` at ${digits(number(c.rate) / 1000, 4)}\u00a0kHz` : "");
 const run_words = c => scheme_words(variant(c)) + place_words(c);
 const times_words = x => `${digits(x, 2)}\u00a0\u00d7`;
 // Error in words: "at most 0.57 %", "0.49 %", "0.49 % as measured"; "not known".
@@ -80,7 +81,7 @@ function answer_at(rows, error, within) {
     within,
     ...found,
     published: least(
-      met(priced).filter(o => !o.c.options.includes("compliance=matched")),
+      met(priced).filter(o => !is_matched(o.c)),
       o => o.cost,
     ),
     nearest: least(priced, o => error_of(o.c, error)),
@@ -149,7 +150,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
         ? `${Math.floor(1 / cost)} voice${cost > 0.5 ? "" : "s"} on one core.`
         : "it is slower than real time."),
     worst > 0 && `Its worst block takes ${percent(worst)} of the deadline.`,
-    c.options.includes("compliance=matched") &&
+    is_matched(c) &&
       (published
         ? `As published the cheapest is ${scheme_words(published.c.scheme)}` +
           `${place_words(published.c)}, ` +
