@@ -263,7 +263,7 @@ std::string of_the_compliance(const Cells& cells, const Rows& rows, const Cell& 
     const auto has_both = [&](const Descriptor& d) {
         return d.name == cell.scheme && declares(d, compliance_option.name);
     };
-    const bool measured = cell.reference_doubling.find("not in your table") != std::string::npos;
+    const bool measured = cell.fact(study::reference_limit) > 0;
     if (!(cell.deepest_penetration > 0) || measured || std::ranges::any_of(rows, matched) ||
         std::ranges::none_of(schemes(), has_both))
         return "";

@@ -45,16 +45,46 @@ store::Table fitting(store::Table t, Json& left_out) {
     std::sort(columns.rbegin(), columns.rend());
     std::vector<bool> kept(columns.size(), true);
     const auto needed = [&](const std::string& name) {
-        return std::ranges::any_of(
-            std::initializer_list<const char*>{
-                "problem",  "series", "cell",    "scene",      "scheme",   "options",
-                "rate",     "modes",  "status",  "flags",      "error_l2", "third_octave",
-                "cost",     "ns_per", "map",     "x",          "y",        "outcome",
-                "row",      "tap",    "measure", "value",      "floor",    "certificate",
-                "shown",    "text",   "order",   "half_width", "points",   "trusted",
-                "may_win",  "run",    "line",    "target",     "worst_",   "headline",
-                "free_from"},
-            [&](const char* start) { return name.starts_with(start); });
+        return std::ranges::any_of(std::initializer_list<const char*>{"problem",
+                                                                      "series",
+                                                                      "cell",
+                                                                      "scene",
+                                                                      "scheme",
+                                                                      "options",
+                                                                      "rate",
+                                                                      "modes",
+                                                                      "status",
+                                                                      "flags",
+                                                                      "error_l2",
+                                                                      "third_octave",
+                                                                      "cost",
+                                                                      "ns_per",
+                                                                      "map",
+                                                                      "x",
+                                                                      "y",
+                                                                      "outcome",
+                                                                      "row",
+                                                                      "tap",
+                                                                      "measure",
+                                                                      "value",
+                                                                      "floor",
+                                                                      "certificate",
+                                                                      "shown",
+                                                                      "text",
+                                                                      "order",
+                                                                      "half_width",
+                                                                      "points",
+                                                                      "trusted",
+                                                                      "may_win",
+                                                                      "run",
+                                                                      "line",
+                                                                      "target",
+                                                                      "worst_",
+                                                                      "headline",
+                                                                      "free_from",
+                                                                      "fact_grid_intervals",
+                                                                      "fact_reference_limit"},
+                                   [&](const char* start) { return name.starts_with(start); });
     };
     for (const auto& [bytes, k] : columns)
         if (all > table_limit && !needed(t.columns[k])) {

@@ -199,6 +199,7 @@ TabledCell cell_of(const Job& job, const Record& r) {
         for (std::size_t m = 0; m < measures().size(); ++m) row.push_back(figure_of(r, tap, m));
     }
     if (r.cell.ran()) add_run(c, r.cell);
+    if (!std::isnan(r.against.limit_hz)) c.facts.emplace_back(reference_limit, r.against.limit_hz);
     c.below_floor = ties_of(c);
     return c;
 }

@@ -35,6 +35,9 @@ constexpr std::pair<const char*, double Figure::*> figure_parts[] = {
     {"in_model", &Figure::in_model},
     {"certificate_in_model", &Figure::certificate_in_model}};
 
+// Fact of a cell beside those of its run: Truth::limit_hz [Hz].
+constexpr const char* reference_limit = "reference_limit_hz";
+
 struct TabledCell {
     std::string cell, scene;
     std::vector<std::pair<std::string, std::string>> swept;  // key, value

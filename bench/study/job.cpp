@@ -143,8 +143,8 @@ private:
 Against References::Of::against() const {
     if (!truth) return {};
     const Reference& r = truth->reference;
-    return {r.choice.name(), r.choice.settings.modes,       truth->description, *floor,
-            r.trust,         model ? model->trust : Trust{}};
+    return {r.choice.name(), r.choice.settings.modes,        truth->description, *floor,
+            r.trust,         model ? model->trust : Trust{}, truth->limit_hz};
 }
 
 References::References(std::span<const Job> jobs) {

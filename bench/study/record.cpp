@@ -110,6 +110,7 @@ std::string json_of(const Record& r, const std::string& identity) {
                                         {{"reference", a.reference},
                                          {"modes", a.modes},
                                          {"doubling", a.doubling},
+                                         {"limit_hz", store::text_of(a.limit_hz)},
                                          {"floor", numbers(a.floor)},
                                          {"certificate", numbers(a.trust.figure)},
                                          {"left_out", numbers(a.trust.left_out)},
@@ -134,6 +135,7 @@ std::optional<Record> read_record(const std::filesystem::path& path, const std::
         r.against.reference = a.at("reference");
         r.against.modes = store::whole<int>(a.at("modes"));
         r.against.doubling = a.at("doubling");
+        r.against.limit_hz = store::number_of(a.at("limit_hz"));
         r.against.floor = errors_in(a.at("floor"));
         r.against.trust.figure = figures_in(a.at("certificate"));
         r.against.trust.left_out = figures_in(a.at("left_out"));

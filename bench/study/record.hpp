@@ -35,6 +35,7 @@ struct Against {            // reference of a cell
     std::string doubling;      // how far the modes were doubled
     Errors floor;              // errors of the reference started 1e-12 apart
     Trust trust, model_trust;  // trust in the reference, and in the reference with the cells' modes
+    double limit_hz = nan;     // Truth::limit_hz
 };
 
 struct Record {

@@ -50,6 +50,8 @@ struct Truth {
     // long.
     std::vector<Trace> own;
     std::string description;
+    // frequency [Hz] above which it has no modes, as the string's table has none; NaN: no table
+    double limit_hz = std::numeric_limits<double>::quiet_NaN();
     // horizon of the headline [s], compared with half the modes, or with half the points if that is
     // earlier
     double horizon = std::numeric_limits<double>::quiet_NaN();

@@ -244,13 +244,13 @@ void Search::describe() {
     t_.description =
         size_.text() + (is_matched(choice_.settings.options) ? ", compliance matched" : "");
     if (sizes_.measured > 0) {
-        double highest = HUGE_VAL;
+        t_.limit_hz = HUGE_VAL;
         for (const String& s : scene_.strings)
-            highest = std::min(highest,
-                               std::get<TableDamping>(s.damping).frequency_hz[sizes_.measured - 1]);
+            t_.limit_hz = std::min(
+                t_.limit_hz, std::get<TableDamping>(s.damping).frequency_hz[sizes_.measured - 1]);
         t_.description +=
             fmt::format(", all that were measured: what lies above {:.2g} kHz is not in your table",
-                        highest / 1000);
+                        t_.limit_hz / 1000);
     }
     if (t_.coarser.empty()) return;
     const auto half_of = [&](bool points) {

@@ -931,6 +931,7 @@ TEST(Truth, OfMeasuredModesHasAllOfThemAndIsConfirmedByAnotherSolver) {
     EXPECT_EQ(truth.reference.choice.settings.options, OptionValues());
     EXPECT_TRUE(says(truth.description, "40 modes, all that were measured: what lies above"))
         << truth.description;
+    EXPECT_EQ(truth.limit_hz, std::get<TableDamping>(s.damping).frequency_hz.back());
     EXPECT_FALSE(says(truth.description, "too long")) << truth.description;
     EXPECT_EQ(truth.reference.trust.against, "sundials");
     EXPECT_GT(truth.reference.trust.of_scene(0, 2), 0);

@@ -139,8 +139,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
         : [];
   }
   const {c, cost} = best,
-    // Warning about the modes of a measured table.
-    [beyond] = /what lies above .*? is not in your table/.exec(c.reference_doubling ?? "") ?? [],
+    limit = number(c.fact_reference_limit_hz) / 1000, // highest mode of a measured table
     worst = number(c.worst_block_of_deadline),
     whole = error.replace(/error_l2_(10|50)ms/, "error_l2_whole"),
     later = c.errors[whole];
@@ -163,7 +162,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
     perhaps.length &&
       `Perhaps for less: ${all(perhaps)}; the reference is not known well enough to tell.`,
     Number.isNaN(number(scene_facts(rows).certificate)) && `${unknown}; this is as measured.`,
-    beyond && `W${beyond.slice(1)}.`,
+    limit > 0 && `What lies above ${digits(limit, 2)} kHz is not in your table.`,
     scene_facts(rows).busy && `Costs: ${scene_facts(rows).busy}.`,
   ].filter(Boolean);
 }
