@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
         if (ended) return;
         command::write_error(
             "jvari: a plugin or a library called exit() before the work was done; nothing of it is "
-            "to be trusted");
+            "to be trusted",
+            store::Mark::error);
         _exit(command::exit_code::run_failed);
     });
     const int code = code_of(argc, argv, json);

@@ -155,13 +155,13 @@ int compare_command(CompareCall r) {
         c.scene().name, c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate),
         c.scene().duration, rows, c.scene().taps.at(c.headline.nut).name,
         c.scene().taps.at(c.headline.bridge).name));
-    console.print(headline_text(cells, Console::width()) + "\n" + truth_text(c) +
-                  certificate_text(c) + "\n" + floor_text(c));
-    if (!results.cheapest.empty()) console.print(compare::cheapest_text(results.cheapest, cells));
+    console.print(headline_lines(cells, Console::width()));
+    console.print(truth_text(c) + certificate_text(c) + "\n" + floor_text(c));
+    console.print(compare::cheapest_lines(results.cheapest, cells));
     if (c.advice)
         console.print("advice: " + text_of(*c.advice) + "\n" + verdict_on(*c.advice, cells).text);
     for (const std::string& warning : compare::warnings_of(cells))
-        console.print("warning: " + warning);
+        console.print("warning: " + warning, store::Mark::doubtful);
     if (!r.out.empty()) console.print("written: " + r.out);
     const int code = code_of(c.outcome.records);
     console.print_json(with_results({{"scene", c.scene().name},

@@ -18,7 +18,6 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -41,17 +40,9 @@ bool in_colour(int stream) {
     return isatty(stream) != 0 && !(no && *no) && !(terminal && std::strcmp(terminal, "dumb") == 0);
 }
 
-const char* colour_of(std::string_view line) {
-    // front
-    if (line.starts_with("* ")) return "\033[32m";
-    // untrustworthy
-    if (line.starts_with("! ") || line.starts_with("warning")) return "\033[33m";
-    // error
-    if (line.starts_with("jvari: ")) return "\033[31m";
-    // answer
-    if (line.starts_with("the cheapest") || (line.starts_with("  ") && line.find(" within ") == 18))
-        return "\033[1m";
-    return "";
+const char* colour_of(store::Mark mark) {
+    constexpr const char* colours[] = {"", "\033[32m", "\033[33m", "\033[31m", "\033[1m"};
+    return colours[static_cast<int>(mark)];
 }
 
 // Replaces control characters by question marks, because names and notes come from files and
@@ -66,24 +57,20 @@ std::string harmless(std::string text) {
     return text;
 }
 
-std::string coloured(const std::string& plain, int stream) {
-    std::string text = harmless(plain);
-    if (!in_colour(stream)) return text;
+std::string coloured(const store::Lines& lines, int stream) {
     std::string all;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t end = std::min(text.find('\n', from), text.size());
-        const std::string line = text.substr(from, end - from), colour = colour_of(line);
-        all += colour + line + (colour.empty() ? "" : "\033[0m") + (end < text.size() ? "\n" : "");
-        from = end + 1;
+    for (const auto& [text, mark] : lines) {
+        const std::string colour = in_colour(stream) ? colour_of(mark) : "";
+        all += colour + harmless(text) + (colour.empty() ? "" : "\033[0m") + "\n";
     }
     return all;
 }
 
 std::FILE* own_output = stdout;
 
-void put(const std::string& text) {
-    const std::string line = coloured(text, STDOUT_FILENO) + "\n";
-    if (std::fwrite(line.data(), 1, line.size(), own_output) != line.size() ||
+void put(const store::Lines& lines) {
+    const std::string text = coloured(lines, STDOUT_FILENO);
+    if (std::fwrite(text.data(), 1, text.size(), own_output) != text.size() ||
         std::fflush(own_output) != 0)
         throw store::Unwritable(
             fmt::format("cannot write to standard output: {}", std::strerror(errno)));
@@ -164,20 +151,24 @@ void keep_standard_output() {
     dup2(STDERR_FILENO, STDOUT_FILENO);
 }
 
-void write_error(const std::string& line) {
-    std::fputs((coloured(line, STDERR_FILENO) + "\n").c_str(), stderr);
+void write_error(const std::string& line, store::Mark mark) {
+    std::fputs(coloured({{line, mark}}, STDERR_FILENO).c_str(), stderr);
 }
 
 void Console::note(const std::string& text) const {
     if (!quiet_) write_error(text);
 }
 
-void Console::print(const std::string& text) const {
-    if (!json_ && !quiet_) put(text);
+void Console::warn(const std::string& text) const {
+    if (!quiet_) write_error("warning: " + text, store::Mark::doubtful);
+}
+
+void Console::print(const store::Lines& lines) const {
+    if (!json_ && !quiet_) put(lines);
 }
 
 void Console::print_json(const std::string& text) const {
-    if (json_) put(text);
+    if (json_) put({{text}});
 }
 
 std::size_t Console::width() {
@@ -192,7 +183,7 @@ std::unique_ptr<store::Progress> Console::begin(const std::string& job) const {
 }
 
 int fail(bool json, int code, const char* status, const std::string& message) {
-    write_error("jvari: " + message);
+    write_error("jvari: " + message, store::Mark::error);
     try {
         Console(json, false)
             .print_json(

@@ -25,7 +25,7 @@ constexpr const char* status(int code) {  // status in the JSON output
 void keep_standard_output();
 void hold_standard_streams();
 // Writes a line to standard error and ignores a failure.
-void write_error(const std::string& line);
+void write_error(const std::string& line, store::Mark = store::Mark::none);
 
 // Wraps lines at 100 columns; continuation lines start below the second column of the broken line.
 std::string wrapped(const std::string& text);
@@ -35,8 +35,12 @@ public:
     Console(bool json, bool quiet) : json_(json), quiet_(quiet) {}
     bool json() const { return json_; }
     void note(const std::string&) const override;  // to standard error, unless --quiet
+    void warn(const std::string&) const override;
     // Prints the result as text to standard output, unless --json or --quiet; throws Unwritable.
-    void print(const std::string&) const;
+    void print(const store::Lines&) const;
+    void print(const std::string& text, store::Mark mark = store::Mark::none) const {
+        print(store::Lines{{text, mark}});
+    }
     // Prints one object to standard output, only with --json; throws Unwritable.
     void print_json(const std::string&) const;
 
@@ -77,14 +81,15 @@ struct TextTable {
     std::vector<Column> columns;
     std::vector<Row> rows;
 
-    // Lines end with a line break; a last line lists the omitted columns.
-    std::string text(std::size_t width) const;
+    // A last line lists the omitted columns.
+    store::Lines lines(std::size_t width) const;
+    std::string text(std::size_t width) const { return store::text_of(lines(width)); }
 };
 
 // ---- The table of a comparison for the terminal.
 
 // Marks the front and untrustworthy rows. Lines fit the width; cost and headline error are always
 // shown.
-std::string headline_text(const study::Cells&, std::size_t width);
+store::Lines headline_lines(const study::Cells&, std::size_t width);
 
 }  // namespace jvari::bench::command

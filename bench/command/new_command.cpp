@@ -155,8 +155,8 @@ void note_gauge(const NewRequest& r, const Console& console) {
         const bool wound = s.series.find(r.material) != std::string::npos &&
                            s.series.find("wound") != std::string::npos;
         if (!wound || r.diameter < s.gauge * inch * (1 - 1e-9)) continue;
-        console.note(fmt::format(
-            "warning: {:.4g} in of {} is a solid wire, {:.3g} kg/m; strings of that "
+        console.warn(fmt::format(
+            "{:.4g} in of {} is a solid wire, {:.3g} kg/m; strings of that "
             "gauge are sold wound: --material \"{}\"",
             r.diameter / inch, r.material,
             linear_density_of(materials[std::find(std::begin(material_names),

@@ -138,7 +138,8 @@ int judge_command(JudgeRequest r) {
     std::ranges::copy_if(c.outcome.records, std::back_inserter(own),
                          [](const study::Record& one) { return judge::is_candidate(one.cell); });
     const int code = code_of(own);
-    console.print(headline_text(results.cells, Console::width()) + "\n" + verdict);
+    console.print(headline_lines(results.cells, Console::width()));
+    console.print(verdict);
     if (!r.out.empty()) console.print("written: " + r.out);
     console.print_json(with_results({{"scene", c.scene().name},
                                      {"reference", c.reference.name()},

@@ -161,10 +161,10 @@ int suite_command(const SuiteRequest& r) {
     // Print after writing the files, so that nothing is lost if nobody reads the terminal.
     if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
-    if (!cheapest.empty()) console.print(compare::cheapest_text(cheapest, cells));
+    console.print(compare::cheapest_lines(cheapest, cells));
     if (!advised.empty()) console.print(suite::verdicts_on(advised, cells));
     for (const std::string& warning : compare::warnings_of(cells))
-        console.print("warning: " + warning);
+        console.print("warning: " + warning, store::Mark::doubtful);
     if (!r.out.empty()) console.print("written: " + folder.string());
     const int code = code_of(run.records);
     console.print_json(with_results({{"suite", suite.name},

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "bench/compare/bound.hpp"
@@ -18,7 +19,7 @@ std::size_t shown(const std::string& text) {  // counts UTF-8 characters
 }
 }  // namespace
 
-std::string TextTable::text(std::size_t width) const {
+store::Lines TextTable::lines(std::size_t width) const {
     std::vector<std::size_t> widths, kept(columns.size());
     for (std::size_t k = 0; k < columns.size(); ++k) {
         widths.push_back(shown(columns[k].head));
@@ -37,22 +38,25 @@ std::string TextTable::text(std::size_t width) const {
         left_out = columns[*last].head + (left_out.empty() ? "" : ", ") + left_out;
         kept.erase(last);
     }
-    std::string text;
+    store::Lines lines;
     const auto line = [&](char mark, const auto& field) {
         std::string fields;
         for (const std::size_t k : kept) {
             const std::string padding(widths[k] - shown(field(k)), ' ');
             fields += (columns[k].left ? field(k) + padding : padding + field(k)) + "  ";
         }
-        text +=
-            std::string(1, mark) + " " + fields.substr(0, fields.find_last_not_of(' ') + 1) + "\n";
+        lines.push_back(
+            {std::string(1, mark) + " " + fields.substr(0, fields.find_last_not_of(' ') + 1),
+             mark == '*'   ? store::Mark::best
+             : mark == '!' ? store::Mark::doubtful
+                           : store::Mark::none});
     };
     line(' ', [&](std::size_t k) { return columns[k].head; });
     for (const Row& row : rows) line(row.mark, [&](std::size_t k) { return row.fields[k]; });
     if (!left_out.empty())
-        text += "Not shown, because the terminal is narrow: " + left_out +
-                ". --json and the tables of --out have them.\n";
-    return text;
+        lines.push_back({"Not shown, because the terminal is narrow: " + left_out +
+                         ". --json and the tables of --out have them."});
+    return lines;
 }
 
 namespace {
@@ -87,7 +91,7 @@ TextTable::Row certificate_row(const study::Cells& cells, std::size_t columns) {
 }
 
 TextTable::Row row_of(const study::TabledCell& c) {
-    TextTable::Row row{c.pareto == 1      ? '*'
+    TextTable::Row row{c.pareto == true   ? '*'
                        : !c.flags.empty() ? '!'
                                           : ' ',
                        {c.variant(), std::isnan(c.rate) ? "contin." : store::text_of(c.rate),
@@ -109,13 +113,13 @@ TextTable::Row row_of(const study::TabledCell& c) {
 }
 
 std::string flag_text(const study::TabledCell& c) {
-    return fmt::format("  {}: {} (smallest contact force {}, ledger open by {})\n", c.run(),
-                       c.flags, formatted(c.smallest_contact_force, "{:.2g} N"),
+    return fmt::format("  {}: {} (smallest contact force {}, ledger open by {})", c.run(), c.flags,
+                       formatted(c.smallest_contact_force, "{:.2g} N"),
                        formatted(c.energy_residual_accumulated, "{:.1e}"));
 }
 
 // Explains the signs beside errors that occur in the table.
-std::string legend_of_bounds(const study::Cells& cells) {
+store::Lines legend_of_bounds(const study::Cells& cells) {
     const auto says = [&cells](compare::Bound::Says what) {
         return std::ranges::any_of(cells, [what](const study::TabledCell& c) {
             return std::ranges::any_of(errors, [&](const char* column) {
@@ -123,19 +127,38 @@ std::string legend_of_bounds(const study::Cells& cells) {
             });
         });
     };
-    std::string text;
+    store::Lines lines;
     if (says(compare::Bound::Says::at_most))
-        text +=
-            "\n\u2264 upper bound: the error and the uncertainty of the reference, which is more "
-            "than a tenth of it";
-    if (says(compare::Bound::Says::unknown)) text += "\nnot known: together they reach 100 %";
+        lines.push_back(
+            {"\u2264 upper bound: the error and the uncertainty of the reference, which is more "
+             "than a tenth of it"});
+    if (says(compare::Bound::Says::unknown))
+        lines.push_back({"not known: together they reach 100 %"});
     if (says(compare::Bound::Says::unsure))
-        text += "\n? measured against a reference whose own uncertainty is unknown";
-    return text;
+        lines.push_back({"? measured against a reference whose own uncertainty is unknown"});
+    return lines;
+}
+// Refusals for one reason share a line.
+store::Lines failures_of(const study::Cells& cells) {
+    store::Lines lines;
+    std::map<std::string, std::size_t> refused;  // lines by their reasons
+    for (const study::TabledCell& c : cells) {
+        if (c.status == "ok" || c.status == "not_needed") continue;
+        if (c.status != "refused") {
+            lines.push_back({fmt::format("  {} {}", c.run(), c.reason)});
+            continue;
+        }
+        const auto [known, is_new] = refused.try_emplace(c.reason, lines.size());
+        if (is_new) lines.push_back({"  " + c.run()});
+        else lines[known->second].text += "; " + c.run();
+    }
+    for (const auto& [reason, line] : refused) lines[line].text += " refused: " + reason;
+    if (!lines.empty()) lines.insert(lines.begin(), {"failed or refused"});
+    return lines;
 }
 }  // namespace
 
-std::string headline_text(const study::Cells& cells, std::size_t width) {
+store::Lines headline_lines(const study::Cells& cells, std::size_t width) {
     const std::string headline =
         study::measures()[compare::headline_error(cells, study::all_rows(cells))].column;
     const auto error = [&headline](const char* head, const char* column) {
@@ -156,41 +179,37 @@ std::string headline_text(const study::Cells& cells, std::size_t width) {
                      {"ns/step", false, 8}},
                     {}};
     table.rows.push_back(certificate_row(cells, table.columns.size()));
-    std::string missing, flagged, untimed;
+    store::Lines flagged, untimed;
     std::size_t left_out = 0;
     for (const study::TabledCell& c : cells) {
-        if (c.status == "not_needed") {
-            ++left_out;
-            continue;
-        }
-        if (c.status == "refused") {
-            const std::string why = " refused: " + c.reason + "\n";
-            if (const auto same = missing.find(why); same != std::string::npos)
-                missing.insert(same, "; " + c.run());
-            else missing += "  " + c.run() + why;
-            continue;
-        }
-        if (c.status != "ok") missing += fmt::format("  {} {}\n", c.run(), c.reason);
-        if (!c.untimed.empty()) untimed += fmt::format("\ncost of {}: {}", c.run(), c.untimed);
-        if (!c.flags.empty()) flagged += flag_text(c);
+        if (c.status == "not_needed") ++left_out;
+        if (c.status == "not_needed" || c.status == "refused") continue;
+        if (!c.untimed.empty())
+            untimed.push_back({fmt::format("cost of {}: {}", c.run(), c.untimed)});
+        if (!c.flags.empty()) flagged.push_back({flag_text(c)});
         table.rows.push_back(row_of(c));
     }
-    std::string text = table.text(width);
+    store::Lines lines = table.lines(width);
+    const auto add = [&lines](const store::Lines& more) {
+        lines.insert(lines.end(), more.begin(), more.end());
+    };
     if (const double from = cells.empty() ? 0 : cells[0].free_from_s; from > 0)
-        text += fmt::format(
-            "errors are of what follows the last pluck: their windows begin at {:.6g} s\n", from);
-    text += fmt::format(
-        "* on the Pareto front of {} and cost; +- is half the distance of the quartiles", headline);
-    text += untimed;
+        add({{fmt::format(
+            "errors are of what follows the last pluck: their windows begin at {:.6g} s", from)}});
+    add({{fmt::format(
+              "* on the Pareto front of {} and cost; +- is half the distance of the quartiles",
+              headline),
+          store::Mark::best}});
+    add(untimed);
     if (left_out > 0)
-        text += fmt::format("\n{} further runs were ended after {}: a cheaper one is as accurate",
-                            left_out, window_name(headline) + compare::after_pluck(cells[0]));
-    text += legend_of_bounds(cells);
+        add({{fmt::format("{} further runs were ended after {}: a cheaper one is as accurate",
+                          left_out, window_name(headline) + compare::after_pluck(cells[0]))}});
+    add(legend_of_bounds(cells));
     if (!flagged.empty())
-        text += "\n! not to be trusted, whatever the error says\n" +
-                flagged.substr(0, flagged.size() - 1);
-    return missing.empty() ? text
-                           : text + "\nfailed or refused\n" + missing.substr(0, missing.size() - 1);
+        add({{"! not to be trusted, whatever the error says", store::Mark::doubtful}});
+    add(flagged);
+    add(failures_of(cells));
+    return lines;
 }
 
 }  // namespace jvari::bench::command

@@ -63,8 +63,8 @@ const Descriptor& Catalogue::find(const std::string& name) const {
 void note_slow_plugins(const store::Listener& listener) {
     for (const Guest* g : guests())
         if (!g->optimised)
-            listener.note(
-                "warning: plugin " + g->path +
+            listener.warn(
+                "plugin " + g->path +
                 " is compiled without optimisation: its times say nothing of its schemes");
 }
 

@@ -43,7 +43,7 @@ void describe(Comparison& c, const CompareRequest& request, const study::Referen
     if (!c.reference.note.empty()) listener.note(c.reference.note);
     if (const std::string untouched = untouched_text(c.scene(), c.reference_summary);
         !untouched.empty())
-        listener.note("warning: " + untouched);
+        listener.warn(untouched);
     if (!c.against.trust.any())
         listener.note(c.reference.oversampled
                           ? fmt::format("the uncertainty of {} is unknown: {}", c.reference.name(),

@@ -86,9 +86,9 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
         const auto doubt = [&](bool doubtful, const char* key, double value, const char* unit,
                                const char* usual) {
             if (doubtful)
-                listener.note(
-                    fmt::format("warning: string {}: {} = {:g} {}; expected {}. Is the unit right?",
-                                i, key, value, unit, usual));
+                listener.warn(
+                    fmt::format("string {}: {} = {:g} {}; expected {}. Is the unit right?", i, key,
+                                value, unit, usual));
         };
         doubt(s.length < least_length || s.length > most_length, "length", s.length, "m",
               "0.03 to 4 m");
@@ -127,7 +127,7 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
             plucked(s) ? fmt::format("its pluck begins at {:g} s, and the run ends at {:g} s",
                                      s.pluck->start, scene.duration)
                        : "nothing sets it in motion; give it [string.start] or [string.pluck]";
-        listener.note(fmt::format("warning: string {} of {} stays silent: {}", i, scene.name, why));
+        listener.warn(fmt::format("string {} of {} stays silent: {}", i, scene.name, why));
     }
 }
 

@@ -27,7 +27,7 @@ void note_tables(const Scene& scene, const store::Listener& listener) {
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const String& s = scene.strings[i];
         const auto warn = [&](const std::string& what) {
-            listener.note(fmt::format("warning: string {}: {}", i, what));
+            listener.warn(fmt::format("string {}: {}", i, what));
         };
         if (const auto* t = std::get_if<TableDamping>(&s.damping)) {
             if (!t->filled.empty())
@@ -75,8 +75,8 @@ void note_modes(const Descriptor& d, const Scene& scene, const Settings& setting
         for (std::size_t k = 0; k < t->at.size(); ++k)
             if (t->displacement[k] != 0 || t->velocity[k] != 0) last = t->at[k];
         if (last > carried)
-            listener.note(
-                fmt::format("warning: string {}: {} moves modes up to {:g}, and this run "
+            listener.warn(
+                fmt::format("string {}: {} moves modes up to {:g}, and this run "
                             "has {}: what the others hold is left out. --modes {:g} "
                             "takes all",
                             i, t->file, last, carried, last));

@@ -157,7 +157,8 @@ bench::store::Table cheapest_in(
     return table_of(bench::compare::cheapest_of(cells, controls), cells);
 }
 std::string cheapest_text(const bench::study::Cells& cells) {
-    return bench::compare::cheapest_text(bench::compare::cheapest_of(cells), cells);
+    return bench::store::text_of(
+        bench::compare::cheapest_lines(bench::compare::cheapest_of(cells), cells));
 }
 
 TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {

@@ -157,6 +157,7 @@ TEST(Diagnosis, StandsInTheTableOfTheCheapestWhereItSaysNone) {
     for (const compare::Answer& a : answers)
         EXPECT_EQ(!a.why.empty(), std::string(a.status) == "none" && study::is_waveform(a.measure))
             << a.goal();
-    EXPECT_TRUE(says(compare::cheapest_text(answers, cells), "none. Closest: a, 10 modes at"));
+    EXPECT_TRUE(says(store::text_of(compare::cheapest_lines(answers, cells)),
+                     "none. Closest: a, 10 modes at"));
 }
 }  // namespace

@@ -167,33 +167,38 @@ store::Table table_of(const std::vector<Answer>& answers, const Cells& cells) {
     return t;
 }
 
-std::string cheapest_text(const std::vector<Answer>& answers, const Cells& cells) {
-    std::string text, last;
+store::Lines cheapest_lines(const std::vector<Answer>& answers, const Cells& cells) {
+    store::Lines lines;
+    std::string last;
     for (const Answer& a : answers) {
         std::string scene = cells[a.of].scene;
         for (const auto& [key, value] : cells[a.of].swept) scene += " " + key + "=" + value;
-        if (scene != last)
-            text += fmt::format("{}the cheapest scheme on {}\n", text.empty() ? "" : "\n", scene);
+        if (scene != last) {
+            if (!lines.empty()) lines.push_back({""});
+            lines.push_back({"the cheapest scheme on " + scene, store::Mark::answer});
+        }
         last = scene;
-        text +=
+        std::string text =
             fmt::format("  {:<16} within {:<6}  ", study::measures()[a.measure].column, a.goal());
+        std::string below;
         if (a.cell) {
-            text += fmt::format("{}, {}, {:.3g} s per s{}{}\n", cells[*a.cell].run(),
+            text += fmt::format("{}, {}, {:.3g} s per s{}{}", cells[*a.cell].run(),
                                 quoted(a.bound, a.measure), cells[*a.cell].cost_s_per_s,
                                 a.ties.empty() ? "" : "; a tie with " + a.ties,
                                 a.perhaps.empty() ? "" : "; perhaps for less " + a.perhaps);
-            if (!a.why.empty()) text += fmt::format("    {}\n", a.why);
-            if (!a.as_published.empty())
-                text += fmt::format("    without matched compliance: {}\n", a.as_published);
+            below = a.why;
         } else if (std::string(a.status) == "not_known") {
-            text += fmt::format("cannot be decided: {}\n", a.why);
-            if (!a.perhaps.empty()) text += fmt::format("    candidates: {}\n", a.perhaps);
+            text += fmt::format("cannot be decided: {}", a.why);
+            if (!a.perhaps.empty()) below = "candidates: " + a.perhaps;
         } else {
-            text += a.why.empty() ? "none\n" : fmt::format("none. {}\n", a.why);
+            text += a.why.empty() ? "none" : "none. " + a.why;
         }
+        lines.push_back({text, store::Mark::answer});
+        if (!below.empty()) lines.push_back({"    " + below});
+        if (a.cell && !a.as_published.empty())
+            lines.push_back({"    without matched compliance: " + a.as_published});
     }
-    if (!text.empty()) text.pop_back();
-    return text;
+    return lines;
 }
 
 }  // namespace jvari::bench::compare

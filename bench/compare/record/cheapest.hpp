@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/compare/bound.hpp"
+#include "bench/store/system/listener.hpp"
 
 namespace jvari::bench::compare {
 
@@ -47,7 +48,7 @@ bool may_win(const study::TabledCell&, Controls);
 // Columns scene, <swept keys>, measure, target, status, run, scheme, options, rate, modes, error,
 // bound, cost_s_per_s, ties, perhaps, as_published, why.
 store::Table table_of(const std::vector<Answer>&, const study::Cells&);
-// text for the terminal; "" without answers
-std::string cheapest_text(const std::vector<Answer>&, const study::Cells&);
+// for the terminal; empty without answers
+store::Lines cheapest_lines(const std::vector<Answer>&, const study::Cells&);
 
 }  // namespace jvari::bench::compare

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace jvari::bench::store {
 
@@ -20,11 +21,25 @@ public:
     virtual void show(double /*fraction*/, const std::string& /*what*/ = {}) {}
 };
 
+// Lines of a text. A terminal may show their marks by colours.
+enum class Mark { none, best, doubtful, error, answer };
+struct Line {
+    std::string text;
+    Mark mark = Mark::none;
+};
+using Lines = std::vector<Line>;
+inline std::string text_of(const Lines& lines) {  // ends with a line break
+    std::string text;
+    for (const Line& line : lines) text += line.text + "\n";
+    return text;
+}
+
 class Listener {
 public:
     virtual ~Listener() = default;
     // The message has at least a line, without a final line break.
     virtual void note(const std::string& /*text*/) const {}
+    virtual void warn(const std::string& text) const { note("warning: " + text); }
     virtual std::unique_ptr<Progress> begin(const std::string& /*job*/) const {
         return std::make_unique<Progress>();
     }
