@@ -102,13 +102,11 @@ Settings settings_for(const Descriptor& d, const Scene& scene) {
     return s;
 }
 
-bool is_called(const Descriptor& d) { return std::string_view(d.untimed).starts_with("external"); }
-
 bool takes(const Descriptor& d, const Scene& scene, const Settings& settings) {
     try {
         if (!represents(d, scene)) return false;
         const auto scheme = make_scheme(d, scene, settings);
-        if (is_called(d)) run(*scheme, scene, settings);
+        if (judge::is_external(d)) run(*scheme, scene, settings);
         return true;
     } catch (const Refusal&) {
         return false;
@@ -143,7 +141,7 @@ Verdict verdict_on(const Promise& p, const Case& c) {
             } catch (const BadScene& e) { return not_asked(e.what()); }
         return excused(p, c, p.of(c));
     } catch (const Refusal& refusal) {
-        return is_called(c.scheme)
+        return judge::is_external(c.scheme)
                    ? not_asked(std::string("refuses it: ") + refusal.what())
                    : broken(fmt::format("refuses the scene after it was made: {}", refusal.what()));
     } catch (const std::exception& e) {
@@ -237,7 +235,7 @@ Checked check(const Descriptor& d, const Asked& selection, const store::Listener
         c.examined.push_back(&p);
         // Each run of an external program needs a process and a file.
         const bool too_many =
-            selection.promises.empty() && is_called(d) && p.of == feels_every_number;
+            selection.promises.empty() && judge::is_external(d) && p.of == feels_every_number;
         const bool last = p.scope == Scope::once_all_before_are_kept,
                    claim = last || p.scope == Scope::once_all_others_are_kept;
         const std::string& rests_on = last && broken.empty() ? claim_broken : broken;

@@ -97,7 +97,7 @@ Verdict refusals_name_what_is_missing(const Case& c) {
 Verdict runs_a_scene(const Case& c) {
     const Features never = always_refused(c.scheme);
     const std::string refused = names_of(never);
-    if (is_called(c.scheme) && never != c.scheme.represents)
+    if (judge::is_external(c.scheme) && never != c.scheme.represents)
         return kept(refused.empty() ? "" : "refuses " + refused);
     return refused.empty() ? kept()
                            : broken(fmt::format(
@@ -217,7 +217,7 @@ std::vector<HeardPartial> heard_partials(const Descriptor& d, const Scene& scene
 }
 
 Verdict partials_are_its_own_relations(const Case& c) {
-    if (is_called(c.scheme)) return not_asked(in_a_process);
+    if (judge::is_external(c.scheme)) return not_asked(in_a_process);
     bool any = false;
     for (const bool stiff : {true, false})
         for (const bool damped : {true, false})

@@ -17,6 +17,7 @@
 
 #include "analysis/dispersion.hpp"
 #include "bench/compare/catalogue.hpp"
+#include "bench/judge/judge.hpp"
 #include "bench/store/system/listener.hpp"
 #include "scenes/scene.hpp"
 #include "schemes/making.hpp"
@@ -112,9 +113,7 @@ bool is_as_the_scene_says(const Descriptor&, const Scene&);
 // Tests whether the scheme touches a profile at points, as many as the option `points` says;
 // references have `nodes` instead.
 bool has_points_for_a_profile(const Descriptor&);
-// Tests whether the scheme is an external program exchanging files. Only its rows are known, and it
-// refuses at run time.
-bool is_called(const Descriptor&);
+// An external program exchanges files: only its rows are known, and it refuses at run time.
 constexpr const char* in_a_process = "it runs in a process of its own, and gives rows alone";
 bool takes(const Descriptor&, const Scene&, const Settings&);  // false if it refuses
 Run fresh(const Case&, const RunOptions&);  // runs a new scheme made for the case

@@ -96,7 +96,7 @@ Verdict never_pulls(const Case& c) {
 // depends on more than the penetration.
 
 Verdict facts_agree_with_its_rows(const Case& c) {
-    if (is_called(c.scheme)) return not_asked(in_a_process);
+    if (judge::is_external(c.scheme)) return not_asked(in_a_process);
     Case one = c;
     one.scene.taps.clear();
     for (int k = 0; k < static_cast<int>(c.scene.strings.size()); ++k)

@@ -33,7 +33,7 @@ std::string apart(const Trace& a, const Trace& b) {
 }  // namespace
 
 Verdict allocates_nothing(const Case& c) {
-    if (is_called(c.scheme)) return not_asked(in_a_process);
+    if (judge::is_external(c.scheme)) return not_asked(in_a_process);
     if (*c.scheme.untimed) return not_asked(c.scheme.untimed);
     if (!Allocations::counted()) return not_asked("allocations are not counted on this C library");
     const auto scheme = make_scheme(c.scheme, c.scene, c.settings);

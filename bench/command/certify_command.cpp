@@ -159,9 +159,7 @@ bool covers_more(const Certificate& old, const Certificate& fresh) {
     if (old.scene_hash != fresh.scene_hash || old.modes != fresh.modes ||
         old.tap_rate != fresh.tap_rate)
         return false;
-    const auto is_stand_in = [](const Certificate& c) {
-        return c.entries.front().reference.starts_with("oversampled ");
-    };
+    const auto is_stand_in = [](const Certificate& c) { return c.entries.front().oversampled(); };
     // A reference has learned to represent the scene.
     if (is_stand_in(old) && !is_stand_in(fresh)) return false;
     return old.duration > fresh.duration * (1 + 1e-9);

@@ -20,8 +20,6 @@
 namespace jvari::bench::judge {
 
 namespace {
-constexpr const char* no_cost = "not reported";
-
 std::unique_ptr<Scheme> row_player(const Descriptor& d, const Scene&, const Settings& settings) {
     const auto& traces = static_cast<const Candidate*>(d.own)->traces;
     const auto found = traces.find(settings.sample_rate);
@@ -38,7 +36,7 @@ std::string enter(Candidate candidate) {  // adds a guest; returns its path
                  Clock::stepped,     row_player};
     d.all_strings = true;
     d.own = kept.get();
-    d.untimed = no_cost;
+    d.untimed = "not reported";
     try {
         add_guest({path, {d}, kept->contents, kept});
     } catch (const std::runtime_error& e) { throw store::UsageError(e.what()); }
@@ -181,7 +179,7 @@ void report_costs(compare::Comparison& c, const std::string& scheme, const Costs
     }
 }
 
-bool is_candidate(const study::Cell& cell) { return cell.scheme->untimed == no_cost; }
+bool is_candidate(const study::Cell& cell) { return cell.scheme->make == row_player; }
 
 Rows rows_for(const compare::CompareRequest& request, const Scene& scene) {
     Settings settings;

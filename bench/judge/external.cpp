@@ -199,8 +199,10 @@ std::string enter_external(const std::string& command) {
     return path;
 }
 
+bool is_external(const Descriptor& d) { return d.make == called; }
+
 Descriptor declared(const Descriptor& d) {
-    if (d.make != called) return d;
+    if (!is_external(d)) return d;
     const auto start = std::chrono::steady_clock::now();
     const store::Said output = run_external(
         *static_cast<const External*>(d.own), {"represents"},

@@ -68,6 +68,8 @@ constexpr Features every_feature{(1u << feature_count) - 1};
 // programs on the PATH. Words are split like in a shell.
 std::string enter_external(const std::string& command);
 
+bool is_external(const Descriptor&);  // a program registered by enter_external
+
 // Adds the program's own declarations. It is called with the one word "represents" and prints lines
 // "represents: damping, thread" and "balance: exact", in the terms of jvari_scheme.h. The
 // descriptor stays unchanged if the program prints nothing within 10 s, or has an exit code other

@@ -90,6 +90,13 @@ void read_manifest(Results& r, const Json& m) {
 }
 }  // namespace
 
+std::string trimmed_scene(const Json& manifest) {
+    if (const auto scene = manifest.find("trimmed"); scene != manifest.end()) return *scene;
+    // manifests of older programs
+    const auto request = manifest.find("asked");
+    return request == manifest.end() ? "" : request->value("scene", "");
+}
+
 Results read_results(const fs::path& path) {
     const store::Folder folder{path};
     Results r;
@@ -210,10 +217,8 @@ constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".toml"
 std::string what_is_in(const fs::path& folder) {  // "" if unknown
     try {
         const auto m = store::Folder{folder}.manifest();
-        if (m.contains("suite")) {
-            const std::string name = m.at("suite");
-            return name.starts_with("trim ") ? "trim of " + name.substr(5) : "suite " + name;
-        }
+        if (const std::string scene = trimmed_scene(m); !scene.empty()) return "trim of " + scene;
+        if (m.contains("suite")) return "suite " + m.at("suite").get<std::string>();
         return "comparison of " + m.at("scene").at("name").get<std::string>();
     } catch (const std::exception&) { return ""; }
 }

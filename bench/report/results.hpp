@@ -32,6 +32,9 @@ struct Results {
     std::map<std::string, store::Table> tables;
 };
 
+// Scene of a trim's manifest; "" for a comparison and for a suite.
+std::string trimmed_scene(const nlohmann::ordered_json& manifest);
+
 // Throws UsageError if manifest.json is missing, if facts.csv, maps.csv and path.csv are all
 // missing, or if a file cannot be read.
 Results read_results(const std::filesystem::path&);

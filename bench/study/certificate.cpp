@@ -24,8 +24,6 @@ using Entry = Certificate::Entry;
 
 double finest_rate(double tap_rate) { return 64 * tap_rate; }  // highest rate for oversampled runs
 
-bool is_oversampled(const Entry& e) { return e.sample_rate > 0; }
-
 std::vector<Entry> entries_for(const Scene& scene, const CertifySettings& settings) {
     const std::vector<const Descriptor*> able = references_of(scene);
     const auto confirmation_of = [&scene](const Descriptor& d) {
@@ -66,7 +64,7 @@ std::vector<Entry> entries_for(const Scene& scene, const CertifySettings& settin
 
 bool is_default(const Entry& e) {
     return (e.options.empty() || (e.options.size() == 1 && is_matched(e.options))) &&
-           e.doubled.empty() && !is_oversampled(e);
+           e.doubled.empty() && !e.oversampled();
 }
 
 bool are_compared(const Entry& a, const Entry& b) {
@@ -76,7 +74,7 @@ bool are_compared(const Entry& a, const Entry& b) {
 }
 
 Settings settings_of(const Certificate& c, const Entry& e) {
-    return {is_oversampled(e) ? finest_rate(c.tap_rate) : 0, c.tap_rate,
+    return {e.oversampled() ? finest_rate(c.tap_rate) : 0, c.tap_rate,
             e.doubled == "modes" ? 2 * c.modes : c.modes, e.options};
 }
 
@@ -85,7 +83,7 @@ Trace run_entry(Entry& e, const Certificate& c, const Scene& scene, const RunOpt
                 const std::filesystem::path& runs) {
     Settings own = settings_of(c, e);
     Run r;
-    if (is_oversampled(e)) {
+    if (e.oversampled()) {
         own.sample_rate /= multiple;
         Oversampled o = oversampled(*e.scheme, scene, own, multiple, options);
         e.estimate = o.estimates;

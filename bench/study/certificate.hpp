@@ -45,8 +45,9 @@ struct Certificate {
         std::string reason;  // reason of a refusal; if set, the entry has no results
         // "modes" or "points": the size that is doubled; "": the size of the certificate's model
         std::string doubled;
-        const Descriptor* scheme = nullptr;  // set in a plan only, not stored
-        std::string name() const;            // "sundials rtol=1e-12"
+        const Descriptor* scheme = nullptr;                   // set in a plan only, not stored
+        std::string name() const;                             // "sundials rtol=1e-12"
+        bool oversampled() const { return sample_rate > 0; }  // a stand-in
     };
     struct Pair {
         int first, second;  // places of two entries; differences are relative to the second

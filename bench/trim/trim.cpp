@@ -310,7 +310,8 @@ Json manifest_of(const Trimmed& t, Judge& judge, const Request& r) {
                      {"truths", truths},
                      {"judged", t.judged},
                      {"read_back", t.read_back},
-                     {"not_tried", t.not_tried}});
+                     {"not_tried", t.not_tried},
+                     {"trimmed", t.whole.name}});
     return manifest;
 }
 
