@@ -106,7 +106,7 @@ Json columns_json() {
         else all.back()["name"] = all.back()["name"].get<std::string>() + ", " + name;
         if (name == "flags")
             for (const study::Measure& m : study::measures())
-                all.push_back(quantity_json(m.column, m.unit, m.title));
+                all.push_back(quantity_json(m.column, m.unit, m.axis()));
     }
     all.push_back(quantity_json(
         "fact_<fact>", "",

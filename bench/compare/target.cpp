@@ -28,8 +28,7 @@ std::vector<Target> targets() {
     std::vector<Target> all;
     for (std::size_t k = 0; k < study::measures().size(); ++k)
         if (const study::Measure& m = study::measures()[k]; m.less_is_better)
-            all.push_back({k, 0, name_of(m.column), m.title.substr(0, m.title.find(" [")),
-                           m.unit == "1" ? "%" : m.unit});
+            all.push_back({k, 0, name_of(m.column), m.title, m.unit == "1" ? "%" : m.unit});
     return all;
 }
 

@@ -45,46 +45,16 @@ store::Table fitting(store::Table t, Json& left_out) {
     std::sort(columns.rbegin(), columns.rend());
     std::vector<bool> kept(columns.size(), true);
     const auto needed = [&](const std::string& name) {
-        return std::ranges::any_of(std::initializer_list<const char*>{"problem",
-                                                                      "series",
-                                                                      "cell",
-                                                                      "scene",
-                                                                      "scheme",
-                                                                      "options",
-                                                                      "rate",
-                                                                      "modes",
-                                                                      "status",
-                                                                      "flags",
-                                                                      "error_l2",
-                                                                      "third_octave",
-                                                                      "cost",
-                                                                      "ns_per",
-                                                                      "map",
-                                                                      "x",
-                                                                      "y",
-                                                                      "outcome",
-                                                                      "row",
-                                                                      "tap",
-                                                                      "measure",
-                                                                      "value",
-                                                                      "floor",
-                                                                      "certificate",
-                                                                      "shown",
-                                                                      "text",
-                                                                      "order",
-                                                                      "half_width",
-                                                                      "points",
-                                                                      "trusted",
-                                                                      "may_win",
-                                                                      "run",
-                                                                      "line",
-                                                                      "target",
-                                                                      "worst_",
-                                                                      "headline",
-                                                                      "free_from",
-                                                                      "fact_grid_intervals",
-                                                                      "fact_reference_limit"},
-                                   [&](const char* start) { return name.starts_with(start); });
+        return std::ranges::any_of(
+            std::initializer_list<const char*>{
+                "problem",   "series",    "cell",      "scene",      "scheme",   "options",
+                "rate",      "modes",     "status",    "flags",      "error_l2", "third_octave",
+                "cost",      "ns_per",    "map",       "x",          "y",        "outcome",
+                "row",       "tap",       "measure",   "value",      "floor",    "certificate",
+                "shown",     "text",      "order",     "half_width", "points",   "trusted",
+                "may_win",   "run",       "line",      "target",     "worst_",   "headline",
+                "free_from", "fact_grid", "fact_refer"},
+            [&](const char* start) { return name.starts_with(start); });
     };
     for (const auto& [bytes, k] : columns)
         if (all > table_limit && !needed(t.columns[k])) {
@@ -119,7 +89,7 @@ void shorten_errors(store::Table& t, Json& left_out) {
 Json measures() {
     Json all = Json::array();
     for (const study::Measure& m : study::measures())
-        if (m.less_is_better) all.push_back({m.column, m.title});
+        if (m.less_is_better) all.push_back({m.column, m.axis(), m.title, m.unit});
     return all;
 }
 
@@ -145,13 +115,20 @@ Json kept_levels(const Results& r) {
 }  // namespace
 
 Json data_of(const Results& r) {
-    Json data = empty_data(r.name, r.source + (r.source.empty() ? "" : " \u2014 ") + r.about);
+    const auto behind = [&r](const std::string& text) {
+        return r.source + (r.source.empty() || text.empty() ? "" : " \u2014 ") + text;
+    };
+    Json data = empty_data(r.name, behind(r.about + (r.about.empty() ? "" : "; ") + r.date));
+    data["undated"] = behind(r.about);
     data["source"] = r.source;
     data["command"] = r.command;
     data["measures"] = measures();
     for (const study::TabledCell& c : r.cells)
         data["options"][store::options_text(c.options)] = c.options;
-    data["manifest"] = r.manifest.empty() ? Json() : store::parsed(r.manifest);
+    data["units"] = units();
+    data["manifest"] = store::parsed(r.manifest);
+    data["quantities"] = quantities_in(data["manifest"]);
+    data["trimmed"] = trimmed_scene(data["manifest"]);
     auto tables = derived_tables(r);
     const store::Table cheapest = tables["cheapest"];
     shorten_errors(tables["errors"], data["left_out"]["cells"]);
@@ -174,8 +151,10 @@ nlohmann::ordered_json empty_data(const std::string& title, const std::string& a
               {"schemes", known},
               {"tables", Json::object()},
               {"options", Json::object()},
+              {"units", Json::object()},
+              {"quantities", Json::object()},
               {"manifest", Json::object()}};
-    for (const char* text : {"source", "command", "missing"}) data[text] = "";
+    for (const char* text : {"undated", "source", "trimmed", "command", "missing"}) data[text] = "";
     for (const char* list : {"measures", "sounds", "levels"}) data[list] = none;
     for (const char* of : {"cells", "sounds"}) data["left_out"][of] = none;
     return data;

@@ -43,6 +43,11 @@ nlohmann::ordered_json data_of(const Results&);
 // control; in the order of their registry), and empty tables, sounds and levels.
 nlohmann::ordered_json empty_data(const std::string& title, const std::string& about);
 
+// Units of a scene's numbers: {"string.barrier.stiffness": "N/m^exponent"}, and of a rate.
+nlohmann::ordered_json units();
+// Quantities of the taps in a manifest's scenes: {scene: {tap: "nut_force"}}.
+nlohmann::ordered_json quantities_in(const nlohmann::ordered_json& manifest);
+
 // ---- The report's page: one file, no network. JavaScript in page/*.js draws the data in the page;
 // node makes the SVG files with the same JavaScript (vega.hpp).
 

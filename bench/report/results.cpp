@@ -71,7 +71,7 @@ void name_rows(store::Table& t, const std::string& scene) {
 
 void read_manifest(Results& r, const Json& m) {
     r.manifest = store::compact(m);
-    r.about = m.value("date", "");
+    r.date = m.value("date", "");
     r.command = m.value("command", "");
     r.controls =
         m.value("controls", false) ? compare::Controls::compete : compare::Controls::stand_beside;
@@ -83,8 +83,8 @@ void read_manifest(Results& r, const Json& m) {
     const Json& scene = m.at("scene");
     r.name = scene.at("name");
     r.source = scene.at("source");
-    r.about = fmt::format("against {}, {} s; {}", m.at("reference").at("name").get<std::string>(),
-                          scene.at("duration").get<double>(), r.about);
+    r.about = fmt::format("against {}, {} s", m.at("reference").at("name").get<std::string>(),
+                          scene.at("duration").get<double>());
     if (scene.contains("strings") && !scene.at("strings").empty())
         r.about = scene.at("strings").at(0).get<std::string>() + "; " + r.about;
 }

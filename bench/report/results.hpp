@@ -20,8 +20,8 @@ namespace jvari::bench::report {
 
 struct Results {
     std::filesystem::path folder;
-    std::string manifest;                      // JSON
-    std::string name, source, about, command;  // command: made the results
+    std::string manifest;                            // JSON
+    std::string name, source, about, date, command;  // command: made the results
     compare::Controls controls = compare::Controls::stand_beside;
     study::Cells cells;
     std::vector<std::string> series;  // for each cell
@@ -48,8 +48,8 @@ Results read_results(const std::filesystem::path&);
 // JavaScript looks them up and draws them.
 
 // cells:    all figures for each cell except its errors; in front problem and series, behind
-//           trusted, may_win, run (its name in a sentence), line (its series in the first chart).
-//           The line is empty if another number of modes is better for the same scheme.
+//           trusted, may_win, line (its series in the first chart). The line is empty if another
+//           number of modes is better for the same scheme.
 // errors:   row (in cells), tap, measure, value, floor, certificate; shown, text: for errors with
 //           only a bound (compare/bound.hpp).
 // scenes:   problem, headline, certificate (from the first cell), busy (from the clock).

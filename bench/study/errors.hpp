@@ -17,11 +17,13 @@ struct Measure {
     std::string column;  // "error_l2_50ms"
     std::string unit;    // "1", "s", "dB", "Hz"
     std::string title;   // "relative L2 error, 0-50 ms"
+    std::string scale;   // unit on an axis, "dB rms"; "" for a ratio
     bool bridge;         // true: the headline takes the bridge tap, false: the nut tap
     bool less_is_better;
     double window;  // length [s], after the last excitation; infinite: to the end of the run
     double (*of)(Pair&);
     bool heard = false;  // true: run and reference are read by their modes below 20 kHz
+    std::string axis() const { return scale.empty() ? title : title + " [" + scale + "]"; }
 };
 const std::vector<Measure>& measures();
 std::size_t measure(const std::string& column);  // place in measures()

@@ -8,19 +8,17 @@ function order_text(order, half_width) {
     ? `${order.toFixed(2)} \u00b1 ${digits(half_width, 2)}`
     : "";
 }
-// Texts of the orders by "scene|series|error": from convergence.csv if measured there, otherwise
+// Orders by "scene|series|error", {order, text}: from convergence.csv if measured there, otherwise
 // from the cells.
 function orders() {
-  const all = new Map(
-    records("orders").map(o => [
-      `${o.problem}|${o.series}|${error_name(o)}`,
-      order_text(number(o.order), number(o.half_width)),
-    ]),
-  );
-  for (const {problem, series, window, tap, order, half_width} of records("convergence")) {
-    const error = error_name({measure: "error_l2_" + window, tap});
-    all.set(`${problem}|${series}|${error}`, order_text(number(order), number(half_width)));
-  }
+  const all = new Map(),
+    add = (o, error) =>
+      all.set(`${o.problem}|${o.series}|${error_name(error)}`, {
+        order: number(o.order),
+        text: order_text(number(o.order), number(o.half_width)),
+      });
+  for (const o of records("orders")) add(o, o);
+  for (const o of records("convergence")) add(o, {measure: "error_l2_" + o.window, tap: o.tap});
   return all;
 }
 
@@ -33,20 +31,21 @@ function convergence_spec(choice, print) {
     ),
     names = in_order(all.map(p => p.series)),
     {color, shape, strokeDash} = encodings_of(names);
+  const order_of = p => known.get(`${choice.scene}|${p.series}|${error}`);
   for (const p of all)
     p.tooltip = tooltip([
       ["scheme", spoken(p.series)],
       ["rate", p.label],
       ["error", error_text(p.y, error)],
-      ["order", known.get(`${choice.scene}|${p.series}|${error}`)],
+      ["order", order_of(p)?.text],
     ]);
   const ends = names
     .map(name => all.filter(p => p.series === name).reduce((a, b) => (b.rate > a.rate ? b : a)))
-    .filter(p => p.tooltip.order && !p.control)
+    .filter(p => order_of(p)?.text && !p.control)
     .sort((a, b) => a.y - b.y);
   const labels = ends
     .filter((p, k) => k === 0 || p.y > 1.15 * ends[k - 1].y)
-    .map(p => ({rate: p.rate, y: p.y, text: p.tooltip.order.split(" ")[0]}));
+    .map(p => ({rate: p.rate, y: p.y, text: order_of(p).order.toFixed(2)}));
   const shown = all.filter(p => p.y < 1),
     from = Math.min(...shown.map(p => p.rate)),
     to = Math.max(...shown.map(p => p.rate)),

@@ -9,11 +9,17 @@ const card = (id, title, ...parts) =>
 
 function bar_of({best: {c, cost}, scheme}, k, [first], most) {
   const name = element("strong", {}, scheme_words(scheme)),
-    place = run_words(c).slice(scheme.length).replace(/^\W+/, ""),
+    words = option_words(c),
+    place = [words && modes_words(c) ? words + ":" : words, modes_words(c), rate_words(c)],
     bar = element("i", {className: cost > most ? "broken" : ""}),
     text = time_text(cost) + (k ? ` \u00b7 ${times_words(cost / first.best.cost)}` : "");
   bar.style.width = `calc(${Math.min(1, cost / most)} * (100% - 160px))`;
-  const row = element("li", {className: k ? "" : "winner"}, name, element("small", {}, place));
+  const row = element(
+    "li",
+    {className: k ? "" : "winner"},
+    name,
+    element("small", {}, place.filter(Boolean).join(" ")),
+  );
   row.append(element("br"), sample_of(looks_of([variant(c)]).get(variant(c))), bar, text);
   row.dataset.n = c.n;
   return row;

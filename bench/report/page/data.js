@@ -63,9 +63,8 @@ function without(t, names) {
   };
 }
 
-// Cells with the program's judgement: `trusted`, `may_win`, `run` (name in a sentence), `line`
-// (series in the chart with the front; none if another number of modes is better), and errors by
-// name.
+// Cells with the program's judgement: `trusted`, `may_win`, `line` (series in the chart with the
+// front; none if another number of modes is better), and errors by name.
 const error_name = ({measure, tap}) => measure + (tap && "_" + tap); // tap "": headline
 let joined = null;
 function cells() {
@@ -99,15 +98,17 @@ const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row
 
 // Start of the error windows in these rows, for a title.
 const after_pluck = rows => (number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "");
-// Errors for the menus of a scene, headline first: {column, title, measure, tap}.
+// Errors for the menus of a scene, headline first: {column, title, menu, name, measure, tap}.
 let taps = null;
 function errors_in(rows) {
   taps ??= distinct(["", ...records("errors").map(e => e.tap)]);
   const all = taps
     .flatMap(tap =>
-      page.measures.map(([measure, title]) => ({
+      page.measures.map(([measure, axis, name]) => ({
         column: error_name({measure, tap}),
-        title: title + after_pluck(rows) + (tap && `, tap ${tap}`),
+        title: axis + after_pluck(rows) + (tap && `, tap ${tap}`),
+        menu: axis + after_pluck(rows),
+        name,
         measure,
         tap,
       })),
@@ -117,17 +118,16 @@ function errors_in(rows) {
   return all.sort((a, b) => (b.column === headline) - (a.column === headline));
 }
 // Name of an error in a sentence: "the force on the nut, first 50 ms".
-function spoken_error({measure, tap, title}, [row = {}]) {
+const forces = {nut_force: "nut", bridge_force: "bridge", thread_force: "thread"};
+function spoken_error({measure, tap, name: title}, [row = {}]) {
   const octaves = measure === "third_octave_db",
     name = tap || row[octaves ? "headline_bridge" : "headline_nut"],
-    scene = page.manifest?.scenes?.[row.scene] ?? page.manifest?.scene?.text ?? "",
-    of_tap = scene.split("[[tap]]").find(text => text.includes(`name = "${name}"`)) ?? "",
-    [, quantity = "signal"] = /quantity = "(\w+)"/.exec(of_tap) ?? [],
-    [what, force] = quantity.split("_"),
-    signal = force
-      ? `the force on the ${what}${name === what ? "" : ` (${name})`}`
-      : `the ${what}${name ? ` at ${name}` : ""}`,
-    whole = octaves ? "third octaves" : title.replace(/( \[| after the|, tap ).*/, "");
+    quantity = page.quantities[row.scene]?.[name] ?? "signal",
+    place = forces[quantity],
+    signal = place
+      ? `the force on the ${place}${name === place ? "" : ` (${name})`}`
+      : `the ${quantity.replace("_", " ")}${name ? ` at ${name}` : ""}`,
+    whole = octaves ? "third octaves" : title;
   const window = {
     error_l2_10ms: "first 10 ms",
     error_l2_50ms: "first 50 ms",
@@ -144,7 +144,7 @@ function spoken_error({measure, tap, title}, [row = {}]) {
 // Menus for an error: measure and tap.
 function error_menus(rows) {
   const errors = errors_in(rows),
-    measures = new Map(errors.map(e => [e.measure, e.title.replace(/, tap .*/, "")]));
+    measures = new Map(errors.map(e => [e.measure, e.menu]));
   return [
     {label: "error", key: "measure_field", choices: [...measures]},
     {
@@ -182,27 +182,9 @@ function file_part(text, all) {
 const twin_file = (chart, problem, problems) =>
   `${chart}${problems.length > 1 ? "-" + file_part(problem, problems) : ""}.svg`;
 
-const units = {
-  rate: "Hz",
-  stiffness: "N/m^exponent",
-  stiffness_density: "N/m^(exponent+1)",
-  tension: "N",
-  amplitude: "m",
-  coefficient: "1/m",
-  linear_density: "kg/m",
-  bending_stiffness: "N m^2",
-  length: "m",
-  position: "m",
-  height: "m",
-  width: "m",
-  damping: "kg/s",
-  duration: "s",
-  contact_loss: "s/m",
-  sigma0: "1/s",
-};
 function with_unit(key) {
   // "string.0.barrier.0.stiffness" becomes "barrier 0 stiffness [N/m^exponent]"
-  const unit = units[key.split(".").at(-1)];
+  const unit = page.units[key.replace(/\.\d+/g, "")];
   return key.replace(/^string\.0\./, "").replaceAll(".", " ") + (unit ? ` [${unit}]` : "");
 }
 const unit_of = quantity => ({displacement: "m", velocity: "m/s"})[quantity] ?? "N";

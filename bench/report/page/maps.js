@@ -372,7 +372,7 @@ function path_spec(choice, print) {
   }));
   const names = in_order(steps.map(s => s.series)),
     {color, shape, strokeDash} = encodings_of(names),
-    waveform = records("path")[0].measure.includes("error");
+    waveform = is_ratio(records("path")[0].measure);
   // A narrow page has the two charts below each other, and numbers for the lines as in the table.
   const small = choice.narrow || (print && print_width() < 500),
     width = choice.narrow
@@ -509,16 +509,15 @@ function needs_section() {
     ],
   };
 }
+const is_ratio = title => page.measures.some(([, , name, unit]) => name === title && unit === "1");
 function finding_of_trim() {
   const path = records("path"),
     first = path[0],
     last = path.at(-1);
   if (!last) return "";
-  const scene = page.title.replace(/^trim /, ""),
+  const scene = page.trimmed,
     target = number(last.target),
-    within = last.measure.includes("error")
-      ? `${digits(100 * target, 6)} %`
-      : `${digits(target, 6)} dB`;
+    within = is_ratio(last.measure) ? `${digits(100 * target, 6)} %` : `${digits(target, 6)} dB`;
   if (last.within !== "yes") return `No model of ${scene} within ${within} was found`;
   return (
     `${scene} within ${within}: the trimmed model costs ` +

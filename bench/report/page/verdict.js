@@ -3,9 +3,16 @@
 // from the program.
 const scheme_words = name => spoken(name).replaceAll("_", " ");
 // Modes and rate: ": 133 modes at 88.2 kHz". A grid takes its nodes from the rate: " at 88.2 kHz".
-const place_words = c =>
-  (c.modes && !(number(c.fact_grid_intervals) > 0) ? `: ${c.modes} modes` : "") +
-  (c.rate ? ` at ${digits(number(c.rate) / 1000, 4)}\u00a0kHz` : "");
+const modes_words = c =>
+    c.modes && !(number(c.fact_grid_intervals) > 0) ? `${c.modes} modes` : "",
+  rate_words = c => (c.rate ? `at ${digits(number(c.rate) / 1000, 4)}\u00a0kHz` : ""),
+  place_words = c => (modes_words(c) && ": " + modes_words(c)) + (c.rate && " " + rate_words(c));
+const option_words = c =>
+  options_of(c)
+    .map(([name, value]) =>
+      name !== "compliance" ? `${name}=${value}` : value === "matched" ? value : "as published",
+    )
+    .join(", ");
 const run_words = c => scheme_words(variant(c)) + place_words(c);
 const times_words = x => `${digits(x, 2)}\u00a0\u00d7`;
 // Error in words: "at most 0.57 %", "0.49 %", "0.49 % as measured"; "not known".
@@ -219,7 +226,7 @@ const first_columns = [
 ];
 function cell_section() {
   const all = table("cells"),
-    own = ["problem", "series", "trusted", "may_win", "run", "line"],
+    own = ["problem", "series", "trusted", "may_win", "line"],
     columns = all.columns.filter(
       (name, k) => !own.includes(name) && all.rows.some(row => row[k] !== ""),
     );

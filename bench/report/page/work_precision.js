@@ -1,8 +1,8 @@
 // The first chart, cost against error for one scene, in layers: bands of uncertainty, real time,
 // the tolerance, front, lines, points, failures.
 const costs = [
-  ["cost_s_per_s", "computing time for one second of sound, one core"],
-  ["rate", "sample rate [kHz]"],
+  ["cost_s_per_s", "computing time for one second of sound", ", one core"],
+  ["rate", "sample rate [kHz]", ""],
 ];
 const cost_of = rows => costs.find(([column]) => has_finite(rows, column)) ?? costs[0];
 const time_text = s =>
@@ -143,7 +143,7 @@ function real_time() {
 function work_precision_spec(choice, print) {
   const rows = of_scene(cells(), choice.scene),
     {column: error, title} = chosen_error(rows, choice),
-    [cost, cost_title] = cost_of(rows),
+    [cost, cost_title, where] = cost_of(rows),
     every = points_of(rows, error, cost, "line");
   const {first, from, to} = tolerances(rows, error),
     within = choice.within ?? first,
@@ -225,7 +225,7 @@ function work_precision_spec(choice, print) {
       align: "right",
       fontSize: 12,
       fontWeight: "bold",
-      text: {expr: `width < 400 ? '${cost_title.split(",")[0]}' : '${cost_title}'`},
+      text: {expr: `'${cost_title}' + (width < 400 ? '' : '${where}')`},
     }),
   ];
   if (sound.every(p => p.y <= bands.floor))
@@ -244,8 +244,7 @@ function work_precision_spec(choice, print) {
   };
   const signals = {within, best: answer?.n ?? null, winner: answer?.line || null},
     params = Object.entries(signals).map(([name, value]) => ({name, value})),
-    one = scenes_of_cells().length === 1,
-    about = page.manifest?.reference ? page.about.split("; ").slice(0, -1).join("; ") : page.source;
+    one = scenes_of_cells().length === 1;
   const height = print
       ? Math.min(470, Math.max(220, 0.75 * print_width()))
       : choice.narrow
@@ -257,7 +256,7 @@ function work_precision_spec(choice, print) {
   return {
     spec: framed(
       {height, encoding, layer, params, ...padding},
-      {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: about, names},
+      {title: `${one ? page.title : choice.scene}: error and cost`, subtitle: page.undated, names},
       print,
     ),
     names,
