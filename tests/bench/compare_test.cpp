@@ -261,6 +261,16 @@ TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
     EXPECT_TRUE(says(cheapest_text(cells), "perhaps for less a, 10 modes"));
 }
 
+TEST(Cheapest, NamesTheLongestWindowThatCanBeDecided) {
+    bench::study::Cells cells = cells_of({{"a", "44100", "", "0.0095", "0.03", "", 1}});
+    EXPECT_EQ(cheapest_in(cells).at(1, "why"), "the reference is known to 3 % only");
+    const std::size_t shorter = bench::study::measure("error_l2_10ms");
+    cells[0].figures[0][shorter].certificate = 4e-3;
+    EXPECT_EQ(cheapest_in(cells).at(1, "why"),
+              "the reference is known to 3 % only; over the first 10 ms to 0.4 %");
+    EXPECT_EQ(cheapest_in(cells).at(2, "why"), "the reference is known to 3 % only");  // 0.1 %
+}
+
 TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
     const bench::study::Cells cells =
         cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "0", "0.5", 1},

@@ -516,6 +516,15 @@ test("the answer names run, error, cost and what is certain", () => {
     at(of, problems[0], 0.004).sentences,
     /^The reference itself may be wrong by \*0\.4/,
   );
+  const columns = ["10ms", "50ms"].map(w => `error_l2_${w},certificate_l2_${w}`),
+    shorter = of_cells(
+      `scene,scheme,rate,modes,status,${columns},cost_s_per_s\n` +
+        "s,a,44100,10,ok,0.004,0.002,0.0095,0.03,1\n",
+    );
+  assert.match(
+    at(shorter, "s", 0.01).sentences,
+    /wrong by \*3.*\. Over the first 10 ms it is known to \*0\.2/,
+  );
   const open = at(of, problems[2], 0.01); // no certificate there
   assert.match(open.finding, /^: cannot be decided/);
   assert.match(open.sentences, /^How wrong the reference itself may be is not known/);

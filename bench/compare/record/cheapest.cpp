@@ -64,16 +64,33 @@ double certificate_of(const Cells& cells, const Rows& rows, std::size_t measure)
     return bound_of(cells[rows.front()], measure).certificate;
 }
 
+// Longest shorter window over which the reference is known within `goal`: "; over the first 10 ms
+// to 0.4 %".
+std::string decided_over(const Cells& cells, const Rows& rows, const Goal& goal) {
+    const auto& all = study::measures();
+    std::size_t longest = goal.measure;
+    for (std::size_t m = 0; m < all.size(); ++m)
+        if (study::is_waveform(m) && !all[m].heard && all[m].window < all[goal.measure].window &&
+            certificate_of(cells, rows, m) <= goal.most &&
+            (longest == goal.measure || all[m].window > all[longest].window))
+            longest = m;
+    return longest == goal.measure
+               ? ""
+               : fmt::format("; over the first {}{} to {}", time_text(all[longest].window),
+                             after_pluck(cells[rows.front()]),
+                             percent(certificate_of(cells, rows, longest)));
+}
+
 // Reason why nobody can decide which cells are within `goal`.
 std::string why_unknown(const Cells& cells, const Rows& rows, const Goal& goal) {
     const double certificate = certificate_of(cells, rows, goal.measure);
     if (!std::isnan(certificate))
-        return fmt::format("the reference is known to {} only{}", percent(certificate),
-                           by_other_taps(cells, rows, goal));
+        return fmt::format("the reference is known to {} only{}{}", percent(certificate),
+                           decided_over(cells, rows, goal), by_other_taps(cells, rows, goal));
     const auto error = [&](const Cell& c) { return c.figure(goal.measure).value; };
     const Cell* seems =
         least_cost(cells, rows, [&](const Cell& c) { return error(c) <= goal.most; });
-    return "the uncertainty of the reference is unknown" +
+    return "the uncertainty of the reference is unknown" + decided_over(cells, rows, goal) +
            (seems ? fmt::format("; measured against it, the cheapest is {}, {}", seems->run(),
                                 percent(error(*seems)))
                   : std::string());

@@ -114,6 +114,16 @@ function finding_of({error, best, perhaps, nearest, unpriced}) {
   if (perhaps.length) return `: cannot be decided.${guests}`;
   return `${nearest ? " is more than any run here does" : ": no trusted run has a cost"}.${guests}`;
 }
+// Longest shorter window over which the reference is known within the tolerance.
+function decided_over(cell, error, within) {
+  const known = ms => figure_of(cell, error.replace(/(50ms|whole)$/, `${ms}ms`), "certificate"),
+    longest = {error_l2_50ms: [10], error_l2_whole: [50, 10]}[error]?.find(
+      ms => known(ms) <= within,
+    );
+  return longest
+    ? `Over the first ${longest} ms it is known to *${error_text(known(longest), error)}*.`
+    : "";
+}
 // Sentences below the finding; asterisks mark the *important* part.
 function consequences({error, within, best, ties, perhaps, published, nearest}, rows) {
   const all = list =>
@@ -136,8 +146,9 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
           Number.isNaN(certificate)
             ? `${unknown}.`
             : `The reference itself may be wrong by *${error_text(certificate, error)}*.`,
+          decided_over(rows[0], error, within),
           `It may be kept by ${all(perhaps)}.`,
-        ]
+        ].filter(Boolean)
       : nearest
         ? [
             (stated && scheme_words(stated.why)) ||
