@@ -137,11 +137,12 @@ Trimmed trimmed(Judge& judge, const Request& r, const compare::Catalogue& catalo
     const std::optional<compare::Advice> advised = advice_on(judge, r, catalogue, listener);
     const Target& target = judge.target();
     if (!judge.certain(0))
-        throw Refusal(
-            fmt::format("what is within {} cannot be decided: the uncertainty of the reference {} "
-                        "({}) is {}. A shorter --duration or more --reference-modes may help",
-                        target.text(target.most), judge.truth(0).reference.choice.name(),
-                        judge.truth(0).description, target.text(judge.certificate(0), "unknown")));
+        throw Refusal(fmt::format(
+            "what is within {} cannot be decided: the uncertainty of the reference {} "
+            "({}) is {}. {} --reference-modes may help",
+            target.text(target.most), judge.truth(0).reference.choice.name(),
+            judge.truth(0).description, target.text(judge.certificate(0), "unknown"),
+            study::is_waveform(target.measure) ? "A shorter --duration or more" : "More"));
     const std::vector<const Descriptor*> schemes = schemes_of(r, judge.scene(), catalogue);
     std::vector<bool> used(r.options.size());
     for (const Descriptor* d : schemes) compare::combinations_of(r.options, *d, used);

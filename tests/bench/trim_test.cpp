@@ -336,6 +336,52 @@ TEST(Trim, AnUnknownOrATooLargeUncertaintyDecidesNothing) {
     EXPECT_THROW(trim::trimmed(by_a_stand_in, r, catalogue(), silent), Refusal);
 }
 
+// More --reference-modes, and for waveforms a shorter --duration, which trim names where its
+// reference is too uncertain: each leads to a verdict, and at each step on the way the uncertainty
+// is no less than what four times the modes change.
+TEST(Trim, ItsUncertaintyIsTrueWhicheverRemedyIsFollowed) {
+    struct Remedy {
+        const char *measure, *within, *text;
+        bool shorter;
+    };
+    const char* both = "A shorter --duration or more --reference-modes may help";
+    for (const Remedy& remedy :
+         {Remedy{"l2_50ms", "2%", both, false}, Remedy{"l2_50ms", "2%", both, true},
+          Remedy{"third_octave_db", "0.1dB", "is 71 dB. More --reference-modes may help", false}}) {
+        trim::Request r = request("tanpura_c3_release", remedy.within);
+        r.scheme = "modal_two_point";
+        r.measure = remedy.measure;
+        r.reference_modes = 160;
+        bool decided = false;
+        int steps = 0;
+        for (; !decided && steps < 4; ++steps) {
+            trim::Judge judge(r, catalogue(), silent, counted);
+            const Scene& scene = judge.scene();
+            const jvari::Run finer =
+                run(catalogue().find("exact_contact"), scene,
+                    {0, r.tap_rate, 4 * r.reference_modes, {{"compliance", "matched"}}});
+            const auto tap = static_cast<int>(
+                std::ranges::find(scene.taps, judge.tap().name, &Tap::name) - scene.taps.begin());
+            const double changed = study::error_of(
+                study::measure(r.measure == "l2_50ms" ? "error_l2_whole" : r.measure),
+                judge.truth(0).reference.run.trace.column(tap), finer.trace.column(tap),
+                r.tap_rate);
+            EXPECT_GT(changed, 0);
+            EXPECT_GE(judge.certificate(0), changed)
+                << r.measure << ", " << r.reference_modes << " modes, " << *r.duration << " s";
+            decided = judge.certain(0);
+            if (decided) continue;
+            try {
+                trim::trimmed(judge, r, catalogue(), silent);
+                ADD_FAILURE() << "no remedy is named";
+            } catch (const Refusal& e) { EXPECT_TRUE(steps > 0 || says(e.what(), remedy.text)); }
+            if (remedy.shorter) *r.duration /= 2;
+            else r.reference_modes *= 2;
+        }
+        EXPECT_TRUE(decided && steps > 1) << r.measure << ": no remedy leads to a verdict";
+    }
+}
+
 TEST(Search, SaysWhereNothingServes) {
     trim::Judge judge(request("tanpura_c3_release", "0.0001%"), catalogue(), silent, counted);
     EXPECT_FALSE(
