@@ -67,6 +67,24 @@ TEST(Truth, IsAffordableWhateverTheUnitOfLengthAndTime) {
     EXPECT_TRUE(affordable > 0 && affordable < 7) << affordable;
 }
 
+// At 44.1 rows in a second none holds a mode, and the reference still moves those below 20 kHz.
+TEST(Truth, IsNoMoreAffordableWhereThereAreFewerRows) {
+    Scene ideal = bench::compare::load_scene("tanpura_c3_release", {}, 0.2);
+    ideal.strings[0].bending_stiffness = 0;
+    const auto allows = [](const Scene& scene, double tap_rate, bench::study::Size size) {
+        return bench::study::within_budget(exact_contact, scene, tap_rate, size);
+    };
+    int most = 8;
+    while (allows(ideal, 44100, {most + 8, 0})) most += 8;
+    EXPECT_TRUE(allows(ideal, 44.1, {most * 9 / 10, 0})) << most;
+    EXPECT_FALSE(allows(ideal, 44.1, {most * 11 / 10, 0})) << most;
+    const Scene profile = bench::compare::load_scene("sitar_parabola", {}, 0.2);
+    for (const double tap_rate : {44100.0, 44.1}) {
+        EXPECT_TRUE(allows(profile, tap_rate, {40, 32})) << tap_rate;
+        EXPECT_FALSE(allows(profile, tap_rate, {40, 64})) << tap_rate;
+    }
+}
+
 TEST(Truth, IsTheSameWhateverTheUnitOfLengthAndTime) {
     for (const int begin : {0, 12}) {
         const Truth large = truth_of(bar(1), 32e3, 0, begin, {}),
