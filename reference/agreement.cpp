@@ -12,10 +12,6 @@ namespace jvari {
 namespace {
 // ratio between successive doublings: order 1/2
 constexpr double slowest = 0.70710678118654752;
-constexpr double unlike_change = 0.5;  // relative change of a tap beyond which two motions differ
-// change of a tap that stays known while another tap of its run is unsettled
-constexpr double small_change = 1e-2;
-constexpr double least_change = 1e-11;  // relative change that says nothing
 }  // namespace
 
 std::span<const double> rows_from(std::span<const double> x, double seconds, double rate) {
@@ -42,35 +38,16 @@ Agreement agreement(std::span<const double> a, std::span<const double> b, double
     return result;
 }
 
-Trend trend_of(std::span<const std::vector<double>> changes) {
-    Trend t;
-    double sum = 0;
-    int counted = 0;
-    for (const std::vector<double>& c : changes) {
-        if (c.size() < 2) return {};
-        const double last = c.back(), before = c[c.size() - 2];
-        if (!(last > least_change && before > 0 && std::isfinite(last) && std::isfinite(before)))
-            continue;
-        t.unsettled = t.unsettled || (last > unlike_change && last > slowest * before);
-        sum += std::log(last / before);
-        ++counted;
-    }
-    if (counted > 0) t.ratio = std::exp(sum / counted);
-    return t;
-}
-
-double left_after(std::span<const double> changes, bool matched, const Trend& trend) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    if (changes.empty()) return unknown;
+double left_after(std::span<const double> changes, bool matched) {
+    if (changes.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const double last = changes.back();
     const double of_order_half = and_further_ones - 1;
     if (changes.size() == 1)
-        return (matched ? matched_and_further_ones - 1 : of_order_half) * changes.back();
+        return matched ? (matched_and_further_ones - 1) * last : of_order_half * last;
     const auto earlier = changes.first(changes.size() - 1);
     const double before = earlier.back();
-    if ((trend.unsettled && changes.back() > small_change) ||
-        (changes.back() > 0 && changes.back() >= *std::max_element(earlier.begin(), earlier.end())))
-        return unknown;
-    const double last = std::fmax(changes.back(), std::fmin(trend.ratio, 1) * before);
+    if (last > 0 && last >= *std::max_element(earlier.begin(), earlier.end()))
+        return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
     if (!(ratio <= slowest)) return of_order_half * std::fmax(last, before);
     const double of_order_one = 1;

@@ -31,28 +31,18 @@ struct Agreement {                                               // for one tap
 };
 Agreement agreement(std::span<const double> a, std::span<const double> b, double rate);
 
-// Trend of all taps of a run over its last doubling. A single tap can agree by chance, and the taps
-// beside it, read from the same two motions, then mostly do not.
-struct Trend {
-    double ratio = 0;  // last change over the one before it, geometric mean over the taps
-    bool unsettled =
-        false;  // one tap changes by more than half of itself, and hardly less than before
-};
-Trend trend_of(std::span<const std::vector<double>> changes);  // for each tap, as in left_after
-
 // Estimates the total change by all further doublings from the changes so far, the first one first;
 // none: NaN. The further changes form a geometric series with the ratio of the last two. After a
 // single doubling the estimate is the certificate's (and_further_ones). If the last two fall more
 // slowly than at order one half, that order and the larger change are used. If the last change is
-// the largest, or above a hundredth in an unsettled run, nothing is known about a limit: NaN. The
-// last change counts as no less than the one before it times the trend's ratio.
+// the largest, nothing is known about a limit: NaN.
 //
 // Convergence is uneven, and one pair can agree by chance. However fast it seems, the estimate is
 // therefore no less than at order one, or at order one half for matched modes. Examples, after
 // doublings that changed a tap by e. With own modes the remaining change was 0.6 e in the bridge
 // force of C3 with contact loss. With matched modes it was 1.1 e in the bridge force of C3 without
 // loss, and 1.4 e in the displacement with a thread of 1e3 N/m.
-double left_after(std::span<const double> changes, bool matched, const Trend& = {});
+double left_after(std::span<const double> changes, bool matched);
 
 // Matched solutions are doubled from matched ones, which agree with one another even if matching is
 // wrong. Own modes err by 1/modes, so 2 y(N) - y(N/2) errs by 1/N^2. The error of a matched

@@ -48,22 +48,12 @@ bool ends_at_reference(const std::vector<Doubling>& steps, const Truth& t) {
     return !steps.empty() && steps.back().fine == &t.reference;
 }
 
-Trend trend_of(const std::vector<Doubling>& steps, double from, std::size_t waveform) {
-    std::vector<std::vector<double>> changes;
-    for (int k = 0; !steps.empty() && k < steps.back().fine->run.trace.taps(); ++k) {
-        auto& tap = changes.emplace_back();
-        for (const auto& [coarse, fine] : steps)
-            tap.push_back(change(fine->run.trace, coarse->run.trace, k, from, waveform));
-    }
-    return jvari::trend_of(changes);
-}
-
 double left_by(const std::vector<Doubling>& steps, bool matched, const Apart& apart,
-               double solved_to, const Trend& trend) {
+               double solved_to) {
     std::vector<double> changes;
     for (const auto& [coarse, fine] : steps)
         changes.push_back(apart(coarse->run.trace, fine->run.trace));
-    const double left = left_after(changes, matched, trend);
+    const double left = left_after(changes, matched);
     // Changes below the accuracy of both solutions do not grow.
     return std::isnan(left) && !changes.empty() && changes.back() <= solved_to
                ? left_after({&changes.back(), 1}, matched)
@@ -82,20 +72,17 @@ Trust trust_of(const Trust& solved, const Truth& truth, double from) {
     const double until =
         static_cast<double>(std::min(more.rows, fewer.rows) - 1) / more.tap_rate - from;
     t.left_out.assign(taps, Trust::unknown);
-    const auto steps = truth.has_points ? std::vector<Doubling>() : doublings(truth, false);
-    for (std::size_t w = 0; w < Trust::columns.size(); ++w) {
-        const double end = measures()[w].window;
-        if (std::isfinite(end) && end > until + 1e-6) continue;
-        const Trend trend = trend_of(steps, from, w);
-        for (std::size_t k = 0; k < taps; ++k) {
+    for (std::size_t k = 0; k < taps; ++k)
+        for (std::size_t w = 0; w < Trust::columns.size(); ++w) {
+            const double end = measures()[w].window;
+            if (std::isfinite(end) && end > until + 1e-6) continue;
             const auto apart = [&](const Trace& a, const Trace& b) {
                 return change(b, a, static_cast<int>(k), from, w);
             };
             // also for windows beyond the certificate
             if (std::isnan(t.figure[k][w])) t.figure[k][w] = apart(more, last.moved.trace);
-            t.left_out[k][w] = left_out(truth, apart, t.figure[k][w], trend);
+            t.left_out[k][w] = left_out(truth, apart, t.figure[k][w]);
         }
-    }
     t.doubled = !truth.has_points ? "modes" : truth.all_modes ? "points" : "modes and points";
     return t;
 }
@@ -123,11 +110,10 @@ std::vector<Trace> own_motion(const ReferenceChoice& matched, const Scene& scene
     return result;
 }
 
-double left_out(const Truth& t, const Apart& apart, double solved_to, const Trend& of_modes) {
+double left_out(const Truth& t, const Apart& apart, double solved_to) {
     const auto left = [&](bool points) {
         const auto steps = doublings(t, points);
-        return ends_at_reference(steps, t) ? left_by(steps, t.matched, apart, solved_to, of_modes)
-                                           : nan;
+        return ends_at_reference(steps, t) ? left_by(steps, t.matched, apart, solved_to) : nan;
     };
     const double by_modes = t.all_modes && t.has_points ? 0 : left(false),
                  both = t.has_points ? by_modes + left(true) : by_modes;

@@ -25,7 +25,6 @@
 #include "bench/study/cell.hpp"
 #include "bench/study/reference.hpp"
 #include "bench/study/reference_size.hpp"
-#include "reference/agreement.hpp"
 
 namespace jvari::bench::study {
 
@@ -63,10 +62,9 @@ Truth run_truth(const std::vector<ReferenceChoice>&, const Scene&, int modes, in
 
 // Estimates the effect of everything that the reference leaves out, by a distance between traces.
 // The estimate uses the doublings and, for a matched reference, own modes. NaN: unknown.
-// `solved_to`: accuracy of the solution of each run. `of_modes`: of all taps; none for a profile,
-// whose points double too.
+// `solved_to`: accuracy of the solution of each run.
 using Apart = std::function<double(const Trace&, const Trace& from)>;
-double left_out(const Truth&, const Apart&, double solved_to = 0, const Trend& of_modes = {});
+double left_out(const Truth&, const Apart&, double solved_to = 0);
 
 // ---- For truth_search.cpp
 
@@ -82,10 +80,7 @@ std::vector<Doubling> doublings(const Truth&, bool points);
 // The last one doubles to the truth itself.
 bool ends_at_reference(const std::vector<Doubling>&, const Truth&);
 // The estimate from these doublings, wherever the last one ends.
-double left_by(const std::vector<Doubling>&, bool matched, const Apart&, double solved_to,
-               const Trend& = {});
-// The trend of all taps over these doublings, by change().
-Trend trend_of(const std::vector<Doubling>&, double from, std::size_t waveform);
+double left_by(const std::vector<Doubling>&, bool matched, const Apart&, double solved_to);
 // Trust in a doubled truth; `solved` comes from the certificate.
 Trust trust_of(const Trust& solved, const Truth&, double from);
 // Motions with as many own modes as the matched reference has, and with half as many, both

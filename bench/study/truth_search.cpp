@@ -142,8 +142,7 @@ double Search::left(bool points) const {
         return change(fine, coarse, static_cast<int>(tap()), from_, window_);
     };
     const double left =
-        left_by(steps, t_.matched, apart, t_.reference.trust.in_model(tap(), window_),
-                t_.has_points ? Trend{} : trend_of(steps, from_, window_));
+        left_by(steps, t_.matched, apart, t_.reference.trust.in_model(tap(), window_));
     return std::isnan(left) ? HUGE_VAL : left;
 }
 

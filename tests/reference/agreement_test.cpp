@@ -56,32 +56,6 @@ Scene release(double duration) {
     return scene;
 }
 
-// Changes of two random strings, by doublings of their matched modes: nut, displacement, contact
-// and thread.
-TEST(Doublings, ATapIsKnownNoBetterThanItsRunAllows) {
-    using Changes = std::vector<std::vector<double>>;
-    const Changes lucky{{0.157, 4.75e-3}, {3.05e-2, 6.39e-3}, {3.47e-2, 1.5e-3}, {0.139, 8.14e-3}};
-    EXPECT_LT(left_after(lucky[2], true), 4.8e-3) << "the pair is not lucky";
-    EXPECT_GT(left_after(lucky[2], true, trend_of(lucky)), 4.8e-3);
-    for (const int slower : {0, 1, 3})
-        EXPECT_LE(left_after(lucky[slower], true, trend_of(lucky)),
-                  2.2 * left_after(lucky[slower], true));
-    const Changes wild{{0.699, 0.661}, {0.168, 8.13e-2}, {0.369, 0.217}, {0.452, 0.287}};
-    EXPECT_LT(left_after(wild[1], true), 0.43) << "its error";
-    EXPECT_TRUE(std::isnan(left_after(wild[1], true, trend_of(wild))));
-    // known beside a tap that is not
-    Changes small = wild;
-    small[1] = {3e-3, 1e-3};
-    EXPECT_LT(left_after(small[1], true, trend_of(small)), 1e-2);
-    // a single tap, a single doubling, and changes by rounding are what they are
-    const Changes alone{{1e-2, 1e-3}};
-    EXPECT_DOUBLE_EQ(left_after(alone[0], true, trend_of(alone)), left_after(alone[0], true));
-    EXPECT_EQ(trend_of(Changes{{0.7}, {0.1}}).ratio, 0);
-    EXPECT_FALSE(trend_of(Changes{{0.7}, {0.1}}).unsettled);
-    EXPECT_DOUBLE_EQ(trend_of(Changes{{1e-12, 1e-12}, {1e-2, 1e-3}}).ratio, 0.1);
-    EXPECT_FALSE(trend_of(Changes{{inf, inf}, {1e-2, 1e-3}}).unsettled);
-}
-
 TEST(Oversampled, EstimatesNoLessThanItsErrorAgainstTheExactReference) {
     const Scene scene = release(20e-3);
     const auto truth = run(exact_contact, scene, {0, 44100, 60, {}});
