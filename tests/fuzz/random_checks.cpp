@@ -195,17 +195,17 @@ void check_schemes(const RandomCase& c, Tally& tally, const Finding& finding,
 
 // ---- Certificates
 
+double apart(const Trace& a, const Trace& b, int k, double from) {
+    return relative_difference(rows_from(a.column(k), from, a.tap_rate),
+                               rows_from(b.column(k), from, b.tap_rate));
+}
+
 namespace {
 struct Claim {  // of one tap, over the whole run
     std::string tap;
     double is, claimed;
     double ratio() const { return is / claimed; }
 };
-
-double apart(const Trace& a, const Trace& b, int k, double from) {
-    return relative_difference(rows_from(a.column(k), from, a.tap_rate),
-                               rows_from(b.column(k), from, b.tap_rate));
-}
 
 // What is known of an error against what is claimed of it: the distance from the truth less what
 // the truth itself may be off. Figures within the noise floor are left out: no two programs can

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "random_scene.hpp"
+#include "schemes/trace.hpp"
 
 namespace jvari::test {
 
@@ -64,5 +65,11 @@ void check_certificate_about_scene(const RandomCase&, Tally&, const Finding&,
 constexpr double harm = 1.2, harm_matters = 1e-3, matching_seconds = 10;
 void check_matching(const RandomCase&, Matching, Tally&, const Finding&,
                     const std::function<void(const std::string&)>& at);
+// Figures of two schemes, a line of CSV each (harm_figures.cpp).
+extern const char* const harm_columns;
+void harm_figures(const RandomCase&, const std::function<void(const std::string&)>& line);
+
+// Relative L2 of a tap, from that instant on [s].
+double apart(const Trace&, const Trace& truth, int tap, double from);
 
 }  // namespace jvari::test

@@ -7,6 +7,8 @@
 //                                          the scene?
 //   random_scenes matched|bar|wide COUNT SEED|FILE  scenes of its own: does compliance=matched do
 //   harm?
+//   random_scenes string_figures|bar_figures|wide_figures COUNT SEED|FILE   the same scenes: CSV of
+//                                          the errors of both compliances (harm_figures.cpp)
 //   random_scenes show [matched|bar|wide] SEED      the scene of a seed, as TOML
 //
 // Each scene has a process of its own: a signal, a run without end or a memory that overflows is a
@@ -31,35 +33,51 @@ namespace jvari::test {
 namespace {
 
 constexpr rlim_t seconds_allowed = sanitized ? 600 : 120;  // of CPU, all runs of one scene together
+constexpr rlim_t seconds_for_figures = 20;                 // the same, where figures are printed
 constexpr rlim_t memory_allowed = rlim_t{4} << 30;         // [bytes]
 constexpr std::uint64_t certified_every = 4;               // scenes
 
 // ---- In the process of a scene: lines to a pipe. "@what" is being done, "!finding", "=figures of
-// the tally".
+// the tally", ",line of CSV".
 void send(int pipe, const std::string& line) {
     const std::string whole = line + "\n";
     if (write(pipe, whole.data(), whole.size()) < 0) _exit(3);
 }
 
-enum class Asked { promises, about_scene, matched, bar, wide };
+enum class Asked {
+    promises,
+    about_scene,
+    matched,
+    bar,
+    wide,
+    string_figures,
+    bar_figures,
+    wide_figures
+};
 Matching kind_of(Asked kind) {
-    return kind == Asked::bar    ? Matching::bar
-           : kind == Asked::wide ? Matching::wide
-                                 : Matching::string;
+    return kind == Asked::bar || kind == Asked::bar_figures     ? Matching::bar
+           : kind == Asked::wide || kind == Asked::wide_figures ? Matching::wide
+                                                                : Matching::string;
 }
 Asked asked_by(const std::string& word) {
-    return word == "scene"     ? Asked::about_scene
-           : word == "matched" ? Asked::matched
-           : word == "bar"     ? Asked::bar
-           : word == "wide"    ? Asked::wide
-                               : Asked::promises;
+    return word == "scene"            ? Asked::about_scene
+           : word == "matched"        ? Asked::matched
+           : word == "bar"            ? Asked::bar
+           : word == "wide"           ? Asked::wide
+           : word == "string_figures" ? Asked::string_figures
+           : word == "bar_figures"    ? Asked::bar_figures
+           : word == "wide_figures"   ? Asked::wide_figures
+                                      : Asked::promises;
+}
+rlim_t limit_of(Asked kind) {
+    return kind >= Asked::string_figures ? seconds_for_figures : seconds_allowed;
 }
 RandomCase drawn(Asked kind, std::uint64_t seed) {
     return kind >= Asked::matched ? matching_case(seed, kind_of(kind)) : random_case(seed);
 }
 
 [[noreturn]] void run_scene(Asked kind, std::uint64_t seed, int pipe) {
-    const rlimit time{seconds_allowed, seconds_allowed + 5}, memory{memory_allowed, memory_allowed},
+    const rlimit time{limit_of(kind), limit_of(kind) + 5}, memory{memory_allowed, memory_allowed},
         none{0, 0};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_CORE, &none);
@@ -71,7 +89,9 @@ RandomCase drawn(Asked kind, std::uint64_t seed) {
     Tally t;
     at("drawing the scene");
     const RandomCase c = drawn(kind, seed);
-    if (kind == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
+    if (kind >= Asked::string_figures)
+        harm_figures(c, [&](const std::string& line) { send(pipe, "," + line); });
+    else if (kind == Asked::about_scene) check_certificate_about_scene(c, t, finding, at);
     else if (kind >= Asked::matched) check_matching(c, kind_of(kind), t, finding, at);
     else check_schemes(c, t, finding, at);
     if (kind == Asked::promises && seed % certified_every == 0 && !c.extreme)
@@ -110,6 +130,7 @@ long take(Asked kind, std::uint64_t seed, Tally& tally) {
     while (std::getline(lines, line)) {
         if (line[0] == '@') doing = line.substr(1);
         if (line[0] == '!') report(line.substr(1));
+        if (line[0] == ',') std::puts(line.c_str() + 1);
         if (line[0] != '=') continue;
         Tally t;
         t.scenes = 1;
@@ -122,7 +143,7 @@ long take(Asked kind, std::uint64_t seed, Tally& tally) {
     if (WIFSIGNALED(status))
         report(doing +
                (WTERMSIG(status) == SIGXCPU
-                    ? ": more than " + std::to_string(seconds_allowed) + " s of CPU for the scene"
+                    ? ": more than " + std::to_string(limit_of(kind)) + " s of CPU for the scene"
                     : std::string(": signal ") + strsignal(WTERMSIG(status))));
     else if (WEXITSTATUS(status) != 0)
         report(doing + ": ended with " + std::to_string(WEXITSTATUS(status)));
@@ -132,11 +153,14 @@ long take(Asked kind, std::uint64_t seed, Tally& tally) {
 int all(Asked kind, const std::vector<std::uint64_t>& seeds) {
     Tally tally;
     long findings = 0;
+    if (kind >= Asked::string_figures) std::puts(harm_columns);
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         findings += take(kind, seeds[i], tally);
+        if (kind >= Asked::string_figures) continue;
         if ((i + 1) % (kind == Asked::promises ? 100 : 10) == 0)
             std::printf("%zu of %zu scenes\n", i + 1, seeds.size()), std::fflush(stdout);
     }
+    if (kind >= Asked::string_figures) return findings > 0;
     if (kind == Asked::about_scene) {
         std::printf(
             "%ld scenes, %ld judged, %ld ended by a limit\n%ld figures of certificates about the "
@@ -180,8 +204,8 @@ int main(int argc, char** argv) {
     if (kind != Asked::promises) --argc, ++argv;
     if (argc != 3)
         return std::fprintf(stderr,
-                            "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched|bar|wide "
-                            "COUNT SEED|FILE | show "
+                            "usage: random_scenes COUNT SEED | COUNT FILE | scene|matched|bar|wide|"
+                            "string_figures|bar_figures|wide_figures COUNT SEED|FILE | show "
                             "[matched|bar|wide] SEED\n"),
                2;
     const std::size_t count = std::strtoull(argv[1], nullptr, 10);
