@@ -145,10 +145,10 @@ Turn turn_of(const study::Column& column, const Cell& before, const Cell& after)
 
 Turn turn_of_fact(const std::string& name, const Cell& before, const Cell& after) {
     const double was = before.fact(name), old = std::abs(was);
-    const double part = is_closed_form(name)                          ? rounding
-                        : name == facts::contact_iterations_most.name ? 1e-1
-                                                                      : 1e-2;
-    return turn_of(was, after.fact(name), {part * old + (part == rounding ? 0 : 1e-9)});
+    const double is = after.fact(name);
+    if (is_closed_form(name)) return turn_of(was, is, {rounding * old});
+    const double part = name == facts::contact_iterations_most.name ? 1e-1 : 1e-2;
+    return turn_of(was, is, {1e-9 + part * old});
 }
 
 Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string& tap,

@@ -121,7 +121,8 @@ function decided_over(cell, error, within) {
       ms => known(ms) <= within,
     );
   return longest
-    ? `Over the first ${longest} ms it is known to *${error_text(known(longest), error)}*.`
+    ? `Over the first ${longest} ms${after_pluck([cell])} it is known to ` +
+        `*${error_text(known(longest), error)}*.`
     : "";
 }
 // Sentences below the finding; asterisks mark the *important* part.
