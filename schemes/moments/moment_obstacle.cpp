@@ -12,7 +12,6 @@ namespace jvari {
 
 namespace {
 constexpr int most_blocks = 60, most_sweeps = 200;
-constexpr std::size_t kept_sets = 16;
 
 // Gauss's elimination with pivots, in place: rows with `columns` numbers, the first n for the
 // matrix and the others for right sides, which become solutions. False if a pivot is zero.
@@ -72,14 +71,19 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
     }
     found_.resize(n);
     answers_.resize(n);
-    pairs_.assign(static_cast<std::size_t>(14) * n, 0.0);
-    active_.resize(n);
-    for (auto* v : {&moved_, &spring_, &ends_, &trial_, &step_, &last_}) v->assign(D, 0.0);
+    pairs_.assign(static_cast<std::size_t>(8) * n, 0.0);
+    active_.reserve(n);
+    kept_.resize(n);
+    for (auto* v : {&moved_, &spring_, &ends_, &trial_, &step_, &last_, &own_b_, &x_own_, &from_,
+                    &last_step_})
+        v->assign(D, 0.0);
     b_.assign(2 * static_cast<std::size_t>(D), 0.0);
     for (auto* v : {&next_, &x_before_}) v->assign(x_.size(), 0.0);
     matrix_.assign(static_cast<std::size_t>(2 * n) * (4 * n + 1), 0.0);
-    sets_.resize(n > 1 ? kept_sets : 1);
-    for (Kept& s : sets_) s.inverse.assign(static_cast<std::size_t>(4) * n * n, 0.0);
+    const std::size_t pairs = static_cast<std::size_t>(n) * n;
+    for (Kept& s : sets_) s.inverse.assign(4 * pairs, 0.0);
+    for (Reduced& r : reduced_)
+        if (n > 1) r.less.resize(pairs), r.by.resize(4 * pairs), r.moved.resize(4 * pairs);
     inverses_.assign(static_cast<std::size_t>(4) * n, 0.0);
     for (int a = 0; a < n; ++a)
         for (int k = 0; linear_ >> a & 1 && k < 4; ++k)
@@ -269,109 +273,137 @@ void MomentObstacle::keep(std::uint64_t set, Kept& s) noexcept {
     std::fill(s.inverse.begin(), s.inverse.end(), 0.0);
     int size = 0;
     for (int a = 0; a < n_; ++a)
-        if (set >> a & 1) active_[size++] = a;
+        if (set >> a & 1) kept_[size++] = a;
     const int m = 2 * size, columns = 2 * m;
     double* rows = matrix_.data();
     std::fill_n(rows, m * columns, 0.0);
     for (int x = 0; x < size; ++x) {
-        const int a = active_[x];
+        const int a = kept_[x];
         const double c = rules_[a].c();
         double *first = rows + x * columns, *second = rows + (size + x) * columns;
         for (int y = 0; y < size; ++y)
             for (int j = 0; j < 2; ++j) {
-                first[j * size + y] = T(0, a, j, active_[y]);
-                second[j * size + y] = -T(1, a, j, active_[y]);
+                first[j * size + y] = T(0, a, j, kept_[y]);
+                second[j * size + y] = -T(1, a, j, kept_[y]);
             }
         first[x] += c, first[size + x] += c;
         second[x] += c, second[size + x] -= c;
         first[m + x] = second[m + size + x] = 1;
     }
     eliminate(rows, m, columns);
-    const auto place = [&](int i) { return i / size * n_ + active_[i % size]; };
+    const auto place = [&](int i) { return i / size * n_ + kept_[i % size]; };
     for (int i = 0; i < m; ++i)
         for (int j = 0; j < m; ++j)
             s.inverse[place(j) * 2 * n_ + place(i)] = rows[i * columns + m + j];
 }
 
-void MomentObstacle::moved_by_others(int a, const double* b, const double* force, double& b_0,
-                                     double& b_1) const noexcept {
-    b_0 = b[a], b_1 = b[points_ + a];
-    for (int c = 0; c < n_; ++c) {
-        if (c == a) continue;
-        const double phi_0 = force[c], phi_1 = force[points_ + c];
-        if (phi_0 == 0 && phi_1 == 0) continue;
-        b_0 += T(0, a, 0, c) * phi_0 + T(0, a, 1, c) * phi_1;
-        b_1 += T(1, a, 0, c) * phi_0 + T(1, a, 1, c) * phi_1;
-    }
-}
-
-// Solves a step in which contacts change.
+// Solves a step in which contacts change: those that misfit by their own equations, together; the
+// others in full contact and eliminated, or out. Others that misfit then join them.
 bool MomentObstacle::with_change(std::uint64_t misfits, const double* b, const double* ends,
                                  const double* phi, double* force) noexcept {
-    if (std::has_single_bit(misfits) &&
-        with_one(set_ & ~misfits, std::countr_zero(misfits), b, ends, force))
-        return true;
-    for (int a = 0; a < n_; ++a) {  // a first guess: the pushing forces of full contact
-        force[a] = std::max(phi[a], 0.0);
-        force[points_ + a] = std::clamp(phi[n_ + a], -force[a], force[a]);
+    for (std::uint64_t own = misfits, more = 0;; own |= more) {
+        more = together(own, b, ends, phi, force);
+        if (more == 0) return true;
+        if ((more & ~own) == 0) return by_constant_forces(b, force);
     }
-    return by_newton(b, force);
 }
 
-// Solves contact a by its own equation, those in `others` in full contact and eliminated, the rest
-// out. False if these do not agree.
-bool MomentObstacle::with_one(std::uint64_t others, int a, const double* b, const double* ends,
-                              double* force) noexcept {
+// Responses to forces of the contacts `active_`, the contacts `full` eliminated.
+void MomentObstacle::reduce(std::uint64_t own, std::uint64_t full) noexcept {
+    Reduced& R = reduced_[place_of(own ^ full << 2)];
+    reduced_now_ = &R;
+    if (R.own == own && R.full == full) return;
+    R.own = own, R.full = full;
+    const int n = n_, D = 2 * n, m = static_cast<int>(active_.size());
+    for (int j = 0; j < m; ++j)
+        for (int l = 0; l < 2; ++l) {
+            const int a = active_[j], column = 2 * j + l;
+            double *by = R.by.data() + column * D, *moved = R.moved.data() + column * D,
+                   *change = trial_.data();  // change of the ends
+            for (int c = 0; c < n; ++c) change[c] = -T(0, c, l, a), change[n + c] = T(1, c, l, a);
+            if (full) product_of_pairs<0>(kept(full).inverse.data(), change, by);
+            else std::fill_n(by, D, 0.0);
+            product_of_pairs<0>(T_.data(), by, moved);
+            for (int k = 0; k < D; ++k) moved[k] += T_[(l * n + a) * D + k];
+            for (int i = 0; i < m; ++i) {
+                MomentMatrix& less = R.less[i * m + j];
+                (l == 0 ? less.m00 : less.m01) = moved[active_[i]];
+                (l == 0 ? less.m10 : less.m11) = moved[n + active_[i]];
+            }
+        }
+}
+
+// Solves a step with the contacts `own` by their own equations, the others that touched in full
+// contact. Returns the others that misfit, 0 for a solution, or all contacts if there is none.
+std::uint64_t MomentObstacle::together(std::uint64_t own, const double* b, const double* ends,
+                                       const double* phi, double* force) noexcept {
     const int n = n_, D = 2 * n;
-    double *phi = trial_.data(), *r = pairs_.data() + 3 * D, *by = r + D;  // by: phi_a
-    std::fill_n(phi, D, 0.0);
-    std::fill_n(by, 2 * D, 0.0);
-    MomentMatrix less = own(a);
-    double b_0 = b[a], b_1 = b[points_ + a];
-    if (others) {
-        const double* M = kept(others).inverse.data();
-        product_of_pairs<0>(M, ends, phi);
-        double* change = r;  // change of the ends, by phi_a
-        for (int j = 0; j < 2; ++j) {
-            for (int c = 0; c < n; ++c) change[c] = -T(0, c, j, a), change[n + c] = T(1, c, j, a);
-            product_of_pairs<0>(M, change, by + j * D);
-        }
-        for (int k = 0; k < D; ++k) {
-            const double t_0 = T_[k * D + a], t_1 = T_[k * D + n + a];
-            b_0 += t_0 * phi[k], b_1 += t_1 * phi[k];
-            less.m00 += t_0 * by[k], less.m01 += t_0 * by[D + k];
-            less.m10 += t_1 * by[k], less.m11 += t_1 * by[D + k];
-        }
+    const std::uint64_t full = set_ & ~own;
+    active_.clear();
+    for (int a = 0; a < n; ++a)
+        if (own >> a & 1) active_.push_back(a);
+    const int m = static_cast<int>(active_.size());
+    reduce(own, full);
+    double *others = trial_.data(), *r = pairs_.data() + 3 * D;  // first without forces of own
+    std::fill_n(others, D, 0.0);
+    std::fill_n(r, D, 0.0);
+    if (full) {
+        product_of_pairs<0>(kept(full).inverse.data(), ends, others);
+        product_of_pairs<0>(T_.data(), others, r);
     }
-    MomentContact& own = found_[a];
-    rules_[a].solve(less, at_[a].eta, b_0, b_1, own);
-    if (!own.converged) return false;
-    for (int k = 0; k < D; ++k) phi[k] += by[k] * own.phi_0 + by[D + k] * own.phi_1;
-    phi[a] = own.phi_0, phi[n + a] = own.phi_1;
-    product_of_pairs<0>(T_.data(), phi, r);
     for (int c = 0; c < n; ++c) r[c] += b[c], r[n + c] += b[points_ + c];
+    for (int i = 0; i < m; ++i) {  // a first guess: the pushing forces of full contact
+        const int a = active_[i];
+        own_b_[2 * i] = r[a], own_b_[2 * i + 1] = r[n + a];
+        const double F = x_own_[2 * i] = std::max(phi[a], 0.0);
+        x_own_[2 * i + 1] = std::clamp(phi[n + a], -F, F);
+    }
+    const int iterations = newton();
+    if (iterations < 0) return ~std::uint64_t{0} >> (most_contacts - n);
+    for (int i = 0; i < m; ++i)
+        x_own_[2 * i] = found_[i].phi_0, x_own_[2 * i + 1] = found_[i].phi_1;
+    if (full) add_product<0>(reduced_now_->by.data(), x_own_.data(), 2 * m, others, D);
+    add_product<0>(reduced_now_->moved.data(), x_own_.data(), 2 * m, r, D);
+    std::uint64_t misfits = 0;
     for (int c = 0; c < n; ++c)
-        if (c != a && !fits(c, others >> c & 1, phi, r)) return false;
-    set_ = others;
+        misfits |= std::uint64_t{!(own >> c & 1) && !fits(c, full >> c & 1, others, r)} << c;
+    if (misfits) return misfits;
+    set_ = full;
     for (int c = 0; c < n; ++c)
-        if (c != a) take_as(c, others >> c & 1, phi, r, force);
-    force[a] = own.phi_0, force[points_ + a] = own.phi_1;
-    take(a, own);
-    tally_.note(own.iterations, own.residual);
-    return true;
+        if (!(own >> c & 1)) take_as(c, full >> c & 1, others, r, force);
+    for (int i = 0; i < m; ++i) {
+        const int a = active_[i];
+        force[a] = found_[i].phi_0, force[points_ + a] = found_[i].phi_1;
+        take(a, found_[i]);
+    }
+    if (m == 1) tally_.note(found_[0].iterations, found_[0].residual);
+    else tally_.note(std::max(iterations, 1), 0);
+    return 0;
 }
 
-// Solves each contact for itself under the others' forces, into found_. Returns the residual of phi
-// = S(phi): the sum of squares, and the largest against the largest force.
-MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) noexcept {
+// Solves an active contact for itself under the forces x_own_ of the others, into found_.
+void MomentObstacle::solve_own(int i) noexcept {
+    const int m = static_cast<int>(active_.size()), a = active_[i];
+    double b_0 = own_b_[2 * i], b_1 = own_b_[2 * i + 1];
+    for (int j = 0; j < m; ++j) {
+        if (j == i) continue;
+        const MomentMatrix& T = less(i, j);
+        b_0 += T.m00 * x_own_[2 * j] + T.m01 * x_own_[2 * j + 1];
+        b_1 += T.m10 * x_own_[2 * j] + T.m11 * x_own_[2 * j + 1];
+    }
+    rules_[a].solve(less(i, i), at_[a].eta, b_0, b_1, found_[i]);
+}
+
+// Solves each active contact for itself. Returns the residual of phi = S(phi): the sum of squares,
+// and the largest against the largest force.
+MomentObstacle::Rest MomentObstacle::look() noexcept {
     Rest rest;
     double largest = 0;
-    for (int a = 0; a < n_; ++a) {
-        double b_0, b_1;
-        moved_by_others(a, b, force, b_0, b_1);
-        MomentContact& s = found_[a];
-        rules_[a].solve(own(a), at_[a].eta, b_0, b_1, s);
-        const double d_0 = s.phi_0 - force[a], d_1 = s.phi_1 - force[points_ + a];
+    for (int i = 0; i < static_cast<int>(active_.size()); ++i) {
+        solve_own(i);
+        const MomentContact& s = found_[i];
+        const double d_0 = step_[2 * i] = s.phi_0 - x_own_[2 * i],
+                     d_1 = step_[2 * i + 1] = s.phi_1 - x_own_[2 * i + 1];
         rest.squares += d_0 * d_0 + d_1 * d_1;
         rest.relative = std::max({rest.relative, std::abs(d_0), std::abs(d_1)});
         largest = std::max({largest, std::abs(s.phi_0), std::abs(s.phi_1)});
@@ -380,102 +412,80 @@ MomentObstacle::Rest MomentObstacle::look(const double* b, const double* force) 
     return rest;
 }
 
-// Newton's step for phi = S(phi), S' = answer() T, into step_. False if its matrix is singular.
-bool MomentObstacle::newton_step(const double* force) noexcept {
-    const int P = points_;
-    int active = 0;
-    for (int a = 0; a < n_; ++a) {
-        step_[a] = found_[a].phi_0 - force[a], step_[P + a] = found_[a].phi_1 - force[P + a];
-        if (found_[a].phi_0 != 0 || found_[a].phi_1 != 0) active_[active++] = a;
-    }
-    for (int i = 0; i < active; ++i) {
-        const int a = active_[i];
-        const MomentMatrix& S = answers_[i] = rules_[a].answer(own(a), found_[a]);
-        for (int c = 0; c < n_; ++c) {  // contacts that let go
-            if (force[c] == 0 || found_[c].phi_0 != 0) continue;
-            const MomentMatrix by = times(S, between(a, c));
-            step_[a] += by.m00 * step_[c] + by.m01 * step_[P + c];
-            step_[P + a] += by.m10 * step_[c] + by.m11 * step_[P + c];
-        }
-    }
-    if (active == 2) return newton_step_of_two(active_[0], active_[1]);
-    const int size = 2 * active, columns = size + 1;
-    for (int i = 0; i < active; ++i) {
-        const int a = active_[i];
+// Newton's step for phi = S(phi), from the residuals in step_ into step_: (1 - S' T) step =
+// residual, S' = answer(). False if the matrix is singular.
+bool MomentObstacle::newton_step() noexcept {
+    const int m = static_cast<int>(active_.size());
+    for (int i = 0; i < m; ++i)
+        answers_[i] = found_[i].phi_0 == 0 && found_[i].phi_1 == 0
+                          ? MomentMatrix{}
+                          : rules_[active_[i]].answer(less(i, i), found_[i]);
+    if (m == 2) return newton_step_of_two();
+    const int size = 2 * m, columns = size + 1;
+    for (int i = 0; i < m; ++i) {
         double *first = matrix_.data() + 2 * i * columns, *second = first + columns;
-        for (int j = 0; j < active; ++j) {
+        for (int j = 0; j < m; ++j) {
             const bool same = i == j;
-            const MomentMatrix by =
-                same ? MomentMatrix{} : times(answers_[i], between(a, active_[j]));
+            const MomentMatrix by = same ? MomentMatrix{} : times(answers_[i], less(i, j));
             first[2 * j] = same - by.m00, first[2 * j + 1] = -by.m01;
             second[2 * j] = -by.m10, second[2 * j + 1] = same - by.m11;
         }
-        first[size] = step_[a], second[size] = step_[P + a];
+        first[size] = step_[2 * i], second[size] = step_[2 * i + 1];
     }
     if (!eliminate(matrix_.data(), size, columns)) return false;
-    for (int i = 0; i < size; ++i) step_[i % 2 * P + active_[i / 2]] = matrix_[i * columns + size];
+    for (int i = 0; i < size; ++i) step_[i] = matrix_[i * columns + size];
     return true;
 }
 
-// newton_step() with two active contacts, by blocks: (1 - A B) step_a = rest_a + A rest_b, step_b =
-// rest_b + B step_a.
-bool MomentObstacle::newton_step_of_two(int a, int b) noexcept {
-    const int P = points_;
-    const MomentMatrix A = times(answers_[0], between(a, b)), B = times(answers_[1], between(b, a)),
+// newton_step() of two, by blocks: (1 - A B) step_0 = rest_0 + A rest_1, step_1 = rest_1 + B
+// step_0.
+bool MomentObstacle::newton_step_of_two() noexcept {
+    double* s = step_.data();
+    const MomentMatrix A = times(answers_[0], less(0, 1)), B = times(answers_[1], less(1, 0)),
                        both = times(A, B), one{1 - both.m00, -both.m01, -both.m10, 1 - both.m11};
     const double det = one.m00 * one.m11 - one.m01 * one.m10,
-                 s_0 = step_[a] + A.m00 * step_[b] + A.m01 * step_[P + b],
-                 s_1 = step_[P + a] + A.m10 * step_[b] + A.m11 * step_[P + b];
+                 s_0 = s[0] + A.m00 * s[2] + A.m01 * s[3], s_1 = s[1] + A.m10 * s[2] + A.m11 * s[3];
     if (!(std::abs(det) > 0)) return false;
-    step_[a] = (one.m11 * s_0 - one.m01 * s_1) / det;
-    step_[P + a] = (one.m00 * s_1 - one.m10 * s_0) / det;
-    step_[b] += B.m00 * step_[a] + B.m01 * step_[P + a];
-    step_[P + b] += B.m10 * step_[a] + B.m11 * step_[P + a];
+    s[0] = (one.m11 * s_0 - one.m01 * s_1) / det;
+    s[1] = (one.m00 * s_1 - one.m10 * s_0) / det;
+    s[2] += B.m00 * s[0] + B.m01 * s[1];
+    s[3] += B.m10 * s[0] + B.m11 * s[1];
     return true;
 }
 
 // Newton's steps with a search along each, then one contact after another with half of each change.
-bool MomentObstacle::by_newton(const double* b, double* force) noexcept {
+// Returns the iterations, or -1 without a solution.
+int MomentObstacle::newton() noexcept {
     constexpr double enough = 1e-13;
-    const int D = 2 * points_;
+    const int m = static_cast<int>(active_.size()), D = 2 * m;
     int iterations = 0, halved = 0;
     double squares = std::numeric_limits<double>::infinity();
     bool solved = false;
-    for (; iterations < most_blocks && !solved; ++iterations) {
-        const Rest rest = look(b, force);
-        solved = rest.relative <= enough;
+    for (; iterations < most_blocks; ++iterations) {
+        const Rest rest = look();
+        solved = m == 1 || rest.relative <= enough;
         if (solved) break;
         if (rest.squares >= squares && halved < 6) {
             ++halved;
-            for (int i = 0; i < D; ++i) step_[i] *= 0.5, force[i] = trial_[i] + step_[i];
+            for (int i = 0; i < D; ++i) last_step_[i] *= 0.5, x_own_[i] = from_[i] + last_step_[i];
             continue;
         }
         halved = 0;
         squares = rest.squares;
-        std::copy_n(force, D, trial_.begin());
-        if (!newton_step(force)) break;
-        for (int i = 0; i < D; ++i) force[i] += step_[i];
+        if (!newton_step()) break;
+        for (int i = 0; i < D; ++i)
+            from_[i] = x_own_[i], last_step_[i] = step_[i], x_own_[i] += step_[i];
     }
     for (int sweep = 0; sweep < most_sweeps && !solved; ++sweep, ++iterations) {
-        for (int a = 0; a < n_; ++a) {
-            double b_0, b_1;
-            moved_by_others(a, b, force, b_0, b_1);
-            MomentContact& s = found_[a];
-            rules_[a].solve(own(a), at_[a].eta, b_0, b_1, s);
-            force[a] += 0.5 * (s.phi_0 - force[a]);
-            force[points_ + a] += 0.5 * (s.phi_1 - force[points_ + a]);
+        for (int i = 0; i < m; ++i) {
+            solve_own(i);
+            x_own_[2 * i] += 0.5 * (found_[i].phi_0 - x_own_[2 * i]);
+            x_own_[2 * i + 1] += 0.5 * (found_[i].phi_1 - x_own_[2 * i + 1]);
         }
-        solved = look(b, force).relative <= enough;
+        solved = look().relative <= enough;
     }
-    for (int a = 0; a < n_; ++a) solved = solved && found_[a].converged;
-    if (!solved) return by_constant_forces(b, force);
-    set_ = 0;
-    for (int a = 0; a < n_; ++a) {
-        force[a] = found_[a].phi_0, force[points_ + a] = found_[a].phi_1;
-        take(a, found_[a]);
-    }
-    tally_.note(std::max(iterations, 1), 0);
-    return true;
+    for (int i = 0; i < m; ++i) solved = solved && found_[i].converged;
+    return solved ? iterations : -1;
 }
 
 bool MomentObstacle::by_constant_forces(const double* b, double* force) noexcept {

@@ -13,13 +13,14 @@
 //   1. one contact alone, by its own equation, the others out (tried_alone in few_contacts.hpp);
 //   2. the contacts that touched after the last step are in full contact, the others out: one
 //      matrix, whose inverse is kept;
-//   3. if one contact contradicts this, its own equation with the others eliminated;
-//   4. otherwise Newton's steps on all contacts, each contact solved for itself.
+//   3. contacts that contradict this are solved by their own equations, together, with the others
+//      eliminated: one by its closed form, several by Newton's steps.
 // If no solution is found, even for one contact alone, forces are constant in the step
 // (contact_gram.hpp).
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -89,6 +90,15 @@ private:
         // zeros in rows and columns of the others
         std::vector<double> inverse;
     };
+    struct Reduced {  // m contacts by their own equations, those in full contact eliminated
+        std::uint64_t own = 0, full = 0;
+        std::vector<double> by, moved;   // phi and r of all, by forces of those m: 2n x 2m
+        std::vector<MomentMatrix> less;  // r of those m, m x m
+    };
+    static constexpr std::size_t kept_sets = 16;  // a power of 2
+    static std::size_t place_of(std::uint64_t set) {
+        return (set ^ (set >> 7) ^ (set >> 19)) & (kept_sets - 1);
+    }
     double T(int i, int a, int j, int b) const {  // between contacts, the thread eliminated
         return T_[(j * n_ + b) * 2 * n_ + i * n_ + a];
     }
@@ -102,7 +112,7 @@ private:
     template <int few, bool thread>
     [[gnu::always_inline]] bool several(const double* b, double* force) noexcept;
     const Kept& kept(std::uint64_t set) noexcept {
-        Kept& s = sets_[(set ^ (set >> 7) ^ (set >> 19)) % sets_.size()];
+        Kept& s = sets_[place_of(set)];
         if (s.set != set) keep(set, s);
         return s;
     }
@@ -128,18 +138,21 @@ private:
     }
     bool with_change(std::uint64_t misfits, const double* b, const double* ends, const double* phi,
                      double* force) noexcept;
-    bool with_one(std::uint64_t others, int a, const double* b, const double* ends,
-                  double* force) noexcept;
+    void reduce(std::uint64_t own, std::uint64_t full) noexcept;
+    const MomentMatrix& less(int i, int j) const {
+        return reduced_now_->less[i * static_cast<int>(active_.size()) + j];
+    }
+    std::uint64_t together(std::uint64_t own, const double* b, const double* ends,
+                           const double* phi, double* force) noexcept;
     struct Rest {
         double squares = 0, relative = 0;
     };
-    Rest look(const double* b, const double* force) noexcept;
-    bool newton_step(const double* force) noexcept;
-    bool newton_step_of_two(int a, int b) noexcept;
-    bool by_newton(const double* b, double* force) noexcept;
+    void solve_own(int i) noexcept;
+    Rest look() noexcept;
+    bool newton_step() noexcept;
+    bool newton_step_of_two() noexcept;
+    int newton() noexcept;
     bool by_constant_forces(const double* b, double* force) noexcept;
-    void moved_by_others(int a, const double* b, const double* force, double& b_0,
-                         double& b_1) const noexcept;
     void take(int a, const MomentContact&) noexcept;
     void take_linear(int a, double phi_0, double from, double to) noexcept {
         Point& p = at_[a];
@@ -180,13 +193,19 @@ private:
     ContactTally tally_;
     std::vector<double> b_, next_, moved_, spring_;  // workspaces; r_0; C^-1 D
     std::vector<double> pairs_, ends_, trial_, step_, matrix_;
+    // Contacts solved together by their own equations: in this order the free motion with those in
+    // full contact eliminated, the forces, and Newton's steps.
+    std::vector<int> active_;
     std::vector<MomentContact> found_;
-    std::vector<MomentMatrix> answers_;  // of active contacts
+    std::vector<MomentMatrix> answers_;
+    std::vector<double> own_b_, x_own_, from_, last_step_;
     ContactGram gram_;
     long constant_ = 0;  // steps with constant forces
-    std::vector<int> active_;
+    std::vector<int> kept_;
     std::uint64_t set_ = 0, linear_ = 0;  // touching linear contacts; all linear contacts
-    std::vector<Kept> sets_;
+    std::array<Kept, kept_sets> sets_;
+    std::array<Reduced, kept_sets> reduced_;
+    const Reduced* reduced_now_ = nullptr;
 };
 
 // Inline for the kernels that make whole steps.
@@ -205,8 +224,12 @@ template <int few, bool thread, bool series>
         for (int i = 0; i < 2 * P; ++i) b[i] = free[i];
     } else {
         product<D>(points_by_.data(), x, states, b, 2 * P);
-        product<D>(points_by_.data() + states * 2 * P, free, 2 * P, by_free, 2 * P);
-        for (int i = 0; i < 2 * P; ++i) b[i] += by_free[i];
+        if (has_thread) {  // otherwise the matrix is the identity
+            product<D>(points_by_.data() + states * 2 * P, free, 2 * P, by_free, 2 * P);
+            for (int i = 0; i < 2 * P; ++i) b[i] += by_free[i];
+        } else {
+            for (int i = 0; i < 2 * P; ++i) b[i] += free[i];
+        }
         product<S>(state_by_.data(), x, states, next, states);
     }
     bool converged = true;
@@ -222,7 +245,9 @@ template <int few, bool thread, bool series>
         next[states - 1] += free[c];
     }
     if (states > 0) {
-        add_product<S>(state_by_.data() + states * states, force, 2 * P, next, states);
+        bool forced = has_thread;
+        for (int i = 0; i < 2 * P; ++i) forced = forced || force[i] != 0;
+        if (forced) add_product<S>(state_by_.data() + states * states, force, 2 * P, next, states);
         for (int i = 0; i < states; ++i) x_before_[i] = x_[i], x_[i] = next[i];
         for (int i = 0; i < 2 * P; ++i) last_[i] = force[i];
     }

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "schemes/modal/kernels/modal_two_point_kernel.hpp"
 #include "schemes/modal/kernels/vectors-inl.hpp"
 
@@ -52,15 +54,17 @@ HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
 
 // Makes a single pass: the update and the next dots. The number of points is a template argument,
 // so that an absent point costs nothing. Two accumulators per dot hide the latency of adding.
-// pushing: the points with a force, a bit for each, or by_index: point `one`.
+// pushing: the points with a force, a bit for each, or by_place(count): those at `places`.
 template <int points, bool dots_of_y, int pushing>
-HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force, int one = 0) {
+HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force,
+                           const int* places = nullptr) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     constexpr int some = points > 0 ? points : 1, columns = static_cast<int>(Column::g) + points;
+    constexpr int placed = std::max(-pushing, 0);
     V F[some], y[some][2], u[some][2];
     for (int p = 0; p < some; ++p) {
-        F[p] = hn::Set(d, points > 0 ? force[pushing == by_index ? one : p] : 0);
+        F[p] = hn::Set(d, points > 0 ? force[p < placed ? places[p] : p] : 0);
         for (int k = 0; k < 2; ++k) y[p][k] = u[p][k] = hn::Zero(d);
     }
     double* HWY_RESTRICT stream = m.stream;
@@ -71,7 +75,7 @@ HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force, 
         const auto weight = [&](int p) HWY_ATTR __attribute__((always_inline)) {
             return hn::Load(d, line + (static_cast<int>(Column::g) + p) * TwoPointStream::line);
         };
-        if constexpr (pushing == by_index) forced = hn::Mul(weight(one), F[0]);
+        for (int p = 0; p < placed; ++p) forced = hn::MulAdd(weight(places[p]), F[p], forced);
         for (int p = points - 1; p >= 0; --p) {
             g[p] = in_register(weight(p));
             if (pushing > 0 && pushing >> p & 1) forced = hn::MulAdd(g[p], F[p], forced);
@@ -142,8 +146,8 @@ struct FewPoints {
     TwoPointStream& m;
     const double* force;
     template <int pushing>
-    HWY_INLINE void run(int one) const {
-        few_points<points, dots_of_y, pushing>(m, force, one);
+    HWY_INLINE void run(const int* places) const {
+        few_points<points, dots_of_y, pushing>(m, force, places);
     }
 };
 template <int points, bool dots_of_y>

@@ -2,6 +2,8 @@
 // set. The number of points is a template argument up to five, so that absent points cost nothing.
 #include "schemes/modal/kernels/two_moment_kernel.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -42,20 +44,25 @@ HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, co
         to[t] = hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a[t], of_b[t])));
 }
 
-// pushing: the contacts that push, a bit for each, or by_index: contact `one`. A thread always
-// pulls.
+// pushing: the contacts that push, a bit for each, or by_place(count): those at `places`. A thread
+// always pulls.
 template <int points, bool thread, int pushing>
-HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, int one = 0) {
+HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, const int* places) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
     constexpr int columns = Stream::weights + 2 * points, some = points > 0 ? points : 1,
-                  pull = (pushing == by_index ? 0 : pushing) | (thread ? 1 << (points - 1) : 0);
-    V force_0[some], force_1[some], sum_0[some], sum_1[some];
-    const V one_0 = hn::Set(d, pushing == by_index ? phi[one] : 0),
-            one_1 = hn::Set(d, pushing == by_index ? phi[points + one] : 0);
+                  placed = std::max(-pushing, 0),
+                  pull = std::max(pushing, 0) | (thread ? 1 << (points - 1) : 0);
+    V force_0[some], force_1[some], sum[2 * some], by_0[placed + 1], by_1[placed + 1];
+    std::ptrdiff_t from[placed + 1];
+    for (int k = 0; k < placed; ++k) {
+        from[k] = (Stream::weights + places[k]) * Stream::line;
+        by_0[k] = hn::Set(d, phi[places[k]]), by_1[k] = hn::Set(d, phi[points + places[k]]);
+    }
+    const V zero = in_register(hn::Zero(d));
     for (int p = 0; p < points; ++p) {
         force_0[p] = hn::Set(d, phi[p]), force_1[p] = hn::Set(d, phi[points + p]);
-        sum_0[p] = sum_1[p] = hn::Zero(d);
+        sum[p] = sum[points + p] = zero;
     }
     double* HWY_RESTRICT line = m.stream;
     for (int i = 0; i < m.modes; i += Stream::line, line += columns * Stream::line)
@@ -64,34 +71,38 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, int one = 
             const auto load = [&](int column) HWY_ATTR __attribute__((always_inline)) {
                 return hn::Load(d, q + column * Stream::line);
             };
-            V a = load(Stream::a), b = load(Stream::b), p_0[some], p_1[some];
-            if constexpr (pushing == by_index) {
-                b = hn::MulAdd(load(Stream::weights + one), one_0, b);
-                a = hn::MulAdd(load(Stream::weights + points + one), one_1, a);
+            V a = in_register(load(Stream::a)), b = in_register(load(Stream::b)), w[2 * some];
+            for (int j = 0; j < placed; ++j) {
+                b = hn::MulAdd(hn::Load(d, q + from[j]), by_0[j], b);
+                a = hn::MulAdd(hn::Load(d, q + from[j] + points * Stream::line), by_1[j], a);
             }
             for (int p = 0; p < points; ++p) {
-                p_0[p] = in_register(load(Stream::weights + p));
-                p_1[p] = in_register(load(Stream::weights + points + p));
                 if (!(pull >> p & 1)) continue;
-                b = hn::MulAdd(p_0[p], force_0[p], b);  // (2)
-                a = hn::MulAdd(p_1[p], force_1[p], a);
+                for (int c = p; c < 2 * points; c += points) {
+                    w[c] = load(Stream::weights + c);
+                    if (points <= 2) w[c] = in_register(w[c]);
+                }
+                b = hn::MulAdd(w[p], force_0[p], b);  // (2)
+                a = hn::MulAdd(w[points + p], force_1[p], a);
             }
-            const V turn = load(Stream::A12),  // (3)
+            const V turn = in_register(load(Stream::A12)),  // (3)
                 new_a = hn::MulAdd(load(Stream::A11), a, hn::Mul(turn, b)),
                     new_b = hn::NegMulAdd(turn, a, hn::Mul(load(Stream::A22), b));
             hn::Store(new_a, d, q + Stream::a * Stream::line);
             hn::Store(new_b, d, q + Stream::b * Stream::line);
-            for (int p = 0; p < points; ++p) {  // (1)
-                sum_0[p] = hn::MulAdd(p_0[p], new_b, sum_0[p]);
-                sum_1[p] = hn::MulAdd(p_1[p], new_a, sum_1[p]);
+            if (points > 2) q = again(q);
+            for (int c = 0; c < 2 * points; ++c) {  // (1)
+                if (points > 2 || !(pull >> c % some & 1)) w[c] = load(Stream::weights + c);
+                sum[c] = hn::MulAdd(w[c], c < points ? new_b : new_a, sum[c]);
             }
         }
-    for (int p = 0; p < points; p += 2) {
-        const int next = p + 1 < points ? p + 1 : p;
+    constexpr int all = 2 * points;
+    for (int c = 0; c + 4 <= all; c += 4)
+        sums(sum[c], sum[c + 1], sum[c + 2], sum[c + 3], m.free + c);
+    if constexpr (all % 4 != 0) {
         alignas(64) double four[4];
-        sums(sum_0[p], sum_0[next], sum_1[p], sum_1[next], four);
-        m.free[p] = four[0], m.free[next] = four[1];
-        m.free[points + p] = four[2], m.free[points + next] = four[3];
+        sums(sum[all - 2], sum[all - 1], sum[all - 2], sum[all - 1], four);
+        m.free[all - 2] = four[0], m.free[all - 1] = four[1];
     }
 }
 
@@ -140,8 +151,8 @@ struct FewPoints {
     Stream& m;
     const double* phi;
     template <int pushing>
-    HWY_INLINE void run(int one) const {
-        few_points<points, thread, pushing>(m, phi, one);
+    HWY_INLINE void run(const int* places) const {
+        few_points<points, thread, pushing>(m, phi, places);
     }
 };
 template <int points, bool thread>

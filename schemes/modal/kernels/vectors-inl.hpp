@@ -29,8 +29,8 @@ HWY_INLINE double dot(const double* HWY_RESTRICT w, const double* HWY_RESTRICT x
     return hn::GetLane(hn::SumOfLanes(d, hn::Add(even, odd)));
 }
 
-// Sums over the lanes of four vectors at once: half the shuffles that four separate sums need, each
-// by halving halves.
+// Sums over the lanes of four vectors at once, each by halving halves: fewer shuffles than four
+// separate sums need, and a single store, so that vectors can read the sums without delay.
 HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
     const D d;
 #if HWY_MAX_BYTES >= 64 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
@@ -40,7 +40,11 @@ HWY_INLINE void sums(V a, V b, V c, V e, double* HWY_RESTRICT to) {
     const V pairs = hn::Add(hn::OddEvenBlocks(hn::SwapAdjacentBlocks(be), ac),
                             hn::OddEvenBlocks(be, hn::SwapAdjacentBlocks(ac)));
     const V all = hn::Add(pairs, hn::Shuffle01(pairs));  // a a b b c c e e
-    hn::Store(hn::LowerHalf(four, hn::ConcatEven(d, all, all)), four, to);
+    hn::StoreU(hn::LowerHalf(four, hn::ConcatEven(d, all, all)), four, to);
+#elif HWY_MAX_BYTES == 32
+    const V ac = hn::Add(hn::ConcatLowerLower(d, c, a), hn::ConcatUpperUpper(d, c, a));
+    const V be = hn::Add(hn::ConcatLowerLower(d, e, b), hn::ConcatUpperUpper(d, e, b));
+    hn::StoreU(hn::Add(hn::InterleaveLower(d, ac, be), hn::InterleaveUpper(d, ac, be)), d, to);
 #else
     to[0] = hn::GetLane(hn::SumOfLanes(d, a));
     to[1] = hn::GetLane(hn::SumOfLanes(d, b));
@@ -58,19 +62,29 @@ HWY_INLINE V in_register(V v) {
     return v;
 }
 
-// Calls pass.run<pushing>(one) with the points that have a force: `pushing` has a bit for each, or
-// is by_index, and `one` alone has a force. So a pass leaves out products with zero.
-constexpr int by_index = -1;
+// Makes the compiler read these doubles again: kept in registers, the weights of three points or
+// more would move sums to memory, where each addition waits.
+HWY_INLINE double* again(double* at) {
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC
+    asm("" : "+r"(at));
+#endif
+    return at;
+}
+
+// Calls pass.run<pushing>(places) with the points that have a force, so that a pass leaves out
+// products with zero: `pushing` has a bit for each, or is by_place(count) with their places.
+constexpr int by_place(int count) { return -count; }
 template <int points, class HasForce, class Pass>
 HWY_INLINE void with_forces(const HasForce& has_force, const Pass& pass) {
-    int count = 0, last = 0;
+    int count = 0, at[points + 1] = {};
     for (int p = 0; p < points; ++p)
-        if (has_force(p)) ++count, last = p;
-    if (count == 0) pass.template run<0>(0);
+        if (has_force(p)) at[count++] = p;
+    if (count == 0) pass.template run<0>(at);
     else if (points == 2 && count == 1)
-        last == 0 ? pass.template run<1>(0) : pass.template run<2>(0);
-    else if (points > 2 && count == 1) pass.template run<by_index>(last);
-    else pass.template run<(1 << points) - 1>(0);
+        at[0] == 0 ? pass.template run<1>(at) : pass.template run<2>(at);
+    else if (points > 2 && count == 1) pass.template run<by_place(1)>(at);
+    else if (points > 3 && count == 2) pass.template run<by_place(2)>(at);
+    else pass.template run<(1 << points) - 1>(at);
 }
 
 }  // namespace HWY_NAMESPACE
