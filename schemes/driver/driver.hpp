@@ -15,6 +15,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -214,9 +215,12 @@ private:
     }
 
     // Force of the pluck, which also moves the points through the series compliance.
-    double pluck_at(long n) const {
-        return points().pluck ? jvari::force(*points().pluck, static_cast<double>(n) * points().dt)
-                              : 0;
+    double pluck_at(long n) noexcept {
+        if (!points().pluck) return 0;
+        PluckAt& known = pluck_at_[n & 3];
+        if (known.step != n)
+            known = {n, jvari::force(*points().pluck, static_cast<double>(n) * dt_)};
+        return known.force;
     }
     ReadingsBeforeStep at_contacts(const ReadingsBeforeStep& at, long older, long now,
                                    long newer) noexcept {
@@ -245,21 +249,22 @@ private:
         return {older_.data(), now_.data(), free_.data()};
     }
     // int F' P_1 dt for the pluck over a step, by parts [N]
-    double turned_pluck(long n) const {
-        if (!plucked_in_series_) return 0;
-        const double t = static_cast<double>(n) * points().dt;
-        return pluck_at(n) + pluck_at(n + 1) - 2 * mean_force(*points().pluck, t, points().dt);
+    double turned_pluck(long n) noexcept {
+        if constexpr (moments == 2)
+            if (plucked_in_series_)
+                return pluck_at(n) + pluck_at(n + 1) - 2 * string_->mean_pluck();
+        return 0;
     }
     // work done there by the forces [J]
-    double by_way_of_series(long older, long newer) const noexcept {
+    double by_way_of_series(long older, long newer) noexcept {
         double work = 0;
         if (!plucked_in_series_) return work;
-        const double change = pluck_at(newer) - pluck_at(older),
-                     turned = moments == 2 ? turned_pluck(older) : 0;
+        const double change = pluck_at(newer) - pluck_at(older);
         for (int p = 0; p < points().count(); ++p) {
             work += force_[p] * points().series->pluck[p] * change;
             if constexpr (moments == 2)
-                work += force_[points().count() + p] * points().series->pluck[p] * turned;
+                work +=
+                    force_[points().count() + p] * points().series->pluck[p] * turned_pluck(older);
         }
         return work / levels;
     }
@@ -299,6 +304,11 @@ private:
     int steps_;
     bool plucked_in_series_ = false;
     double dt_ = 0;
+    struct PluckAt {
+        long step = -1;
+        double force = 0;  // [N]
+    };
+    std::array<PluckAt, 4> pluck_at_;  // at the latest steps
     RowForces means_;
     FreeMasses<levels, moments> masses_;
     Points obstacle_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -49,6 +50,14 @@ std::vector<double> tap_weights(const Tap&, const Modes&, const String&);
 
 // Modes above half the sample rate would alias.
 void refuse_above_nyquist(const Descriptor&, const Modes&, double sample_rate);
+
+// Adds F w to a column in a stream, whose lines with `line` modes lie `stride` doubles apart;
+// w: padded.
+template <int line>
+inline void add_to_column(double* column, std::ptrdiff_t stride, const AlignedVector& w, double F) {
+    for (std::size_t i = 0; i < w.size(); i += line, column += stride)
+        for (int k = 0; k < line; ++k) column[k] += w[i + k] * F;
+}
 
 // sum w x for padded arrays (kernels/modal_two_point_kernel.cpp)
 double modal_dot(const AlignedVector& w, const AlignedVector& x);

@@ -168,9 +168,10 @@ void TwoMomentModes::put_pluck(const Modes& modes, const Pluck& pluck, double du
                                const std::vector<std::vector<double>>& g) {
     const int P = m_.points;
     const auto g_e = footprint_weights(modes, pluck.position, pluck.width);
+    for (auto* v : {&pluck_.p_0, &pluck_.p_1}) v->assign(m_.size, 0.0);
     for (int i = 0; i < m_.modes; ++i) {
-        pluck_.p_0.push_back(g_e[i] * modes_[i].p_0());
-        pluck_.p_1.push_back(g_e[i] * modes_[i].p_1());
+        pluck_.p_0[i] = g_e[i] * modes_[i].p_0();
+        pluck_.p_1[i] = g_e[i] * modes_[i].p_1();
     }
     pluck_.theta.resize(P);
     for (int p = 0; p < P; ++p) pluck_.theta[p] = compliance(g[p], g_e);
@@ -292,11 +293,11 @@ Spent TwoMomentModes::spent(const double* force) const noexcept {
 Spent TwoMomentModes::pass(const double* force, double, bool probed) noexcept {
     const Spent all = probed ? spent(force) : Spent{};
     ++step_;
-    if (F_0_ != 0 || F_1_ != 0)
-        for (int i = 0; i < m_.modes; ++i) {
-            stream_[m_.at(Moments::b, i)] += pluck_.p_0[i] * F_0_;
-            stream_[m_.at(Moments::a, i)] += pluck_.p_1[i] * F_1_;
-        }
+    if (F_0_ != 0 || F_1_ != 0) {
+        const std::ptrdiff_t stride = m_.columns() * Moments::line;
+        add_to_column<Moments::line>(m_.stream + m_.at(Moments::b, 0), stride, pluck_.p_0, F_0_);
+        add_to_column<Moments::line>(m_.stream + m_.at(Moments::a, 0), stride, pluck_.p_1, F_1_);
+    }
     pass_(m_, force);
     return all;
 }

@@ -51,6 +51,7 @@ public:
     void approach(bool) noexcept;
     // free: means for all points, then first moments
     ReadingsBeforeStep readings() const { return {nullptr, nullptr, free_.data()}; }
+    double mean_pluck() const { return F_0_; }  // in the step [N]
     Spent pass(const double* force, double, bool probed) noexcept;
     void reading(int, double* out) const noexcept;
     double stored() const noexcept;
@@ -76,7 +77,7 @@ private:
         Pluck of;
         std::vector<PluckMoments> moments;  // in the step first_step + n
         std::vector<MomentMatrix> theta;    // for each point [m/N]
-        std::vector<double> p_0, p_1;
+        AlignedVector p_0, p_1;
         long first_step = 0, steps = 0;
     };
     struct AtRow {

@@ -195,7 +195,8 @@ void TwoPointModes::approach(bool) noexcept {
 }
 
 void TwoPointModes::pluck_modes() noexcept {
-    for (int i = 0; i < m_.modes; ++i) stream_[m_.at(Column::u, i)] += g_e_[i] * F_e_;
+    add_to_column<TwoPointStream::line>(m_.stream + m_.at(Column::u, 0),
+                                        m_.columns() * TwoPointStream::line, g_e_, F_e_);
     for (std::size_t p = 0; p < g_.size(); ++p) u_[p] += pluck_.theta[p] * F_e_;
 }
 
