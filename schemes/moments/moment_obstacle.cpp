@@ -12,6 +12,7 @@ namespace jvari {
 
 namespace {
 constexpr int most_blocks = 60, most_sweeps = 200;
+constexpr int few = 4;  // contacts all of whose sets are kept
 
 // Gauss's elimination with pivots, in place: rows with `columns` numbers, the first n for the
 // matrix and the others for right sides, which become solutions. False if a pivot is zero.
@@ -81,6 +82,8 @@ MomentObstacle::MomentObstacle(const Contacts& contacts, const std::vector<Threa
     for (auto* v : {&next_, &x_before_}) v->assign(x_.size(), 0.0);
     matrix_.assign(static_cast<std::size_t>(2 * n) * (4 * n + 1), 0.0);
     const std::size_t pairs = static_cast<std::size_t>(n) * n;
+    sets_.resize(16);
+    reduced_.resize(n <= few ? std::size_t{1} << 2 * n : 16);
     for (Kept& s : sets_) s.inverse.assign(4 * pairs, 0.0);
     for (Reduced& r : reduced_)
         if (n > 1) r.less.resize(pairs), r.by.resize(4 * pairs), r.moved.resize(4 * pairs);
@@ -310,7 +313,7 @@ bool MomentObstacle::with_change(std::uint64_t misfits, const double* b, const d
 
 // Responses to forces of the contacts `active_`, the contacts `full` eliminated.
 void MomentObstacle::reduce(std::uint64_t own, std::uint64_t full) noexcept {
-    Reduced& R = reduced_[place_of(own ^ full << 2)];
+    Reduced& R = place_of(own ^ full << std::min(n_, few), reduced_);
     reduced_now_ = &R;
     if (R.own == own && R.full == full) return;
     R.own = own, R.full = full;

@@ -20,7 +20,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -95,9 +94,10 @@ private:
         std::vector<double> by, moved;   // phi and r of all, by forces of those m: 2n x 2m
         std::vector<MomentMatrix> less;  // r of those m, m x m
     };
-    static constexpr std::size_t kept_sets = 16;  // a power of 2
-    static std::size_t place_of(std::uint64_t set) {
-        return (set ^ (set >> 7) ^ (set >> 19)) & (kept_sets - 1);
+    // Place of a set in `some`, as many as a power of 2.
+    template <class Some>
+    static auto& place_of(std::uint64_t set, Some& some) {
+        return some[(set ^ (set >> 7) ^ (set >> 19)) & (some.size() - 1)];
     }
     double T(int i, int a, int j, int b) const {  // between contacts, the thread eliminated
         return T_[(j * n_ + b) * 2 * n_ + i * n_ + a];
@@ -112,7 +112,7 @@ private:
     template <int few, bool thread>
     [[gnu::always_inline]] bool several(const double* b, double* force) noexcept;
     const Kept& kept(std::uint64_t set) noexcept {
-        Kept& s = sets_[place_of(set)];
+        Kept& s = place_of(set, sets_);
         if (s.set != set) keep(set, s);
         return s;
     }
@@ -203,8 +203,8 @@ private:
     long constant_ = 0;  // steps with constant forces
     std::vector<int> kept_;
     std::uint64_t set_ = 0, linear_ = 0;  // touching linear contacts; all linear contacts
-    std::array<Kept, kept_sets> sets_;
-    std::array<Reduced, kept_sets> reduced_;
+    std::vector<Kept> sets_;
+    std::vector<Reduced> reduced_;
     const Reduced* reduced_now_ = nullptr;
 };
 

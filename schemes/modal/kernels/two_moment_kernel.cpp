@@ -3,6 +3,7 @@
 #include "schemes/modal/kernels/two_moment_kernel.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <utility>
 
@@ -53,6 +54,9 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, const int*
     constexpr int columns = Stream::weights + 2 * points, some = points > 0 ? points : 1,
                   placed = std::max(-pushing, 0),
                   pull = std::max(pushing, 0) | (thread ? 1 << (points - 1) : 0);
+    // Weights for both uses stay in registers. With more of them sums would move to memory, where
+    // each addition waits: these weights are read twice.
+    constexpr bool stay = points <= 2 || std::popcount(static_cast<unsigned>(pull)) <= 1;
     V force_0[some], force_1[some], sum[2 * some], by_0[placed + 1], by_1[placed + 1];
     std::ptrdiff_t from[placed + 1];
     for (int k = 0; k < placed; ++k) {
@@ -80,7 +84,7 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, const int*
                 if (!(pull >> p & 1)) continue;
                 for (int c = p; c < 2 * points; c += points) {
                     w[c] = load(Stream::weights + c);
-                    if (points <= 2) w[c] = in_register(w[c]);
+                    if (stay) w[c] = in_register(w[c]);
                 }
                 b = hn::MulAdd(w[p], force_0[p], b);  // (2)
                 a = hn::MulAdd(w[points + p], force_1[p], a);
@@ -90,9 +94,9 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, const int*
                     new_b = hn::NegMulAdd(turn, a, hn::Mul(load(Stream::A22), b));
             hn::Store(new_a, d, q + Stream::a * Stream::line);
             hn::Store(new_b, d, q + Stream::b * Stream::line);
-            if (points > 2) q = again(q);
+            if (!stay) q = again(q);
             for (int c = 0; c < 2 * points; ++c) {  // (1)
-                if (points > 2 || !(pull >> c % some & 1)) w[c] = load(Stream::weights + c);
+                if (!stay || !(pull >> c % some & 1)) w[c] = load(Stream::weights + c);
                 sum[c] = hn::MulAdd(w[c], c < points ? new_b : new_a, sum[c]);
             }
         }

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 HWY_BEFORE_NAMESPACE();
 namespace jvari {
 namespace HWY_NAMESPACE {
@@ -62,8 +64,7 @@ HWY_INLINE V in_register(V v) {
     return v;
 }
 
-// Makes the compiler read these doubles again: kept in registers, the weights of three points or
-// more would move sums to memory, where each addition waits.
+// Makes the compiler read these doubles again.
 HWY_INLINE double* again(double* at) {
 #if HWY_ARCH_X86 && HWY_COMPILER_GCC
     asm("" : "+r"(at));
@@ -74,17 +75,21 @@ HWY_INLINE double* again(double* at) {
 // Calls pass.run<pushing>(places) with the points that have a force, so that a pass leaves out
 // products with zero: `pushing` has a bit for each, or is by_place(count) with their places.
 constexpr int by_place(int count) { return -count; }
+template <int points, int p, class Pass>
+HWY_INLINE void with_one(int at, const Pass& pass) {
+    if constexpr (p + 1 == points) pass.template run<1 << p>(nullptr);
+    else if (at == p) pass.template run<1 << p>(nullptr);
+    else with_one<points, p + 1>(at, pass);
+}
 template <int points, class HasForce, class Pass>
 HWY_INLINE void with_forces(const HasForce& has_force, const Pass& pass) {
     int count = 0, at[points + 1] = {};
     for (int p = 0; p < points; ++p)
         if (has_force(p)) at[count++] = p;
-    if (count == 0) pass.template run<0>(at);
-    else if (points == 2 && count == 1)
-        at[0] == 0 ? pass.template run<1>(at) : pass.template run<2>(at);
-    else if (points > 2 && count == 1) pass.template run<by_place(1)>(at);
+    if (count == 0) pass.template run<0>(nullptr);
+    else if (points > 1 && count == 1) with_one<std::max(points, 1), 0>(at[0], pass);
     else if (points > 3 && count == 2) pass.template run<by_place(2)>(at);
-    else pass.template run<(1 << points) - 1>(at);
+    else pass.template run<(1 << points) - 1>(nullptr);
 }
 
 }  // namespace HWY_NAMESPACE
