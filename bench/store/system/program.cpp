@@ -32,11 +32,11 @@ void unblock_signals() {
     signal(SIGXFSZ, SIG_DFL);
 }
 
-// Runs in the forked child of a program with threads, where only calls that are safe in a signal
+// Runs in a forked child of a program with threads, where only calls that are safe in a signal
 // handler are allowed.
 [[noreturn]] void become(char* const* argv, int out, pid_t parent) {
     setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // protects until the watcher runs
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
     unblock_signals();
     dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), 0);
@@ -46,84 +46,93 @@ void unblock_signals() {
     _exit(127);
 }
 
+// Returns when `leader` has ended or SIGTERM came. The leader is not reaped: until then no other
+// group can get its number. Orphans of the group become children of this process and are reaped.
+void wait_for(pid_t leader, const sigset_t& signals) {
+    for (;;) {
+        siginfo_t child{};
+        if (waitid(P_ALL, 0, &child, WEXITED | WNOHANG | WNOWAIT) == 0 && child.si_pid != 0) {
+            if (child.si_pid == leader) return;
+            waitpid(child.si_pid, nullptr, 0);
+        } else if (sigwaitinfo(&signals, nullptr) == SIGTERM) {
+            return;
+        }
+    }
+}
+
+// The supervisor: a process between this program and the other one. It ends with the other
+// program's exit code. On SIGTERM, or when this program dies in any way, it kills the group of the
+// other program, and reaps every process of it. The limits of `become` hold.
+[[noreturn]] void supervise(char* const* argv, int out, pid_t parent) {
+    prctl(PR_SET_NAME, "supervisor");  // `pkill -9 jvari` does not kill it
+    setpgid(0, 0);
+    signal(SIGCHLD, SIG_DFL);
+    sigset_t all, heeded;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all, nullptr);
+    sigemptyset(&heeded);
+    sigaddset(&heeded, SIGCHLD);
+    sigaddset(&heeded, SIGTERM);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(127);
+    const pid_t own = getpid(), leader = _Fork();
+    if (leader == 0) become(argv, out, own);
+    if (leader < 0) _exit(127);
+    setpgid(leader, leader);  // called in parent and child, because either may run first
+    close_range(0, ~0U, 0);
+    wait_for(leader, heeded);
+    kill(-leader, SIGKILL);
+    int status = 0;
+    waitpid(leader, &status, 0);
+    while (waitpid(-leader, nullptr, 0) > 0) continue;
+    _exit(WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+}
+
 class Group {  // process group: a program and its descendants
 public:
     Group(char* const* argv, int out) {
         const pid_t parent = getpid();
         const Undisturbed starting;
-        leader_ = fork();
-        if (leader_ == 0) become(argv, out, parent);
-        if (leader_ < 0) return;
-        setpgid(leader_, leader_);  // called in parent and child, because either may run first
-        killed_too_.emplace([leader = leader_] { kill(-leader, SIGKILL); });
+        supervisor_ = fork();
+        if (supervisor_ == 0) supervise(argv, out, parent);
+        if (supervisor_ > 0)
+            killed_too_.emplace([this] {
+                kill(supervisor_, SIGTERM);
+                wait(0);
+            });
     }
     ~Group() {
-        if (leader_ > 0) end();
+        if (runs()) end();
     }
     Group(const Group&) = delete;
     Group& operator=(const Group&) = delete;
-    bool runs() const { return leader_ > 0; }
-    pid_t leader() const { return leader_; }
-
-    // Tests the leader without reaping the process: until then no other group can get the same
-    // number.
-    bool has_ended() const {
-        siginfo_t info{};
-        return waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-               info.si_pid == leader_;
-    }
-    int end() {  // returns the leader's exit code
-        kill(-leader_, SIGKILL);
+    bool runs() const { return supervisor_ > 0; }
+    bool has_ended() const { return wait(WNOHANG); }
+    int end() {  // returns the exit code
+        kill(supervisor_, SIGTERM);
+        wait(0);
         killed_too_.reset();
-        const pid_t leader = std::exchange(leader_, -1);
         int status = 0;
-        while (waitpid(leader, &status, 0) < 0)
-            if (errno != EINTR) return -errno;
+        while (waitpid(supervisor_, &status, 0) < 0)
+            if (errno != EINTR) return supervisor_ = -1, -errno;
+        supervisor_ = -1;
         return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
 
 private:
-    pid_t leader_;
+    bool wait(int options) const {  // does not reap, so that the number stays the supervisor's
+        siginfo_t info{};
+        int failed = 0;
+        do {
+            failed =
+                waitid(P_PID, static_cast<id_t>(supervisor_), &info, WEXITED | WNOWAIT | options);
+        } while (failed != 0 && errno == EINTR);
+        return failed != 0 || info.si_pid == supervisor_;
+    }
+
+    pid_t supervisor_;
     std::optional<WhenInterrupted> killed_too_;
-};
-
-// Kills a group if this program dies in any way. A shell reads from a pipe, and only this program
-// holds the other end. (PR_SET_PDEATHSIG reaches the leader, but not its children.)
-class Watcher {
-public:
-    explicit Watcher(pid_t leader) {
-        int ends[2];
-        if (pipe2(ends, O_CLOEXEC) != 0) return;
-        end_ = ends[1];
-        std::string group = std::to_string(leader);
-        char shell[] = "/bin/sh", option[] = "-c", text[] = "read -r x; kill -9 \"-$0\"";
-        char* const argv[] = {shell, option, text, group.data(), nullptr};
-        const Undisturbed starting;
-        pid_ = fork();
-        if (pid_ == 0) {
-            setpgid(0, 0);
-            unblock_signals();
-            dup2(ends[0], 0);
-            dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), 1);
-            dup2(1, 2);
-            execv(argv[0], argv);
-            _exit(127);
-        }
-        close(ends[0]);
-    }
-    ~Watcher() {
-        if (pid_ > 0) {
-            kill(pid_, SIGKILL);
-            while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
-        }
-        if (end_ >= 0) close(end_);
-    }
-    Watcher(const Watcher&) = delete;
-    Watcher& operator=(const Watcher&) = delete;
-
-private:
-    int end_ = -1;
-    pid_t pid_ = -1;
 };
 
 class Pipe {
@@ -170,7 +179,6 @@ Said run_program(std::vector<std::string> words, const std::function<bool()>& un
     Group group(argv.data(), pipe.in());
     if (!group.runs()) return {-errno, ""};
     pipe.close_in();
-    const Watcher watcher(group.leader());
     Said output{};
     const WaitsForAnother counted;
     while (!group.has_ended() && !(unwanted && unwanted())) {
