@@ -168,6 +168,9 @@ std::vector<Scene> make_scenes_of_numbers() {
         s.thread = Thread{0.08, 0.06, 900, 0.2, 2e-4};
         s.pluck = Pluck{0.3, 2e-3, 3, 5e-4, 0.13, 0.1};
     });
+    // hard for the string as bridges of the library are: k L/T = 1e4, 1e6
+    add("hard_bridge", over({LumpedBarrier{0.08, 0.08, -3e-4, {1e6}, 1, 0}}));
+    add("harder_bridge", over({LumpedBarrier{0.08, 0.08, -3e-4, {1e8}, 1, 0}}));
     add("line", over({ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}}));
     add("parabola", over({ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}}));
     const TableCurve table{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}};

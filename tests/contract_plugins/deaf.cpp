@@ -25,6 +25,13 @@ void powers(Scene& scene, auto change) {
         if (b.exponent != 1) change(b);
     });
 }
+bool is_harder(const String& s, double hardness) {
+    return std::ranges::any_of(s.barriers, [&](const Barrier& b) {
+        const auto* one = std::get_if<LumpedBarrier>(&b);
+        return hardness == 0 || (one && one->exponent == 1 && !is_rigid(b) &&
+                                 one->stiffness.k * s.length > hardness * s.tension);
+    });
+}
 void second(Scene& scene, auto change) {
     strings(scene, [&](String& s) {
         if (s.barriers.size() > 1) change(std::get<LumpedBarrier>(s.barriers[1]));
@@ -76,7 +83,8 @@ struct Deaf {
     const char* name;
     void (*change)(Scene&);
     const char* of = "modal_two_point";
-    double nut = 1;  // factor of the force at the nut of a string in contact
+    double nut = 1;          // factor of the force at the nut of a string in contact
+    double harder_than = 0;  // k L/T of the bridges in that contact
 };
 
 constexpr const char* waveguide = "sitar_waveguide";
@@ -165,6 +173,15 @@ constexpr Deaf table_of[] = {
      [](Scene& s) { curves<LineCurve>(s, [](auto&, auto& c) { c.coefficient *= 1.05; }); }},
     {"density_of_a_profile_up",
      [](Scene& s) { curves<ParabolaCurve>(s, [](auto& b, auto&) { b.stiffness.K *= 1.2; }); }},
+    {"hard_bridge_softer",
+     [](Scene& scene) {
+         strings(scene, [](String& s) {
+             if (!is_harder(s, 1e3)) return;
+             for (Barrier& b : s.barriers)
+                 if (auto* one = std::get_if<LumpedBarrier>(&b)) one->stiffness.k *= 0.5;
+         });
+     }},
+    {"nut_up_over_a_hard_bridge", [](Scene&) {}, "modal_two_point", 1.1, 1e5},
     {"nut_up_in_contact", [](Scene&) {}, "modal_two_point", 1.01},
 };
 
@@ -181,7 +198,7 @@ public:
         for (int k = 0; k < out.taps; ++k) {
             const Tap& tap = scene_.taps[k];
             if (tap.quantity == Quantity::nut_force && tap.string &&
-                !scene_.strings[*tap.string].barriers.empty())
+                is_harder(scene_.strings[*tap.string], deaf_.harder_than))
                 for (int n = 0; n < out.rows; ++n) out.tap[n + k * out.stride] *= deaf_.nut;
         }
         return status;
