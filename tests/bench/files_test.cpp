@@ -169,7 +169,8 @@ TEST(Files, AFolderHasOneStudyAtATime) {
     };
     const std::string brief = " --rates 44100 --modes 20 --reference-modes 40 --duration 0.01";
     const Ended o = shell(
-        scratch, study("tanpura_c3_release --rates 44100,88200 --modes 40 --duration 0.3") +
+        scratch, study("tanpura_c3_release --rates 44100,88200 --modes 40 --duration 0.3 "
+                       "--reference-modes 320") +
                      " &\nfor k in $(seq 200); do ls two/cells/*.lock >/dev/null 2>&1 && break; "
                      "sleep 0.02; done\n" +
                      study("guitar_over_fret" + brief) + "\n" +
