@@ -309,18 +309,19 @@ inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path
                           bool resume, int jobs) {
     const std::vector<std::string> files = plugins();
     const compare::Catalogue catalogue(files);
-    const study::Plan plan = suite::plan_of(suite, catalogue, files);
+    const study::Plan plan = suite::plan_of(suite.sets, catalogue, files),
+                      points = suite::plan_of(suite.maps, catalogue, files);
     for (const std::string& note : plan.notes) PythonListener().note(note);
     at_least(0, jobs, "jobs");
-    const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan),
+    const report::OwnFolder own(folder, "suite " + suite.name,
+                                study::identity_of(plan) + study::identity_of(points),
                                 PythonListener());
     std::string cells;
     std::vector<std::pair<std::string, store::Table>> tables;
     unlocked(
         [&] {
-            const suite::MapRun maps = suite::run_maps(
-                suite.maps, catalogue, {store::program_identity(files), folder, resume, jobs},
-                PythonListener());
+            const suite::MapRun maps = suite::run_maps(own.cells, resume, suite.maps, points,
+                                                       catalogue, files, jobs, PythonListener());
             const study::Study run = study::run(plan, own.cells, resume, jobs, PythonListener());
             cells = store::indented(
                 compare::json_of(compare::with_front(study::cells_of(plan, run.records))));
@@ -329,7 +330,7 @@ inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"
-                                  : study::kept_of(plan, folder) + " are kept in " +
+                                  : study::kept_of(plan, points, folder) + " are kept in " +
                                         folder.string() + "; resume=True goes on from there";
         });
     py::dict rows;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "scenes/scene_file.hpp"
 #include "scenes/wording.hpp"
@@ -136,14 +138,14 @@ struct Reading {
         Value v;
         v.place = place ? place : line > 0 ? line : 1;
         if (const auto* table = node.as_table()) {
+            std::multimap<std::pair<int, unsigned>, Member> in_file;  // by line and column
+            for (const auto& [key, child] : *table) {
+                Member m{std::string(key.str()), value(child, level + 1)};
+                in_file.emplace(std::pair{m.value.place, child.source().begin.column}, m);
+            }
             TomlTable members;
-            for (const auto& [key, child] : *table)
-                members.push_back({std::string(key.str()), value(child, level + 1)});
-            const auto line_of = [](const Member& m) { return m.value.place; };
-            std::stable_sort(members.begin(), members.end(), [&](const Member& a, const Member& b) {
-                return line_of(a) < line_of(b);
-            });
-            if (!place && line == 0 && !members.empty()) v.place = line_of(members.front());
+            for (auto& [at, member] : in_file) members.push_back(std::move(member));
+            if (!place && line == 0 && !members.empty()) v.place = members.front().value.place;
             v.content = std::move(members);
         } else if (const auto* array = node.as_array()) {
             Array items;

@@ -27,7 +27,7 @@ struct Planned : Read, bench::study::Plan {
     explicit Planned(const std::string& text,
                      const bench::compare::Catalogue& schemes = bench::compare::Catalogue())
         : Read{bench::suite::parse_suite(text, "a.toml")},
-          Plan(bench::suite::plan_of(suite, schemes, {})) {}
+          Plan(bench::suite::plan_of(suite.sets, schemes, {})) {}
     Planned(const Planned&) = delete;
     Planned& operator=(const Planned&) = delete;
 

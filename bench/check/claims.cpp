@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "bench/check/promise.hpp"
+#include "bench/store/system/side_by_side.hpp"
 #include "bench/suite/maps.hpp"
 #include "scenes/modes.hpp"
 #include "schemes/making.hpp"
@@ -164,7 +165,7 @@ std::string worst_partial(const Descriptor& d, const Scene& scene, bool& any) {
 // ---- A map: five rates x four stiffnesses of a bridge, or of the string if the scheme has no
 // bridge.
 
-std::vector<suite::Trial> map_of(const Descriptor& d) {
+std::vector<std::pair<Scene, Settings>> map_of(const Descriptor& d) {
     const auto scene_at = [&d](int level) {
         Scene scene = ringing(true, true);
         scene.duration = 20e-3;
@@ -181,15 +182,13 @@ std::vector<suite::Trial> map_of(const Descriptor& d) {
         return std::pair{scene,
                          fmt::format("a bending stiffness of {:g} N m^2", s.bending_stiffness)};
     };
-    std::vector<suite::Trial> all;
+    std::vector<std::pair<Scene, Settings>> all;
     for (const double rate : {22050.0, 29400.0, 44100.0, 66150.0, 96000.0})
         for (int level = 0; level < 4; ++level) {
             auto [scene, what] = scene_at(level);
             scene.name = fmt::format("{} at {:g} Hz", what, rate);
-            all.push_back({&d,
-                           suite::listened(scene),
-                           {rate, suite::row_rate(rate), settings_for(d, scene).modes, {}},
-                           "none"});
+            all.push_back({suite::listened(scene),
+                           {rate, suite::row_rate(rate), settings_for(d, scene).modes, {}}});
         }
     return all;
 }
@@ -268,18 +267,19 @@ Verdict stores_the_energy_of_the_scene(const Case& c) {
 Verdict stays_sound_over_a_map(const Case& c) {
     const Descriptor& d = c.scheme;
     if (d.balance == Balance::none) return not_asked("it promises no balance");
-    const compare::Catalogue catalogue;
-    suite::Trials trials(catalogue);
     int sound = 0;
-    for (const suite::Trial& t : map_of(d)) {
-        if (!takes(d, t.scene, t.settings)) continue;
+    for (const auto& [scene, settings] : map_of(d)) {
+        if (!takes(d, scene, settings)) continue;
         // Skips points that are unsound by the scheme's own limit.
-        if (d.limit.margin && d.limit.margin(t.scene, t.settings) < 0) continue;
-        const study::Judgement j = trials(t).judgement;
+        if (d.limit.margin && d.limit.margin(scene, settings) < 0) continue;
+        study::Cell cell{&d, settings};
+        try {
+            study::run_cell(cell, scene, false, [](long, long) { store::throw_if_cancelled(); });
+        } catch (const std::exception& e) { study::fail(cell, e); }
+        const study::Judgement j = study::judge(cell, nan);
         if (j.verdict == study::Verdict::diverged || j.verdict == study::Verdict::not_converged ||
             j.verdict == study::Verdict::energy_gaining)
-            return broken(
-                fmt::format("{} with {}: {}", name_of(j.verdict), t.scene.name, j.detail));
+            return broken(fmt::format("{} with {}: {}", name_of(j.verdict), scene.name, j.detail));
         ++sound;
     }
     return sound > 0 ? kept(fmt::format("{} of {} points", sound, points))

@@ -82,10 +82,18 @@ std::string table_text(const study::Plan& plan, const study::Study& run,
     return text;
 }
 
-std::string kept_text(const study::Plan& plan, const fs::path& folder) {
+std::string kept_text(const study::Plan& plan, const study::Plan& maps, const fs::path& folder) {
     if (folder.empty()) return "interrupted: nothing is kept, for there is no --out DIR";
     return fmt::format("interrupted: {} are kept in {}; --resume goes on from there",
-                       study::kept_of(plan, folder), folder.string());
+                       study::kept_of(plan, maps, folder), folder.string());
+}
+
+void add_maps(report::ResultsFolder& results, const SuiteRequest& r, const suite::MapRun& maps,
+              const std::vector<suite::Failure>& failures) {
+    if (!results || maps.points.empty()) return;
+    results.add("maps.csv", store::csv(suite::maps_table(maps)));
+    results.add("boundaries.csv", store::csv(suite::boundaries_table(maps, failures)));
+    suite::write_failures(fs::path(r.out) / "failures", failures);
 }
 
 void note_missing_locks(const fs::path& folder, const Console& console) {
@@ -136,30 +144,37 @@ int suite_command(const SuiteRequest& r) {
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
     const std::vector<suite::Advised> advised = suite::advice_of(suite, catalogue, console);
-    study::Plan plan = suite::plan_of(suite, catalogue, r.plugins, advised);
+    study::Plan plan = suite::plan_of(suite.sets, catalogue, r.plugins, advised),
+                points = suite::plan_of(suite.maps, catalogue, r.plugins);
     for (const std::string& note : plan.notes) console.note(note);
     const fs::path folder = r.out;
-    const report::OwnFolder own(folder, "suite " + suite.name, study::identity_of(plan), console);
+    const report::OwnFolder own(folder, "suite " + suite.name,
+                                study::identity_of(plan) + study::identity_of(points), console);
     if (r.resume) note_missing_locks(folder, console);
     suite::freeze(suite, folder, r.resume);
-    const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, folder)); });
-    if (r.resume) study::keep_references_in(plan, folder / "references");
-    const suite::RecordedMaps maps = suite::run_and_record_maps(
-        suite.maps, catalogue, {store::program_identity(r.plugins), folder, r.resume, r.jobs},
-        console);
+    const store::WhenInterrupted last_word([&] { console.note(kept_text(plan, points, folder)); });
+    if (r.resume)
+        for (study::Plan* p : {&plan, &points})
+            study::keep_references_in(*p, folder / "references");
+    const suite::MapRun maps = suite::run_maps(own.cells, r.resume, suite.maps, points, catalogue,
+                                               r.plugins, r.jobs, console);
+    std::vector<suite::Failure> failures;
+    if (!folder.empty())
+        failures =
+            suite::failures_of(own.cells, r.resume, maps, catalogue, r.plugins, r.jobs, console);
     const study::Study run = study::run(plan, own.cells, r.resume, r.jobs, console);
     if (suite.population) return end_population(r, suite, plan, run, console);
     const study::Cells cells = compare::with_front(study::cells_of(plan, run.records));
     const Json manifest = manifest_of(suite, plan);
     const std::vector<compare::Answer> cheapest = compare::cheapest_of(cells);
     report::ResultsFolder results(folder, console);
-    results.files = maps.files;
+    add_maps(results, r, maps, failures);
     if (!plan.jobs.empty()) results.add_tables(cells);
     if (results) suite::write_sounds(folder, plan, run.records);
     results.add_manifest(manifest);
     if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
     // Print after writing the files, so that nothing is lost if nobody reads the terminal.
-    if (!maps.text.empty()) console.print(suite.name + "\n" + maps.text);
+    if (!suite.maps.empty()) console.print(suite.name + "\n" + suite::maps_text(maps));
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
     console.print(compare::cheapest_lines(cheapest, cells));
     if (!advised.empty()) console.print(suite::verdicts_on(advised, cells));

@@ -210,8 +210,7 @@ Json heard(const Results& r, const store::Table& cheapest, double longest, std::
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* own_folders[] = {"cells",    "points",     "sounds",
-                                       "failures", "references", "scenes"};
+constexpr const char* own_folders[] = {"cells", "sounds", "failures", "references", "scenes"};
 constexpr const char* own_endings[] = {".csv", ".json", ".svg", ".html", ".toml", ".part"};
 
 std::string what_is_in(const fs::path& folder) {  // "" if unknown
@@ -247,9 +246,9 @@ void must_be_ours(const fs::path& folder, const std::string& what,
     std::string names;
     for (std::size_t k = 0; k < std::min<std::size_t>(foreign.size(), 5); ++k)
         names += (k > 0 ? ", " : "") + foreign[k];
-    listener.note(fmt::format(
-        "{} holds what is not of a {}: {}{}", folder.string(), what.substr(0, what.find(' ')),
-        names, foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
+    listener.note(
+        fmt::format("{} holds what is not of the {}: {}{}", folder.string(), what, names,
+                    foreign.size() > 5 ? fmt::format(" and {} more", foreign.size() - 5) : ""));
 }
 
 }  // namespace

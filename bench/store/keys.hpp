@@ -187,7 +187,7 @@ Kind<Part> table(std::vector<Key<Part>> keys, void (*check)(Part&, const Entry&)
             std::move(words)};
 }
 
-// [[name]] tables. No two may have the same name.
+// [[name]] tables. No two may have the same name, but for tables without a name.
 template <class Part>
 Kind<std::vector<Part>> tables(const std::string& name, Kind<Part> one) {
     return {"[[" + name + "]] tables",
@@ -197,7 +197,7 @@ Kind<std::vector<Part>> tables(const std::string& name, Kind<Part> one) {
                     all.push_back(read(item));
                     if constexpr (requires(Part p) { p.name; })
                         for (std::size_t k = 0; k + 1 < all.size(); ++k)
-                            if (all[k].name == all.back().name)
+                            if (!all.back().name.empty() && all[k].name == all.back().name)
                                 item.need("name").refuse("a name of its own");
                 }
                 return all;

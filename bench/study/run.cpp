@@ -217,28 +217,25 @@ Study run(const Plan& plan, const fs::path& folder, bool resume, int threads,
     return run(plan, references, keep, threads, listener);
 }
 
-std::string kept_of(const Plan& plan, const fs::path& folder) {
+std::string kept_of(const Plan& cells, const Plan& points, const fs::path& folder) {
     std::error_code error;
-    const auto files = [&](const char* in, const char* extension) {
-        return std::count_if(fs::directory_iterator(folder / in, error), fs::directory_iterator(),
-                             [extension](const fs::directory_entry& e) {
-                                 return e.path().extension() == extension;
-                             });
-    };
     std::vector<std::string> kept;
-    if (!plan.jobs.empty()) {
-        const auto lies = [&](const Job& c) {
-            return fs::exists(folder / "cells" / (c.id + ".json"), error);
-        };
-        kept.push_back(fmt::format("{} of {} cells",
-                                   std::count_if(plan.jobs.begin(), plan.jobs.end(), lies),
-                                   plan.jobs.size()));
-    }
-    if (const auto n = files("points", ".json"); n > 0 || plan.jobs.empty())
-        kept.push_back(fmt::format("{} points of maps", n));
-    if (const auto n = files("references", ".run"); n > 0)
-        kept.push_back(fmt::format("{} runs of references", n));
-    std::string text = kept.front();
+    for (const auto& [plan, what] :
+         {std::pair{&cells, "cells"}, std::pair{&points, "points of maps"}})
+        if (!plan->jobs.empty())
+            kept.push_back(fmt::format(
+                "{} of {} {}",
+                std::ranges::count_if(plan->jobs,
+                                      [&](const Job& c) {
+                                          return fs::exists(folder / "cells" / (c.id + ".json"),
+                                                            error);
+                                      }),
+                plan->jobs.size(), what));
+    const auto runs = std::count_if(
+        fs::directory_iterator(folder / "references", error), fs::directory_iterator(),
+        [](const fs::directory_entry& e) { return e.path().extension() == ".run"; });
+    if (runs > 0) kept.push_back(fmt::format("{} runs of references", runs));
+    std::string text = kept.empty() ? "0 cells" : kept.front();
     for (std::size_t i = 1; i < kept.size(); ++i)
         text += (i + 1 < kept.size() ? ", " : " and ") + kept[i];
     return text;

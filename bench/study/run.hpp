@@ -44,9 +44,9 @@ Study run(const Plan&, References&, Kept&, int threads, const store::Listener&);
 Study run(const Plan&, const std::filesystem::path& folder, bool resume, int threads,
           const store::Listener&);
 
-// Text about the folder of a stopped study: "3 of 24 cells, 5 points of maps and 2 runs of
-// references".
-std::string kept_of(const Plan&, const std::filesystem::path& folder);
+// Text about the folder of a stopped study: "3 of 24 cells, 5 of 9 points of maps and 2 runs of
+// references". One plan may be empty.
+std::string kept_of(const Plan& cells, const Plan& points, const std::filesystem::path& folder);
 
 // Keeps all reference runs in that folder and reads them there, so that several processes make each
 // run once. Schemes that stand in are not kept: each process runs its own.

@@ -65,6 +65,8 @@ std::span<const Facet> facets() {
         {measured::spectrogram, "of the tap"},
         {measured::sound, "of cell and reference, to be heard"},
         {measured::advice, "what two runs advise for 1 %, as a cell, and whether it holds"},
+        {measured::outcome,
+         "of each run on a map, over one or two swept keys, with its boundaries and failures"},
         {measured::share, "of the strings of a population that are solved, and advice on each"},
     };
     return all;

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
+#include "bench/store/machine.hpp"
 #include "bench/store/system/file_lock.hpp"
 #include "bench/store/system/side_by_side.hpp"
 #include "scenes/reduction.hpp"
@@ -23,17 +25,16 @@ namespace jvari::bench::suite {
 namespace {
 namespace fs = std::filesystem;
 
-long steps_of(const JudgedPoint& p) { return p.tried.record.cell.summary.steps; }
+long steps_of(const MapPoint& p) { return p.record.cell.summary.steps; }
 
-std::string scene_text(const Reproducer& r) {
-    const Trial& t = r.trial;
+std::string scene_text(const Failure& f) {
     return fmt::format(
         "# Minimised by jvari suite: {} is {} here, {}.\n# jvari run {} {} --energy\n{}",
-        t.scheme->name, name_of(r.expected.verdict), r.expected.detail, r.file,
-        compare::arguments_of(*t.scheme, t.settings), write_scene(t.scene));
+        f.scheme->name, name_of(f.expected.verdict), f.expected.detail, f.file,
+        compare::arguments_of(*f.scheme, f.settings), write_scene(f.scene));
 }
 
-bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Reproducer& into) {
+bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Failure& into) {
     std::error_code error;
     if (!fs::is_regular_file(folder / "index.csv", error)) return false;  // written last
     try {
@@ -43,95 +44,122 @@ bool read_back(const fs::path& folder, const compare::Catalogue& catalogue, Repr
         return false;
     }
 }
-}  // namespace
 
-std::vector<Reproducer> reproducers_of(const MapRun& run, const compare::Catalogue& catalogue,
-                                       const MapRequest& request, const store::Listener& listener) {
-    std::map<std::pair<std::string, study::Verdict>, const JudgedPoint*> cheapest;
-    for (const JudgedPoint& p : run.points) {
-        const study::Verdict v = p.tried.judgement.verdict;
-        if (study::is_stable(v) || v == study::Verdict::unjudged || !p.tried.record.cell.ran() ||
-            !p.at.map->reproduce)
+// Cheapest failure of each scheme and kind.
+std::vector<Failure> cheapest_of(const MapRun& run) {
+    std::map<std::pair<std::string, study::Verdict>, const MapPoint*> cheapest;
+    for (const MapPoint& p : run.points) {
+        const study::Verdict v = p.judgement.verdict;
+        if (study::is_stable(v) || v == study::Verdict::unjudged || !p.record.cell.ran() ||
+            !run.map_of(p).reproduce)
             continue;
-        const JudgedPoint*& kept = cheapest[{p.at.scheme->name, v}];
+        const MapPoint*& kept = cheapest[{p.job->cell.scheme->name, v}];
         if (!kept || steps_of(p) < steps_of(*kept)) kept = &p;
     }
-    std::vector<Reproducer> all;
-    for (const auto& [key, point] : cheapest)
+    std::vector<Failure> all;
+    for (const auto& [key, p] : cheapest)
         all.push_back({fmt::format("{}-{}.toml", key.first, name_of(key.second)),
-                       trial_at(point->at), point->tried.judgement});
+                       p->job->cell.scheme, p->job->point->scene, p->job->cell.settings,
+                       run.map_of(*p).reference, run.map_of(*p).reference_modes.value_or(0),
+                       p->judgement});
+    return all;
+}
+}  // namespace
+
+study::Plan plan_of(const Failure& f, const compare::Catalogue& catalogue,
+                    const std::string& program) {
+    study::Plan plan;
+    plan.points.push_back(
+        judged_point(catalogue, f.scene, f.settings, f.reference, f.reference_modes));
+    for (study::ReferenceChoice& c : plan.points.front().references) c.kept = false;
+    plan.jobs.push_back(judged_job(*f.scheme, plan.points.front(), f.settings));
+    study::address(plan, program);
+    return plan;
+}
+
+study::Judgement outcome_of(const Failure& f, const compare::Catalogue& catalogue,
+                            study::References& references) {
+    const study::Plan plan = plan_of(f, catalogue, "{}");
+    const study::Job& job = plan.jobs.front();
+    if (job.judged) references.hold(*job.point);
+    study::Kept nowhere;
+    const auto ended = [](long, long) { store::throw_if_cancelled(); };
+    return MapPoint(job, *study::record_of(job, references, nowhere, ended)).judgement;
+}
+
+std::vector<Failure> failures_of(const fs::path& cells, bool resume, const MapRun& run,
+                                 const compare::Catalogue& catalogue,
+                                 const std::vector<std::string>& plugins, int jobs,
+                                 const store::Listener& listener) {
+    const std::string program = store::program_identity(plugins);
+    std::vector<Failure> all = cheapest_of(run);
     store::side_by_side(
-        std::vector<double>(all.size(), 1), request.jobs, listener, "failures",
+        std::vector<double>(all.size(), 1), jobs, listener, "failures",
         [&](std::size_t i, store::Done& done) {
-            Reproducer& r = all[i];
-            Trials trials(catalogue);  // separate Trials, so that no minimisation waits for another
-            const std::string address = trials.plan_of(r.trial).jobs.front().id +
-                                        name_of(r.expected.verdict) + request.program;
-            const fs::path folder = request.folder.empty()
-                                        ? fs::path()
-                                        : request.folder / "points" / store::hash_of(address);
+            Failure& f = all[i];
+            const study::Verdict wanted = f.expected.verdict;
+            const std::string address =
+                plan_of(f, catalogue, program).jobs.front().id + name_of(wanted);
+            const fs::path folder = cells.empty() ? cells : cells / store::hash_of(address);
             const store::FileLock lock(
-                folder, "minimises how " + std::string(r.trial.scheme->name) + " fails",
-                done.may_wait());
+                folder, "minimises how " + std::string(f.scheme->name) + " fails", done.may_wait());
             if (lock.elsewhere()) return done.postpone();
-            if (request.resume && read_back(folder, catalogue, r)) return;
-            const study::Verdict wanted = r.expected.verdict;
-            r.trial = minimised(
-                r.trial, [&](const Trial& t) { return trials(t).judgement.verdict == wanted; });
-            r.trial.scene.name += "_minimised";
-            r.expected = trials(r.trial).judgement;
-            if (folder.empty()) return;
-            write_failures(folder, {r});
+            if (resume && read_back(folder, catalogue, f)) return;
+            // separate references, so that no minimisation waits for another
+            study::References references;
+            f = minimised(f, [&](const Failure& x) {
+                return outcome_of(x, catalogue, references).verdict == wanted;
+            });
+            f.scene.name += "_minimised";
+            f.expected = outcome_of(f, catalogue, references);
+            if (!folder.empty()) write_failures(folder, {f});
         });
     return all;
 }
 
-void write_failures(const fs::path& folder, const std::vector<Reproducer>& all) {
+void write_failures(const fs::path& folder, const std::vector<Failure>& all) {
     store::make_folder(folder);
     store::must_be_writable(folder / "index.csv");
     store::Table index;
     index.columns = {"file",      "scheme",          "rate",    "modes", "options",
                      "reference", "reference_modes", "outcome", "step",  "detail"};
-    for (const Reproducer& r : all) {
-        store::write_fresh(folder / r.file, scene_text(r));
-        const Settings& s = r.trial.settings;
-        index.rows.push_back({r.file, r.trial.scheme->name, s.sample_rate, s.modes,
-                              store::options_text(s.options), r.trial.reference,
-                              r.trial.reference_modes, name_of(r.expected.verdict), r.expected.step,
-                              r.expected.detail});
+    for (const Failure& f : all) {
+        store::write_fresh(folder / f.file, scene_text(f));
+        const Settings& s = f.settings;
+        index.rows.push_back({f.file, f.scheme->name, s.sample_rate, s.modes,
+                              store::options_text(s.options), f.reference, f.reference_modes,
+                              name_of(f.expected.verdict), f.expected.step, f.expected.detail});
     }
     store::write_fresh(folder / "index.csv", store::csv(index));
 }
 
-std::vector<Reproducer> read_failures(const fs::path& folder, const compare::Catalogue& catalogue) {
+std::vector<Failure> read_failures(const fs::path& folder, const compare::Catalogue& catalogue) {
     const store::Table index = store::read_csv(store::read_whole(folder / "index.csv"));
-    std::vector<Reproducer> all;
+    std::vector<Failure> all;
     for (std::size_t i = 0; i < index.rows.size(); ++i) {
-        Reproducer r{index.text(i, "file"),
-                     {&catalogue.find(index.text(i, "scheme")),
-                      {},
-                      {},
-                      index.text(i, "reference"),
-                      static_cast<int>(index.number(i, "reference_modes"))},
-                     {}};
-        r.trial.scene = read_scene((folder / r.file).string());
-        Settings& s = r.trial.settings;
-        s.sample_rate = index.number(i, "rate");
-        s.tap_rate = row_rate(s.sample_rate);
-        s.modes = static_cast<int>(index.number(i, "modes"));
-        s.options = store::options_in(index.text(i, "options"));
-        r.expected = {study::verdict_named(index.text(i, "outcome")), index.text(i, "detail"),
-                      static_cast<long>(index.number(i, "step"))};
-        all.push_back(std::move(r));
+        const auto whole = [&index, i](const char* name) {
+            return static_cast<int>(index.number(i, name));
+        };
+        const double rate = index.number(i, "rate");
+        const std::string file = index.text(i, "file");
+        all.push_back(
+            {file,
+             &catalogue.find(index.text(i, "scheme")),
+             read_scene((folder / file).string()),
+             {rate, row_rate(rate), whole("modes"), store::options_in(index.text(i, "options"))},
+             index.text(i, "reference"),
+             whole("reference_modes"),
+             {study::verdict_named(index.text(i, "outcome")), index.text(i, "detail"),
+              whole("step")}});
     }
     return all;
 }
 
 namespace {
-bool still(const Fails& fails, const Trial& t) {
+bool still(const Fails& fails, const Failure& f) {
     try {
-        validate(t.scene);
-        return fails(t);
+        validate(f.scene);
+        return fails(f);
     } catch (const std::exception&) { return false; }
 }
 
@@ -148,20 +176,20 @@ Scene heard_at_one_point(const Scene& scene) {
     return one;
 }
 
-bool remove_what_can_be(Trial& t, const Fails& fails) {
+bool remove_what_can_be(Failure& f, const Fails& fails) {
     bool smaller = false;
-    std::vector<Reduction> left = reductions_of(t.scene);
+    std::vector<Reduction> left = reductions_of(f.scene);
     while (!left.empty()) {
         const Reduction r = std::move(left.back());
         left.pop_back();
         if (!is_removal(r)) continue;
-        Trial x = t;
+        Failure x = f;
         r.apply(x.scene);
         // taps went with their string
         if (x.scene.taps.empty()) x.scene = heard_at_one_point(x.scene);
         if (!still(fails, x)) continue;
-        t = std::move(x);
-        left = reductions_of(t.scene);  // the other reductions may have new places
+        f = std::move(x);
+        left = reductions_of(f.scene);  // the other reductions may have new places
         smaller = true;
     }
     return smaller;
@@ -175,56 +203,56 @@ long shortened(long n, long least, const std::function<bool(long)>& fails_with) 
 }
 
 // False for a grid: its modes would only reduce the reference's.
-bool has_modes(const Trial& t) {
-    const auto five = compare::dofs_with(5, *t.scheme, t.scene, t.settings),
-               six = compare::dofs_with(6, *t.scheme, t.scene, t.settings);
+bool has_modes(const Failure& f) {
+    const auto five = compare::dofs_with(5, *f.scheme, f.scene, f.settings),
+               six = compare::dofs_with(6, *f.scheme, f.scene, f.settings);
     return five && six && five != six;
 }
 
-bool shorten(Trial& t, const Fails& fails) {
+bool shorten(Failure& f, const Fails& fails) {
     bool shorter = false;
     const auto try_out = [&](long& value, long least,
-                             const std::function<void(Trial&, long)>& apply) {
+                             const std::function<void(Failure&, long)>& apply) {
         const long n = shortened(value, least, [&](long k) {
-            Trial x = t;
+            Failure x = f;
             apply(x, k);
             return still(fails, x);
         });
         if (n == value) return;
-        apply(t, value = n);
+        apply(f, value = n);
         shorter = true;
     };
-    long rows = std::lround(t.scene.duration * t.settings.tap_rate);
-    try_out(rows, 1, [](Trial& x, long k) {
+    long rows = std::lround(f.scene.duration * f.settings.tap_rate);
+    try_out(rows, 1, [](Failure& x, long k) {
         x.scene.duration = static_cast<double>(k) / x.settings.tap_rate;
     });
-    if (t.settings.modes > 0 && has_modes(t)) {
-        long modes = t.settings.modes;
-        try_out(modes, 1, [](Trial& x, long k) { x.settings.modes = static_cast<int>(k); });
+    if (f.settings.modes > 0 && has_modes(f)) {
+        long modes = f.settings.modes;
+        try_out(modes, 1, [](Failure& x, long k) { x.settings.modes = static_cast<int>(k); });
     }
-    for (std::size_t i = 0; i < t.settings.options.size(); ++i)
-        if (t.settings.options[i].first == grid_option.name) {
-            long intervals = std::atol(t.settings.options[i].second.c_str());
+    for (std::size_t i = 0; i < f.settings.options.size(); ++i)
+        if (f.settings.options[i].first == grid_option.name) {
+            long intervals = std::atol(f.settings.options[i].second.c_str());
             try_out(intervals, 5,
-                    [i](Trial& x, long k) { x.settings.options[i].second = std::to_string(k); });
+                    [i](Failure& x, long k) { x.settings.options[i].second = std::to_string(k); });
         }
     return shorter;
 }
 }  // namespace
 
-Trial minimised(Trial t, const Fails& fails) {
-    if (t.settings.modes == 0 && has_modes(t)) {  // the default, made explicit
-        Trial explicit_modes = t;
-        explicit_modes.settings.modes = modes_for(t.scene, t.settings);
-        if (still(fails, explicit_modes)) t = std::move(explicit_modes);
+Failure minimised(Failure f, const Fails& fails) {
+    if (f.settings.modes == 0 && has_modes(f)) {  // the default, made explicit
+        Failure explicit_modes = f;
+        explicit_modes.settings.modes = modes_for(f.scene, f.settings);
+        if (still(fails, explicit_modes)) f = std::move(explicit_modes);
     }
-    t.scene = heard_at_one_point(t.scene);
+    f.scene = heard_at_one_point(f.scene);
     for (bool smaller = true; smaller;) {
         // removing first, while duration and modes are still sufficient to fail
-        smaller = remove_what_can_be(t, fails);
-        smaller = shorten(t, fails) || smaller;
+        smaller = remove_what_can_be(f, fails);
+        smaller = shorten(f, fails) || smaller;
     }
-    return t;
+    return f;
 }
 
 }  // namespace jvari::bench::suite

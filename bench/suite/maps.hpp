@@ -1,12 +1,11 @@
-// Maps of a suite: all points, boundaries along x by bisection, minimised reproducers of failures,
-// and their files. Each point is content-addressed and kept in DIR/points/<id>.json, so a stopped
-// suite continues and produces the same tables. Processes that share DIR run each point once.
+// Maps: the sets of cells whose facet is `outcome`, over one or two swept keys. Their points are
+// cells like others: kept in DIR/cells, resumed and shared. Then boundaries along the first key are
+// found by bisection, and failures are made as small as possible (failures.cpp).
 #pragma once
 
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,95 +19,32 @@
 
 namespace jvari::bench::suite {
 
-// ---- Point of a map: a scheme with its settings on one scene, run for the scene's duration and
-// judged. A trial holds the varied values; bench/study runs a trial in the form of a job.
+// ---- Points: a scheme with its settings on a scene, judged by its outcome.
 
-struct Trial {
-    const Descriptor* scheme;
-    Scene scene;
-    Settings settings;
-    // "none"; a name; "": the first reference that represents the scene
-    std::string reference;
-    int reference_modes = 0;  // 0: this trial's modes
-};
-
-// Trial for the assignments, with keys in the syntax of a map's axis. `rate` is 44100 Hz by
-// default. The row rate is `rate` divided by the whole number that brings it nearest to 44.1 kHz.
-// Throws SceneFileError, BadScene, UsageError.
-Trial trial_of(const std::string& scene, const Descriptor&, const std::string& reference,
-               const std::vector<Assignment>&, int reference_modes = 0);
-
+// Sample rate divided by the whole number that brings it nearest to 44.1 kHz: the rate of rows.
 double row_rate(double sample_rate);
 
 // Taps for maps, in place of the scene's own: the displacement of every string at two points, and
 // its nut force. The worst string decides.
 Scene listened(Scene);
 
-struct MapRequest {
-    std::string program;  // program_identity, part of the addresses
-    // DIR, with records in points/ and references in references/; "" for nowhere
-    std::filesystem::path folder;
-    bool resume = false;  // true: reads back the files in DIR
-    int jobs = 0;         // 0: the number of cores
-};
+// Point to judge schemes on. `reference`: "none"; a name; "": the first reference that represents
+// the scene. `reference_modes` 0: those of the settings.
+study::Point judged_point(const compare::Catalogue&, Scene, const Settings&,
+                          const std::string& reference, int reference_modes);
+study::Job judged_job(const Descriptor&, const study::Point&, const Settings&);
 
-struct Tried {
+struct MapPoint {
+    const study::Job* job;  // has the swept values, with its point
     study::Record record;
     double error;  // relative L2 error in the worst string's nut force, NaN if unknown
     study::Judgement judgement;
+    MapPoint(const study::Job&, study::Record);
 };
-
-// Runs trials in the form of jobs, and keeps their references during its lifetime.
-class Trials {
-public:
-    explicit Trials(const compare::Catalogue&, const MapRequest& = {"{}", {}, false, 0});
-
-    // Tries a trial. If another process or thread is running the trial, waits for the result, or
-    // returns nothing if not `wait`.
-    std::optional<Tried> operator()(const Trial&, bool wait);
-    Tried operator()(const Trial& t) { return *(*this)(t, true); }
-    study::Plan plan_of(const Trial&) const;  // a single job
-    int ran() const { return keep_.ran; }
-
-private:
-    std::vector<study::ReferenceChoice> references_of(const Trial&) const;
-    const compare::Catalogue& catalogue_;
-    const MapRequest request_;
-    study::References references_;
-    study::Kept keep_;
-};
+// Swept key and its value at a point; "" for a map without a second key.
+const std::pair<std::string, std::string>& swept_at(const MapPoint&, std::size_t key);
 
 // ---- All points and boundaries.
-
-struct PointPlace {  // place on a map
-    const Map* map;
-    const Descriptor* scheme;
-    std::string x, y;  // "" for a map without y
-};
-Trial trial_at(const PointPlace&);
-
-struct JudgedPoint {
-    PointPlace at;
-    Tried tried;
-};
-struct Boundary {
-    const Map* map;
-    const Descriptor* scheme;
-    std::string y;
-    study::Verdict low, high;            // outcomes on its sides
-    std::string x_low, x_high;           // the boundary lies between
-    double theory;                       // NaN if unknown
-    double relative_difference() const;  // distance from theory, for the middle
-};
-struct MapRun {
-    std::vector<JudgedPoint> points;   // in the order of the file: map, scheme, y, x
-    std::vector<Boundary> boundaries;  // in the same order
-    int ran = 0, read_back = 0;        // number of points, including bisections
-};
-
-// Runs maps. Throws for a wrong scene or name, before anything runs.
-MapRun run_maps(const std::vector<Map>&, const compare::Catalogue&, const MapRequest&,
-                const store::Listener&);
 
 // Bisection for a change between two outcomes along one axis. `verdict_at(x)` is called at most
 // `times` times, at the geometric mean of positive numbers and the arithmetic mean of others; with
@@ -118,23 +54,38 @@ MapRun run_maps(const std::vector<Map>&, const compare::Catalogue&, const MapReq
 struct Bracket {
     double low, high;
     study::Verdict at_low, at_high;
+    double middle() const { return 0.5 * (low + high); }
 };
+std::optional<double> middle_of(const Bracket&, bool whole);  // nothing if there is none
+void narrow(Bracket&, double middle, study::Verdict);
 template <class VerdictAt>
 Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at) {
-    for (int n = 0; n < times; ++n) {
-        double middle = b.low > 0 ? std::sqrt(b.low) * std::sqrt(b.high) : 0.5 * (b.low + b.high);
-        if (whole) middle = std::round(middle);
-        if (!(middle > b.low && middle < b.high)) break;
-        const study::Verdict v = verdict_at(middle);
-        const bool stable = study::is_stable(b.at_low),
-                   ends = stable != study::is_stable(b.at_high);
-        const bool lower =
-            v == b.at_low || (v != b.at_high && ends && study::is_stable(v) == stable);
-        if (lower) b.low = middle, b.at_low = v;
-        else b.high = middle, b.at_high = v;
-    }
+    while (times-- > 0)
+        if (const auto x = middle_of(b, whole)) narrow(b, *x, verdict_at(*x));
     return b;
 }
+
+struct Boundary {
+    const MapPoint* below;  // last point of the grid before the boundary
+    Bracket between;
+    double theory = nan;
+    double relative_difference() const { return between.middle() / theory - 1; }
+};
+struct MapRun {
+    const std::vector<CellSet>* maps;
+    std::vector<MapPoint> points{};      // in the order of the file: map, scheme, y, x
+    std::vector<Boundary> boundaries{};  // in the same order
+    int ran = 0, read_back = 0;          // number of points, including bisections
+    const CellSet& map_of(const MapPoint& p) const {
+        return (*maps)[static_cast<std::size_t>(p.job->set)];
+    }
+};
+
+// Runs the plan of these maps, and their bisections, with records in `folder` (DIR/cells). The plan
+// must outlive the result.
+MapRun run_maps(const std::filesystem::path& folder, bool resume, const std::vector<CellSet>& maps,
+                const study::Plan&, const compare::Catalogue&,
+                const std::vector<std::string>& plugins, int jobs, const store::Listener&);
 
 // ---- Known boundaries, for comparison with maps: the limits declared by schemes
 // (Descriptor::limit), and
@@ -148,67 +99,53 @@ Bracket bisect(Bracket b, int times, bool whole, VerdictAt verdict_at) {
 
 std::vector<std::string> theories();
 
-// Kind of motion that the theory describes: "lasting contact: where the string parts from the
-// barrier the boundary is elsewhere".
-std::string motion_of(const std::string& theory);
+// ---- Failures: a scene file <scheme>-<outcome>.toml for the cheapest failure of each kind of a
+// scheme, minimised, and index.csv with the command and the outcome.
 
-// Margin: positive on the sound side, 0 on the boundary; NaN if the theory does not cover the
-// scheme.
-double theory_margin(const std::string& theory, const Descriptor&, const Scene&, const Settings&);
-
-// ---- Minimised reproducers: a scene file <scheme>-<outcome>.toml for each kind of failure of a
-// scheme, and index.csv with the command and the outcome.
-
-struct Reproducer {
+struct Failure {
     std::string file;  // name within its folder
-    Trial trial;
-    study::Judgement expected;
+    const Descriptor* scheme;
+    Scene scene;
+    Settings settings;
+    std::string reference;  // as for judged_point
+    int reference_modes = 0;
+    study::Judgement expected{};
 };
 
-// Reproducers for each scheme and each kind of failure. Cells without a run (refused, error) and
-// outcomes sound, flagged and unjudged are no failures. Starts from the failure with the fewest
-// steps, in maps with `reproduce`. The minimised files are kept beside the points, so that
-// processes with a shared folder minimise each failure once.
-std::vector<Reproducer> reproducers_of(const MapRun&, const compare::Catalogue&, const MapRequest&,
-                                       const store::Listener&);
+// Plan of one job: the failing run.
+study::Plan plan_of(const Failure&, const compare::Catalogue&, const std::string& program);
+// Runs it. The references stay, for other forms of the same failure.
+study::Judgement outcome_of(const Failure&, const compare::Catalogue&, study::References&);
 
-void write_failures(const std::filesystem::path& folder, const std::vector<Reproducer>&);
-std::vector<Reproducer> read_failures(const std::filesystem::path& folder,
-                                      const compare::Catalogue&);
+// Failure of each scheme and kind. Cells without a run (refused, error) and outcomes sound, flagged
+// and unjudged are no failures. Starts from the failure with the fewest steps, in maps with
+// `reproduce`. The minimised files are kept beside the cells, so that processes with a shared
+// folder minimise each failure once.
+std::vector<Failure> failures_of(const std::filesystem::path& folder, bool resume, const MapRun&,
+                                 const compare::Catalogue&, const std::vector<std::string>& plugins,
+                                 int jobs, const store::Listener&);
 
-// ---- Minimising a failing trial: delta debugging over the parts of a scene and its settings. The
-// smaller trial still fails in the same way.
+void write_failures(const std::filesystem::path& folder, const std::vector<Failure>&);
+std::vector<Failure> read_failures(const std::filesystem::path& folder, const compare::Catalogue&);
+
+// Delta debugging over the parts of a scene and its settings. The smaller failure still fails in
+// the same way, by `fails`; an exception counts as false.
 //
 // Parts are removed one by one, in turn, until no more can go (scenes/reduction.hpp). The order is
 // strings, barriers, polarisation, pluck or initial shape (one of the two stays), thread, losses,
 // bending stiffness, contact losses, an exponent other than 1. Then duration, modes or the grid's
 // intervals are reduced by halves, quarters ... down to single rows and modes. The result is
 // minimal step by step, not the smallest possible.
+using Fails = std::function<bool(const Failure&)>;
+Failure minimised(Failure, const Fails&);
 
-// True if the trial fails in the required way; an exception counts as false.
-using Fails = std::function<bool(const Trial&)>;
-
-Trial minimised(Trial, const Fails&);
-
-// ---- Rows (maps.csv, boundaries.csv), text, and files of a suite. The report draws them.
+// ---- Rows (maps.csv, boundaries.csv) and text. The report draws them.
 
 store::Table maps_table(const MapRun&);
-
-// Files with minimised reproducers, by scheme and outcome. A boundary names the file for its
-// failing side, for the upper side if both fail.
-using Reproducers = std::map<std::pair<std::string, study::Verdict>, std::string>;
-store::Table boundaries_table(const MapRun&, const Reproducers&);
+// A boundary names the file of the failure on its failing side, on the upper side if both fail.
+store::Table boundaries_table(const MapRun&, const std::vector<Failure>&);
 
 // Text for the terminal: outcomes for each map and scheme, boundaries with a theory.
 std::string maps_text(const MapRun&);
-
-struct RecordedMaps {
-    std::vector<std::string> files;  // written files
-    std::string text;                // for the terminal; "" without maps
-};
-// Runs the maps. Writes maps.csv, boundaries.csv and minimised reproducers in failures/ if there is
-// a folder.
-RecordedMaps run_and_record_maps(const std::vector<Map>&, const compare::Catalogue&,
-                                 const MapRequest&, const store::Listener&);
 
 }  // namespace jvari::bench::suite

@@ -1,4 +1,4 @@
-// Suite files: TOML with a list of comparisons. suite_file.cpp and map_file.cpp declare the keys
+// Suite files: TOML with a list of comparisons. suite_file.cpp and sweep.cpp declare the keys
 // and the possible measurements; `jvari list keys` shows them.
 #pragma once
 
@@ -21,12 +21,17 @@ namespace jvari::bench::suite {
 
 namespace measured {  // names of facets that several files use
 inline constexpr const char *errors = "errors", *cost = "cost", *spectrogram = "spectrogram",
-                            *sound = "sound", *share = "share", *advice = "advice";
+                            *sound = "sound", *share = "share", *advice = "advice",
+                            *outcome = "outcome";
 }
 
 struct SweptKey {
-    std::string key;                  // key of a scene: "string.0.tension"
-    std::vector<std::string> values;  // in TOML syntax
+    // key of a scene, "string.0.tension"; on a map also "rate" [Hz], "modes", "duration" [s],
+    // "amplitude" (of initial shapes and plucks) and "option:[SCHEME:]NAME"
+    std::string key;
+    std::vector<std::string> values;  // in TOML syntax, or for an option in the scheme's syntax
+    std::vector<double> at;           // the values as numbers; empty if any value is no number
+    bool whole = false;               // true for modes, and for options given in whole numbers
 };
 struct VariedOption {
     compare::SchemeOption option;  // without a value
@@ -46,39 +51,19 @@ struct CellSet
     std::vector<Tap> taps;                               // additional to the scene's taps
     double effort = 1;             // factor for the references' limits (study::run_truth)
     std::optional<Scene> drawn{};  // string from a population; if set, no scene is read
+    // A set that measures outcomes is a map of one scene over one or two swept keys: x, which has
+    // the boundaries, and y (maps.hpp). Its `set` holds at every point.
+    std::string name, theory;  // theory: a known boundary; "": none
+    int refine = 0;            // bisections of each boundary
+    bool reproduce = true;     // false: failures are not minimised
     bool measures(std::string_view facet) const;
 };
 
-// ---- Maps: outcomes of each scheme over two settings in one scene.
-
-// Axis of a map. Keys are "rate" [Hz], "modes", "duration" [s], "amplitude" (of initial shapes and
-// plucks), "option:[SCHEME:]NAME", or a key of the scene.
-struct MapAxis {
-    std::string key;
-    // in TOML syntax, or for an option in the scheme's syntax; numbers ascend
-    std::vector<std::string> values;
-    // numbers, between which a boundary can be searched; empty if any value is no number
-    std::vector<double> at;
-    bool whole = false;       // true for modes, and for options given in whole numbers
-    double from = 0, to = 0;  // range in the file, in place of values; 0: absent, also for points
-    int points = 0;
-};
-
-using Assignment = std::pair<std::string, std::string>;  // key on an axis, and its value
-
-struct Map {
-    std::string name, scene, theory;
-    std::string reference;  // "": the highest reference that represents the scene; "none"
-    std::vector<std::string> schemes;
-    MapAxis x, y;                   // y without a key: one row
-    std::vector<Assignment> fixed;  // the same at every point
-    int reference_modes = 0;        // 0: the number at the point
-    int refine = 0;
-    bool reproduce = true;
-};
-
-// [[map]] tables of a suite (map_file.cpp).
-store::Kind<std::vector<Map>> maps();
+// Key `sweep` of a set, and the keys and rules of a map (sweep.cpp).
+bool is_option(const std::string& key);  // "option:NAME"
+store::Kind<std::vector<SweptKey>> swept_keys();
+std::vector<store::Key<CellSet>> map_keys();
+void must_be_a_map(const CellSet&, const store::Entry&);
 
 // ---- Population: strings drawn from ranges for a scene's keys, and fixed strings. Each string
 // becomes its own set of cells (population.cpp).
@@ -106,7 +91,7 @@ struct Population : CellSet {  // `scenes`: the fixed strings
 struct Suite {
     std::string name, question, source;
     std::vector<CellSet> sets;  // a population has one for each string
-    std::vector<Map> maps;
+    std::vector<CellSet> maps;  // sets that measure outcomes
     std::optional<Population> population;
     std::vector<Ground> grounds;
 };
@@ -116,7 +101,7 @@ struct Suite {
 Suite read_suite(const std::string& file_or_library_name);
 Suite parse_suite(std::string_view text, const std::string& file_name);
 
-// Keys for each table in a suite file: "", "cells", "map", "population", "ground".
+// Keys for each table in a suite file: "", "cells", "population", "ground".
 struct TableWords {
     std::string table;
     std::vector<store::KeyWords> keys;
@@ -137,22 +122,25 @@ void freeze(const Suite&, const std::filesystem::path& folder, bool resume);
 std::vector<std::string> library_suites();
 
 // Point of a suite: the request to compare for one scene in the set, with one choice among modes,
-// options and swept values. points_of returns them in the order of the file.
+// options and swept values. points_of returns them in the order of the file; on a map, x varies
+// first.
 struct SuitePoint {
     const CellSet* set;
     compare::CompareRequest request;
+    std::vector<std::pair<std::string, std::string>> swept{};  // key, value
+    double amplitude = 1;                                      // factor on starts and plucks
 };
-std::vector<SuitePoint> points_of(const Suite&);
+std::vector<SuitePoint> points_of(const std::vector<CellSet>&);
 
 // Plan of a suite: its jobs, each a scheme with its settings on one scene. Contents of the files in
-// `plugins` count toward the program's identity. The suite must outlive the plan. Throws
+// `plugins` count toward the program's identity. The sets must outlive the plan. Throws
 // UsageError, SceneFileError, BadScene, Refusal. `advised`: advised settings, added to the cells.
 struct Advised {  // advice on a scene in a set that measures advice
     const CellSet* set;
     std::string scene_words, scene;  // the scene in the words of the set, and by name
     compare::Advice advice;
 };
-study::Plan plan_of(const Suite&, const compare::Catalogue&,
+study::Plan plan_of(const std::vector<CellSet>&, const compare::Catalogue&,
                     const std::vector<std::string>& plugins, std::span<const Advised> = {});
 std::vector<Advised> advice_of(const Suite&, const compare::Catalogue&, const store::Listener&);
 // Verdicts on the advice for each scene, a line each.

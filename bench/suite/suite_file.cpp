@@ -41,16 +41,11 @@ VariedOption varied(const std::string& name, const store::Entry& e) {
     return o;
 }
 
-SweptKey swept(const std::string& name, const store::Entry& e) {
-    if (!e.is_array()) e.refuse("an array of the values to vary");
-    SweptKey k{name, {}};
-    for (const store::Entry& one : e.items()) k.values.push_back(one.toml());
-    return k;
-}
-
-std::vector<std::string> names_of_facets() {
+// All facets, or those of a population, which has no maps.
+std::vector<std::string> names_of_facets(bool maps = true) {
     std::vector<std::string> all;
-    for (const Facet& f : facets()) all.emplace_back(f.name);
+    for (const Facet& f : facets())
+        if (maps || f.name != std::string_view(measured::outcome)) all.emplace_back(f.name);
     return all;
 }
 
@@ -73,7 +68,7 @@ std::vector<store::Key<CellSet>> set_keys() {
         []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* {
         return member;
     };
-    return {
+    std::vector<store::Key<Set>> keys{
         needed("scenes", &Set::scenes, store::several(store::text()),
                "files, beside the suite or where the program runs, or names of the library"),
         key("schemes", request(&Set::schemes), store::several(store::text()), "what is compared",
@@ -101,11 +96,12 @@ std::vector<store::Key<CellSet>> set_keys() {
         key("options", &Set::varied,
             store::by_name<VariedOption>("a table: [SCHEME:]NAME = values", varied),
             "one value, or several to vary"),
-        key("sweep", &Set::sweep, store::by_name<SweptKey>("a table: key = [values]", swept),
-            "any key of the scene, with the values to vary"),
+        key("sweep", &Set::sweep, swept_keys(), "any key of the scene, with the values to vary"),
         key("measure", &Set::measure, store::several(store::word("measure", names_of_facets())),
             "what is measured", measured::errors),
         key("taps", &Set::taps, store::several(tap()), "taps beside those of the scene")};
+    for (store::Key<Set>& k : map_keys()) keys.push_back(std::move(k));
+    return keys;
 }
 
 std::vector<store::Key<Population>> population_keys() {
@@ -124,7 +120,7 @@ std::vector<store::Key<Population>> population_keys() {
         key("scenes", base(&CellSet::scenes), store::several(store::text()),
             "fixed strings beside those that are drawn", "none"),
         key("measure", &Population::measure,
-            store::several(store::word("measure", names_of_facets())), "what is measured",
+            store::several(store::word("measure", names_of_facets(false))), "what is measured",
             "errors, cost, share")};
     const auto same = [](const std::string& name) {
         return name == "schemes" || name == "rates" || name == "repeats" || name == "reference" ||
@@ -152,6 +148,7 @@ void must_be_few(const CellSet& s, const store::Entry& e) {
 
 void hold_together(CellSet& s, const store::Entry& e) {
     must_be_few(s, e);
+    must_be_a_map(s, e);
     s.search = s.search && s.measures(measured::errors);
     if (s.measures(measured::share))
         e.need("measure").fail("found share in [[cells]], expected it in [population]");
@@ -173,7 +170,6 @@ std::vector<store::Key<Suite>> keys_of_suite() {
         key("name", &Suite::name, store::text(), "what it is called", "the file's"),
         key("question", &Suite::question, store::text(), "what it answers", "none"),
         key("source", &Suite::source, store::text(), "what it follows", "none"),
-        key("map", &Suite::maps, maps(), "maps of what becomes of each scheme"),
         key("population", &Suite::population, population(),
             "strings drawn from the grounds, in place of cells"),
         key("ground", &Suite::grounds, store::tables("ground", store::table(ground_keys())),
@@ -211,13 +207,13 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     Suite suite;
     suite.name = fs::path(file_name).stem().string();
     store::read_keys(root, keys, suite);
-    if (suite.population && (!suite.sets.empty() || !suite.maps.empty()))
-        root.need("population").fail("found [[cells]] or [[map]] too, expected a suite of its own");
+    if (suite.population && !suite.sets.empty())
+        root.need("population").fail("found [[cells]] too, expected a suite of its own");
     if (suite.population && suite.grounds.empty() && suite.population->scenes.empty())
         root.need("population").fail("found no strings, expected [[ground]] tables or scenes");
     if (!suite.grounds.empty() && !suite.population)
         root.need("ground").fail("expected [population] beside it");
-    if (suite.sets.empty() && !suite.population && (suite.maps.empty() || root.at("cells")))
+    if (suite.sets.empty() && !suite.population)
         root.at("cells").value_or(root).fail(std::string(root.at("cells") ? "" : "cells: ") +
                                              "expected at least one [[cells]]");
     // Search order for a scene's file: first beside the suite's file, then in the working
@@ -230,12 +226,16 @@ Suite parse_suite(std::string_view content, const std::string& file_name) {
     };
     for (CellSet& set : suite.sets)
         for (std::string& scene : set.scenes) find(scene);
-    for (Map& m : suite.maps) find(m.scene);
     for (Ground& g : suite.grounds) find(g.scene);
     if (suite.population) {
         for (std::string& scene : suite.population->scenes) find(scene);
         suite.sets = sets_of(*suite.population, suite.grounds);
     }
+    const auto maps =
+        std::stable_partition(suite.sets.begin(), suite.sets.end(),
+                              [](const CellSet& set) { return !set.measures(measured::outcome); });
+    suite.maps.assign(maps, suite.sets.end());
+    suite.sets.erase(maps, suite.sets.end());
     return suite;
 }
 

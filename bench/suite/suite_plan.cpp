@@ -9,7 +9,10 @@
 #include "bench/compare/record/findings.hpp"
 #include "bench/store/json.hpp"
 #include "bench/store/machine.hpp"
+#include "bench/suite/maps.hpp"
+#include "reference/agreement.hpp"
 #include "scenes/modes.hpp"
+#include "schemes/making.hpp"
 
 namespace jvari::bench::suite {
 
@@ -62,50 +65,100 @@ void add_string(study::Plan& plan, const compare::CompareRequest& r, const CellS
         return examined(p, truth, catalogue);
     };
 }
+
+// Gives a swept key its value. A map has the values in the order x, y, whichever varies first.
+void assign(SuitePoint& p, const std::string& key, const std::string& value) {
+    compare::CompareRequest& r = p.request;
+    const bool on_map = p.set->measures(measured::outcome);
+    const double number = store::number_of(value);
+    p.swept.emplace(on_map ? p.swept.begin() : p.swept.end(), key, value);
+    if (on_map && key == "rate") r.rates = {number};
+    else if (on_map && key == "modes") r.modes = {static_cast<int>(number)};
+    else if (on_map && key == "duration") r.duration = number;
+    else if (on_map && key == "amplitude") p.amplitude = number;
+    else if (on_map && is_option(key))
+        r.options.push_back(compare::SchemeOption::of(key.substr(7), value));
+    else r.set.push_back(key + "=" + value);
+}
+
+// Adds a point of a map, with a job for each scheme. Without named schemes these are all that
+// represent the scene as the library has it; at some points they refuse.
+void add_outcomes(study::Plan& plan, const SuitePoint& p, const compare::Catalogue& catalogue,
+                  const study::Job& like) {
+    const compare::CompareRequest& r = p.request;
+    Settings settings;
+    settings.sample_rate = r.rates.empty() ? 44100 : r.rates.front();
+    settings.tap_rate = row_rate(settings.sample_rate);
+    settings.modes = r.modes.empty() ? 0 : r.modes.front();
+    study::Point& point = plan.points.emplace_back(
+        judged_point(catalogue, moved(like.point->scene, p.amplitude), settings, r.reference,
+                     r.reference_modes.value_or(0)));
+    point.swept = p.swept;
+    point.time_limit = like.point->time_limit;
+    std::vector<const Descriptor*> schemes;
+    for (const std::string& name : r.schemes) schemes.push_back(&catalogue.find(name));
+    if (schemes.empty())
+        std::ranges::copy_if(catalogue.schemes, std::back_inserter(schemes),
+                             [scene = compare::load_scene(r.scene, {}, {})](const Descriptor* d) {
+                                 return represents(*d, scene);
+                             });
+    if (schemes.empty()) throw Refusal("no scheme represents it");
+    for (const Descriptor* d : schemes) {
+        settings.options.clear();
+        for (const compare::SchemeOption& o : r.options)
+            if (o.scheme.empty() || o.scheme == d->name)
+                settings.options.emplace_back(o.name, o.value);
+        study::Job& job = plan.jobs.emplace_back(judged_job(*d, point, settings));
+        job.set = like.set;
+        job.measured = "outcome on " + p.set->name;  // two maps may have a point in common
+    }
+}
 }  // namespace
 
-std::vector<SuitePoint> points_of(const Suite& suite) {
-    std::vector<SuitePoint> points;
-    for (const CellSet& set : suite.sets) {
-        std::vector<compare::CompareRequest> requests{set};
-        requests.front().controls = true;
-        // leaves the requests unchanged if there are no values
-        const auto vary = [&requests](const auto& values, const auto& apply) {
+std::vector<SuitePoint> points_of(const std::vector<CellSet>& sets) {
+    std::vector<SuitePoint> all;
+    for (const CellSet& set : sets) {
+        std::vector<SuitePoint> points{{&set, set}};
+        points.front().request.controls = true;
+        // leaves the points unchanged if there are no values
+        const auto vary = [&points](const auto& values, const auto& apply) {
             if (values.empty()) return;
-            std::vector<compare::CompareRequest> more;
-            for (const compare::CompareRequest& r : requests)
-                for (const auto& value : values) apply(more.emplace_back(r), value);
-            requests = std::move(more);
+            std::vector<SuitePoint> more;
+            for (const SuitePoint& p : points)
+                for (const auto& value : values) apply(more.emplace_back(p), value);
+            points = std::move(more);
         };
-        using Request = compare::CompareRequest;
         if (set.drawn) {
-            Request& r = requests.front();
+            compare::CompareRequest& r = points.front().request;
             r.scene = set.drawn->name;
             for (const VariedOption& o : set.varied)
                 for (const std::string& value : o.values)
                     r.options.emplace_back(o.option).value = value;
-            points.push_back({&set, r});
+            all.push_back(points.front());
             continue;
         }
-        vary(set.scenes, [](Request& r, const std::string& scene) { r.scene = scene; });
-        vary(set.modes, [](Request& r, int modes) { r.modes = {modes}; });
-        for (const SweptKey& k : set.sweep)
-            vary(k.values, [&k](Request& r, const std::string& value) {
-                r.set.push_back(k.key + "=" + value);
-            });
+        vary(set.scenes, [](SuitePoint& p, const std::string& scene) { p.request.scene = scene; });
+        vary(set.modes, [](SuitePoint& p, int modes) { p.request.modes = {modes}; });
+        const auto sweep = [&vary](const SweptKey& k) {
+            vary(k.values,
+                 [&k](SuitePoint& p, const std::string& value) { assign(p, k.key, value); });
+        };
+        if (set.measures(measured::outcome))
+            std::for_each(set.sweep.rbegin(), set.sweep.rend(), sweep);
+        else std::ranges::for_each(set.sweep, sweep);
         for (const VariedOption& o : set.varied)
-            vary(o.values, [&o](Request& r, const std::string& value) {
-                r.options.emplace_back(o.option).value = value;
+            vary(o.values, [&o](SuitePoint& p, const std::string& value) {
+                p.request.options.emplace_back(o.option).value = value;
             });
-        for (const Request& r : requests) points.push_back({&set, r});
+        all.insert(all.end(), points.begin(), points.end());
     }
-    return points;
+    return all;
 }
 
 std::vector<Advised> advice_of(const Suite& suite, const compare::Catalogue& catalogue,
                                const store::Listener& listener) {
     std::vector<Advised> all;
-    for (const SuitePoint& p : points_of(suite)) {
+    for (const SuitePoint& p : points_of(suite.sets)) {
         const bool known = std::ranges::any_of(all, [&p](const Advised& a) {
             return a.set == p.set && a.scene_words == p.request.scene;
         });
@@ -129,27 +182,29 @@ std::string verdicts_on(std::span<const Advised> advised, const study::Cells& ce
     return text;
 }
 
-study::Plan plan_of(const Suite& suite, const compare::Catalogue& catalogue,
+study::Plan plan_of(const std::vector<CellSet>& sets, const compare::Catalogue& catalogue,
                     const std::vector<std::string>& plugins, std::span<const Advised> advised) {
     study::Plan all;
-    for (const SuitePoint& point : points_of(suite)) {
+    for (const SuitePoint& point : points_of(sets)) {
         const CellSet& set = *point.set;
         const compare::CompareRequest& r = point.request;
-        const std::string where = "scene " + r.scene + ": ";
+        const std::string where =
+            set.name.empty() ? "scene " + r.scene + ": " : "map " + set.name + ": ";
         study::Point common;
         common.scene = set.drawn ? *set.drawn : compare::load_scene(r);
         common.time_limit = set.time_limit.value_or(HUGE_VAL);
         // common reference for a sweep over modes
         common.begin = set.modes.empty() ? 0 : *std::ranges::max_element(set.modes);
-        for (const std::string& assignment : r.set) {
-            const auto equals = assignment.find('=');
-            common.swept.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
-        }
+        common.swept = point.swept;
         study::Job like{&common, {}};
         like.judged = set.measures(measured::errors);
         like.repeats = set.measures(measured::cost) ? set.repeats : 0;
-        like.set = static_cast<int>(&set - suite.sets.data());
+        like.set = static_cast<int>(&set - sets.data());
         try {
+            if (set.measures(measured::outcome)) {
+                add_outcomes(all, point, catalogue, like);
+                continue;
+            }
             common.scene.taps.insert(common.scene.taps.end(), set.taps.begin(), set.taps.end());
             validate(common.scene);
             add_facets(like, set, compare::tap_named(common.scene, set.tap));

@@ -1082,7 +1082,7 @@ TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {
     ASSERT_EQ(shell(scratch, "$J compare free_string" + more).code, 0);
     const Ended again = shell(scratch, "touch r/notes.txt && $J compare free_string" + more);
     EXPECT_EQ(again.code, 0);
-    EXPECT_TRUE(says(again.err, "r holds what is not of a comparison: notes.txt"));
+    EXPECT_TRUE(says(again.err, "r holds what is not of the comparison of free_string: notes.txt"));
     EXPECT_TRUE(ends(shell(scratch, "$J compare tanpura_c3_release" + more), 2,
                      "holds the comparison of free_string"));
     std::ofstream(scratch / "s.toml")

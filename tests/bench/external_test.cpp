@@ -198,9 +198,9 @@ TEST(External, ThatItFailsIsARowOfAMap) {
     std::ofstream(scratch / "mine") << "echo no rows today; exit 1\n";
     for (const char* schemes : {R"("mine", "modal_two_point")", R"("mine")"}) {
         std::ofstream(scratch / "s.toml")
-            << "[[map]]\nname = \"m\"\nscene = \"free_string\"\nschemes = [" << schemes
-            << "]\nduration = 0.005\nmodes = 20\nx = { key = \"rate\", from = 44100, to = 88200, "
-               "points = 2 }\n";
+            << "[[cells]]\nname = \"m\"\nscenes = \"free_string\"\nschemes = [" << schemes
+            << "]\nduration = 0.005\nmodes = 20\nmeasure = \"outcome\"\n"
+               "sweep = { rate = [44100, 88200] }\n";
         EXPECT_TRUE(ends(shell(scratch, "rm -rf out\n" + suite), 0, "error 2"));
         EXPECT_TRUE(
             says(content(scratch / "out/maps.csv"),

@@ -21,54 +21,60 @@ const bench::compare::Catalogue& catalogue() {
 }
 
 TEST(Failures, EveryReproducerFailsAsItIsSaidTo) {
-    bench::suite::Trials trials(catalogue());
+    bench::study::References references;
     const auto all = bench::suite::read_failures(JVARI_FAILURES, catalogue());
     ASSERT_FALSE(all.empty());
-    for (const bench::suite::Reproducer& r : all) {
-        const bench::suite::Tried t = trials(r.trial);
-        EXPECT_STREQ(name_of(t.judgement.verdict), name_of(r.expected.verdict))
-            << r.file << ": " << t.judgement.detail;
+    for (const bench::suite::Failure& f : all) {
+        const bench::study::Judgement is = outcome_of(f, catalogue(), references);
+        EXPECT_STREQ(name_of(is.verdict), name_of(f.expected.verdict))
+            << f.file << ": " << is.detail;
         // a growth from rounding is as long as its logarithm
-        EXPECT_LE(t.judgement.step, 2 * r.expected.step) << r.file;
-        EXPECT_GE(2 * t.judgement.step, r.expected.step) << r.file;
+        EXPECT_LE(is.step, 2 * f.expected.step) << f.file;
+        EXPECT_GE(2 * is.step, f.expected.step) << f.file;
     }
 }
 
 TEST(Failures, AMapThatReproducesNoneHasNone) {
     for (const bool reproduce : {true, false}) {
-        bench::suite::Map m;
-        m.name = "a";
-        m.scene = "tanpura_c3_release";
-        m.schemes = {"modal_explicit_penalty"};
-        m.x = {"rate", {"44100"}, {44100}, false};
-        m.fixed = {{"duration", "0.001"}, {"modes", "10"}, {"string.0.start.amplitude", "-1e-6"}};
-        m.reference = "none";
-        m.reproduce = reproduce;
-        const std::vector<bench::suite::Map> maps = {m};
-        const bench::suite::MapRequest request{"\"tests\"", {}, false, 1};
-        const bench::suite::MapRun run =
-            bench::suite::run_maps(maps, catalogue(), request, bench::store::Listener());
+        const bench::suite::Suite suite = bench::suite::parse_suite(std::string(R"(
+            [[cells]]
+            name = "a"
+            scenes = "tanpura_c3_release"
+            schemes = "modal_explicit_penalty"
+            modes = 10
+            duration = 0.001
+            measure = "outcome"
+            sweep = { rate = [44100] }
+            set = { "string.0.start.amplitude" = -1e-6 }
+            reference = "none"
+            reproduce = )") + (reproduce ? "true" : "false"),
+                                                                    "a.toml");
+        const bench::study::Plan plan = bench::suite::plan_of(suite.maps, catalogue(), {});
+        const bench::suite::MapRun run = bench::suite::run_maps(
+            "", false, suite.maps, plan, catalogue(), {}, 1, bench::store::Listener());
         ASSERT_EQ(run.points.size(), 1u);
-        EXPECT_EQ(run.points[0].tried.judgement.verdict, bench::study::Verdict::diverged);
-        EXPECT_EQ(reproducers_of(run, catalogue(), request, bench::store::Listener()).size(),
+        EXPECT_EQ(run.points[0].judgement.verdict, bench::study::Verdict::diverged);
+        EXPECT_EQ(failures_of("", false, run, catalogue(), {}, 1, bench::store::Listener()).size(),
                   reproduce ? 1u : 0u);
     }
 }
 
 TEST(Failures, EveryControlHasOne) {
     std::set<std::string> failing;
-    for (const bench::suite::Reproducer& r :
-         bench::suite::read_failures(JVARI_FAILURES, catalogue()))
-        failing.insert(r.trial.scheme->name);
+    for (const bench::suite::Failure& f : bench::suite::read_failures(JVARI_FAILURES, catalogue()))
+        failing.insert(f.scheme->name);
     for (const char* control :
          {"modal_explicit_penalty", "modal_two_point_trapezoidal", "modal_quadratised",
           "finite_difference_explicit", "finite_difference_theta", "modal_spatial_newton"})
         EXPECT_TRUE(failing.contains(control)) << control;
 }
 
-bench::suite::Trial large() {
-    bench::suite::Trial t{
-        &catalogue().find("modal_two_point"), read_scene("tanpura_c3_release"), {}, "none"};
+bench::suite::Failure large() {
+    bench::suite::Failure t{"a.toml",
+                            &catalogue().find("modal_two_point"),
+                            read_scene("tanpura_c3_release"),
+                            {},
+                            "none"};
     t.settings.sample_rate = t.settings.tap_rate = 44100;
     t.scene.duration = 0.1;
     return t;
@@ -77,11 +83,11 @@ bench::suite::Trial large() {
 TEST(Failures, EveryOutcomeHasOne) {
     std::set<bench::study::Verdict> seen;
     bool gains = false;
-    for (const bench::suite::Reproducer& r :
+    for (const bench::suite::Failure& f :
          bench::suite::read_failures(JVARI_FAILURES, catalogue())) {
-        seen.insert(r.expected.verdict);
-        gains = gains || (r.trial.scheme->name == std::string("modal_explicit_penalty") &&
-                          r.expected.verdict == bench::study::Verdict::energy_gaining);
+        seen.insert(f.expected.verdict);
+        gains = gains || (f.scheme->name == std::string("modal_explicit_penalty") &&
+                          f.expected.verdict == bench::study::Verdict::energy_gaining);
     }
     for (const bench::study::Verdict v :
          {bench::study::Verdict::inaccurate, bench::study::Verdict::adhesive,
@@ -92,9 +98,9 @@ TEST(Failures, EveryOutcomeHasOne) {
 }
 
 TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
-    const bench::suite::Trial t =
+    const bench::suite::Failure t =
         // fails with a thread, from 17 modes and 23 rows on
-        bench::suite::minimised(large(), [](const bench::suite::Trial& x) {
+        bench::suite::minimised(large(), [](const bench::suite::Failure& x) {
             return x.scene.strings[0].thread && x.settings.modes >= 17 &&
                    x.scene.duration * x.settings.tap_rate > 22.5;
         });
@@ -109,8 +115,8 @@ TEST(Minimiser, TakesAwayAllThatAFailureDoesNotNeed) {
 }
 
 TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
-    const bench::suite::Trial t =
-        bench::suite::minimised(large(), [](const bench::suite::Trial& x) {
+    const bench::suite::Failure t =
+        bench::suite::minimised(large(), [](const bench::suite::Failure& x) {
             if (x.scene.strings[0].barriers.empty()) throw std::runtime_error("nothing to fail at");
             // either will do
             return x.scene.strings[0].thread.has_value() ||
@@ -123,11 +129,11 @@ TEST(Minimiser, KeepsWhatIsNeededTogetherAndWhatThrows) {
 }
 
 TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
-    bench::suite::Trials trials(catalogue());
-    bench::suite::Trial t = large();
+    bench::study::References references;
+    bench::suite::Failure t = large();
     t.scheme = &catalogue().find("modal_explicit_penalty");
-    const auto diverges = [&trials](const bench::suite::Trial& x) {
-        return trials(x).judgement.verdict == bench::study::Verdict::diverged;
+    const auto diverges = [&references](const bench::suite::Failure& x) {
+        return outcome_of(x, catalogue(), references).verdict == bench::study::Verdict::diverged;
     };
     ASSERT_TRUE(diverges(t));
     t = bench::suite::minimised(t, diverges);
@@ -135,11 +141,13 @@ TEST(Minimiser, WhatItWritesReadsBackAsTheSameFailure) {
     const auto folder =
         std::filesystem::temp_directory_path() / ("jvari-failures-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder);
-    bench::suite::write_failures(folder, {{"a.toml", t, trials(t).judgement}});
+    t.expected = outcome_of(t, catalogue(), references);
+    bench::suite::write_failures(folder, {t});
     const auto back = bench::suite::read_failures(folder, catalogue());
     std::filesystem::remove_all(folder);
     ASSERT_EQ(back.size(), 1u);
-    EXPECT_EQ(trials.plan_of(back[0].trial).jobs[0].identity, trials.plan_of(t).jobs[0].identity);
+    EXPECT_EQ(plan_of(back[0], catalogue(), "{}").jobs[0].identity,
+              plan_of(t, catalogue(), "{}").jobs[0].identity);
     EXPECT_EQ(back[0].expected.verdict, bench::study::Verdict::diverged);
 }
 

@@ -17,82 +17,103 @@ namespace fs = std::filesystem;
 
 // ---- The file
 
-TEST(MapFile, AxesAreListedOrSpacedByEqualRatios) {
+TEST(MapFile, SweptKeysAreListedOrSpacedByEqualRatiosInTheOrderOfTheFile) {
     const bench::suite::Suite s = bench::suite::parse_suite(R"(
-        [[map]]
+        [[cells]]
         name = "a"
-        scene = "free_string"
-        x = { key = "string.0.tension", from = 1e4, to = 1e16, points = 7 }
-        y = { key = "modes", from = 10, to = 40, points = 3 }
-        rate = 48000
+        scenes = "free_string"
+        measure = "outcome"
+    sweep = { rate = { from = 1, to = 1e6, points = 7 }, modes = { from = 9, to = 36, points = 3 } }
+        duration = 0.5
         options = { grid = 100 }
         set = { "string.0.damping.law" = "none" }
     )",
                                                             "a.toml");
+    EXPECT_TRUE(s.sets.empty());
     ASSERT_EQ(s.maps.size(), 1u);
-    const bench::suite::Map& m = s.maps[0];
-    ASSERT_EQ(m.x.values.size(), 7u);
-    EXPECT_EQ(m.x.at[1], 1e6);
-    EXPECT_EQ(m.x.at[6], 1e16);
-    EXPECT_EQ(m.y.values, (std::vector<std::string>{"10", "20", "40"}));
-    EXPECT_TRUE(m.y.whole);
-    EXPECT_FALSE(m.x.whole);
-    EXPECT_TRUE(m.reproduce);
-    EXPECT_EQ(
-        m.fixed,
-        (std::vector<bench::suite::Assignment>{
-            {"rate", "48000"}, {"option:grid", "100"}, {"string.0.damping.law", "\"none\""}}));
+    const auto &x = s.maps[0].sweep[0], &y = s.maps[0].sweep[1];
+    EXPECT_EQ(x.key, "rate");
+    EXPECT_EQ(x.at, (std::vector<double>{1, 10, 100, 1e3, 1e4, 1e5, 1e6}));
+    EXPECT_FALSE(x.whole);
+    EXPECT_EQ(y.values, (std::vector<std::string>{"9", "18", "36"}));
+    EXPECT_TRUE(y.whole);
+    EXPECT_TRUE(s.maps[0].reproduce);
+    const std::vector<bench::suite::SuitePoint> points = bench::suite::points_of(s.maps);
+    ASSERT_EQ(points.size(), 21u);
+    const auto& second = points[1];  // x varies first
+    EXPECT_EQ(second.swept,
+              (std::vector<std::pair<std::string, std::string>>{{"rate", "10"}, {"modes", "9"}}));
+    EXPECT_EQ(second.request.rates, std::vector<double>{10});
+    EXPECT_EQ(second.request.modes, std::vector<int>{9});
+    EXPECT_EQ(second.request.duration, 0.5);
+    EXPECT_EQ(second.request.options.at(0).value, "100");
+    EXPECT_EQ(second.request.set, std::vector<std::string>{"string.0.damping.law=\"none\""});
 }
 
 TEST(MapFile, WhatItDoesNotKnowIsAnErrorWithFileLineAndKey) {
-    const std::string head = "[[map]]\nname = \"a\"\nscene = \"b\"\n",
-                      x = "x = { key = \"rate\", values = [1, 2] }\n";
+    const std::string head = "[[cells]]\nname = \"a\"\nscenes = \"b\"\nmeasure = \"outcome\"\n",
+                      x = "sweep = { rate = [1, 2] }\n";
     const std::pair<std::string, const char*> cases[] = {
-        {"[[map]]\nname = \"a\"\n" + x, "a.toml:1: map.0: the key scene is missing"},
-        {head + x + "schmes = [\"c\"]",
-         "a.toml:5: map.0: unknown key \"schmes\"; did you mean \"schemes\"?"},
-        {head + "x = { key = \"rate\", valeus = [1] }",
-         "a.toml:4: map.0.x: unknown key \"valeus\"; did you mean \"values\"?"},
-        {head + "x = { key = \"rate\" }", "a.toml:4: map.0.x: the key from is missing"},
-        {head + "x = { key = \"rate\", from = 2, to = 1, points = 3 }",
-         "map.0.x.to: found 1, expected more than from"},
-        {head + "x = { key = \"rate\", from = 1, to = 2, points = 1 }",
-         "map.0.x.points: found 1, expected 2 or more"},
-        {head + "x = { key = \"rate\", from = 1, values = [1] }",
-         "map.0.x.from: found 1, expected either values or from, to and points"},
-        {head + "x = { key = \"rate\", values = [2, 1] }", "expected numbers that ascend"},
-        {head + "x = { key = \"rate\", values = [-2] }",
-         "a.toml:4: map.0.x.values.0: found -2, expected a number > 0"},
-        {head + "x = { key = \"modes\", values = [2.5] }",
-         "a.toml:4: map.0.x.values.0: found 2.5, expected a whole number from 1 to 9999999"},
-        {head + x + "rate = 3",
-         "map.0.x.key: found \"rate\", expected a key that is not set for all points as well"},
-        {head + x + "reproduce = 1", "a.toml:5: map.0.reproduce: found 1, expected true or false"},
-        {head + x + "theory = \"grid\"", "a.toml:5: map.0.theory: unknown theory \"grid\""},
-        {head + "x = { key = \"string.0.damping.law\", values = [\"none\"] }\nrefine = 3",
-         "map.0.refine: found 3, expected an axis x of numbers"},
-        {head + x + head + x, "map.1.name: found \"a\", expected a name of its own"},
-        {"[[map]]\nname = \"A b\"\nscene = \"b\"\n" + x, "a.toml:2: map.0.name"},
+        {"[[cells]]\nscenes = \"b\"\nmeasure = \"outcome\"\n" + x,
+         "a.toml:1: cells.0: the key name is missing"},
+        {head, "a.toml:1: cells.0: the key sweep is missing"},
+        {head + "sweep = { rate = { form = 1 } }",
+         "a.toml:5: cells.0.sweep.rate: unknown key \"form\"; did you mean \"from\"?"},
+        {head + "sweep = { rate = { to = 1, points = 3 } }",
+         "a.toml:5: cells.0.sweep.rate: the key from is missing"},
+        {head + "sweep = { rate = { from = 2, to = 1, points = 3 } }",
+         "cells.0.sweep.rate.to: found 1, expected more than from"},
+        {head + "sweep = { rate = { from = 1, to = 2, points = 1 } }",
+         "cells.0.sweep.rate.points: found 1, expected a whole number from 2 to 1000000"},
+        {head + "sweep = { rate = [2, 1] }",
+         "a.toml:5: cells.0.sweep.rate: expected numbers that ascend"},
+        {head + "sweep = { rate = [-2] }",
+         "a.toml:5: cells.0.sweep.rate.0: found -2, expected a number > 0"},
+        {head + "sweep = { modes = [2.5] }",
+         "a.toml:5: cells.0.sweep.modes.0: found 2.5, expected a whole number from 1 to 9999999"},
+        {head + "sweep = { a = [1], b = [2], c = [3] }", "expected one or two keys on a map"},
+        {head + x + "rates = 3",
+         "cells.0.sweep.rate: expected a key that is not set for all points as well"},
+        {head + "sweep = { k = [1] }\nset = { k = 1 }",
+         "cells.0.sweep.k: expected a key that is not set for all points as well"},
+        {head + "sweep = { \"option:grid\" = [9] }\noptions = { grid = 8 }",
+         "cells.0.sweep.option:grid: expected a key that is not set for all points as well"},
+        {head + x + "modes = [1, 2]", "cells.0.modes: found an array, expected one value on a map"},
+        {head + x + "options = { grid = [8, 9] }",
+         "cells.0.options: expected one value of each on a map"},
+        {head + x + "tap_rate = 1", "a.toml:6: cells.0.tap_rate: expected no such key on a map"},
+        {head + x + "reproduce = 1",
+         "a.toml:6: cells.0.reproduce: found 1, expected true or false"},
+        {head + x + "theory = \"grid\"", "a.toml:6: cells.0.theory: unknown theory \"grid\""},
+        {head + "sweep = { \"string.0.damping.law\" = [\"none\"] }\nrefine = 3",
+         "cells.0.refine: expected numbers as the first swept key"},
+        {head + x + head + x, "cells.1.name: found \"a\", expected a name of its own"},
+        {"[[cells]]\nscenes = \"b\"\nrefine = 3",
+         "cells.0.refine: expected measure = \"outcome\" beside it"},
+        {"[[cells]]\nname = \"A b\"\nscenes = \"b\"\n" + x, "a.toml:2: cells.0.name"},
+        {"[[cells]]\nname = \"a\"\nscenes = \"b\"\nmeasure = [\"errors\", \"outcome\"]\n" + x,
+         "cells.0.measure: expected outcome alone"},
     };
     for (const auto& [text, expected] : cases) EXPECT_TRUE(says(refusal_of(text), expected));
 }
 
-// ---- Bisection
-
 TEST(MapFile, MorePointsThanCanBeRunAreRefusedWithTheirNumber) {
-    const std::string head =
-        "[[map]]\nname = \"a\"\nscene = \"free_string\"\nschemes = [\"modal_two_point\", "
-        "\"modal_quadratised\"]\n";
-    const auto axis = [](const char* name, const std::string& points) {
-        return name + std::string(" = { key = \"") + (*name == 'x' ? "rate" : "duration") +
-               "\", from = 1, to = 2, points = " + points + " }\n";
+    const auto map = [](const std::string& x, const std::string& y) {
+        const std::string range = " = { from = 1, to = 2, points = ";
+        return refusal_of(
+            "[[cells]]\nname = \"a\"\nscenes = \"free_string\"\nmeasure = \"outcome\"\nschemes = "
+            "[\"modal_two_point\", \"modal_quadratised\"]\nsweep = { rate" +
+            range + x + " }, duration" + range + y + " } }\n");
     };
-    EXPECT_EQ(refusal_of(head + axis("x", "9999999")),
-              "a.toml:5: map.0.x.points: found 9999999, expected at most 1000000");
-    EXPECT_EQ(refusal_of(head + axis("x", "10000") + axis("y", "1000")),
-              "a.toml:1: map.0: found 20000000 points, expected at most 1000000");
-    EXPECT_EQ(refusal_of(head + axis("x", "500") + axis("y", "1000")), "read");
+    EXPECT_EQ(map("9999999", "2"),
+              "a.toml:6: cells.0.sweep.rate.points: found 9999999, expected a whole number from 2 "
+              "to 1000000");
+    EXPECT_EQ(map("10000", "1000"),
+              "a.toml:1: cells.0: found 20000000 cells, expected at most 1000000: each is a run");
+    EXPECT_EQ(map("500", "1000"), "read");
 }
+
+// ---- Bisection
 
 TEST(Bisection, FindsAKnownBoundaryToItsStatedWidth) {
     int calls = 0;
@@ -149,22 +170,24 @@ TEST(Bisection, WithAThirdOutcomeBetweenFindsWhereStabilityEnds) {
 // ---- Boundaries against theory
 
 constexpr const char* limits = R"(
-    [[map]]
+    [[cells]]
     name = "grid"
-    scene = "free_string"
+    scenes = "free_string"
     schemes = ["finite_difference_explicit", "finite_difference_theta"]
-    x = { key = "rate", from = 22050, to = 88200, points = 3 }
+    measure = "outcome"
+    sweep = { rate = { from = 22050, to = 88200, points = 3 } }
     options = { grid = 120, over_limit = 100 }
     set = { "string.0.damping.law" = "none" }
     duration = 0.1
     reference = "none"
     theory = "grid_limit"
     refine = 9
-    [[map]]
+    [[cells]]
     name = "penalty"
-    scene = "tanpura_c3"
+    scenes = "tanpura_c3"
     schemes = ["modal_explicit_penalty"]
-    x = { key = "rate", from = 1e5, to = 1e6, points = 2 }
+    measure = "outcome"
+    sweep = { rate = { from = 1e5, to = 1e6, points = 2 } }
     set = { "string.0.barrier.0.stiffness" = 4.39e6 }
     modes = 60
     duration = 0.02
@@ -173,22 +196,36 @@ constexpr const char* limits = R"(
     refine = 8
 )";
 
-bench::suite::MapRun run_of(const bench::suite::Suite& suite, const fs::path& folder = {},
-                            bool resume = false, int jobs = 1) {
-    static const bench::compare::Catalogue catalogue;
-    return bench::suite::run_maps(suite.maps, catalogue, {"\"tests\"", folder, resume, jobs},
-                                  bench::store::Listener());
+const bench::compare::Catalogue& map_schemes() {
+    static const bench::compare::Catalogue all;
+    return all;
 }
+
+fs::path existing(const fs::path& folder) {
+    if (!folder.empty()) fs::create_directories(folder);
+    return folder;
+}
+
+struct Mapped {  // maps of a suite that outlives this
+    bench::study::Plan plan;
+    bench::suite::MapRun run;
+    explicit Mapped(const bench::suite::Suite& suite, const fs::path& folder = {},
+                    bool resume = false, int jobs = 1)
+        : plan(bench::suite::plan_of(suite.maps, map_schemes(), {})),
+          run(bench::suite::run_maps(existing(folder), resume, suite.maps, plan, map_schemes(), {},
+                                     jobs, bench::store::Listener())) {}
+};
 
 TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
     const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
-    const bench::suite::MapRun run = run_of(suite);
+    const Mapped mapped(suite);
+    const bench::suite::MapRun& run = mapped.run;
     ASSERT_EQ(run.boundaries.size(), 3u);
     for (const bench::suite::Boundary& b : run.boundaries) {
         EXPECT_LT(std::abs(b.relative_difference()), 0.01)
-            << b.map->name << " " << b.scheme->name << " " << b.theory;
-        EXPECT_EQ(b.high, bench::study::Verdict::sound);
-        EXPECT_NE(b.low, bench::study::Verdict::sound);
+            << bench::study::what_of(*b.below->job) << " " << b.theory;
+        EXPECT_EQ(b.between.at_high, bench::study::Verdict::sound);
+        EXPECT_NE(b.between.at_low, bench::study::Verdict::sound);
     }
     const bench::store::Table t = bench::suite::boundaries_table(run, {});
     for (std::size_t i = 0; i < t.rows.size(); ++i)
@@ -199,55 +236,63 @@ TEST(Maps, TheBoundariesOfConditionalSchemesAreWithinOnePercentOfTheory) {
 }
 
 TEST(Maps, ASteppedReferenceIsMadeForEachRateAndAContinuousOneOnce) {
-    const bench::compare::Catalogue catalogue;
-    const bench::suite::Trials trials(catalogue);
-    const auto at = [&](const char* rate, const std::string& reference) {
-        bench::suite::Trial t =
-            bench::suite::trial_of("free_string", catalogue.find("modal_two_point"), reference,
-                                   {{"rate", rate}, {"modes", "10"}, {"duration", "0.002"}});
-        t.settings.tap_rate = 44100;
+    const auto at = [](double rate, const std::string& reference) {
+        bench::study::Plan plan;
+        Scene scene = read_scene("free_string");
+        scene.duration = 0.002;
+        plan.points.push_back(
+            bench::suite::judged_point(map_schemes(), scene, {rate, 44100, 10, {}}, reference, 0));
+        plan.jobs.push_back(bench::suite::judged_job(map_schemes().find("modal_two_point"),
+                                                     plan.points.front(), {rate, 44100, 10, {}}));
+        bench::study::address(plan, "{}");
         // points that share it share the run
-        return trials.plan_of(t).points.front().reference_key;
+        return plan.points.front().reference_key;
     };
-    EXPECT_NE(at("44100", "modal_spatial_newton"), at("88200", "modal_spatial_newton"));
-    EXPECT_EQ(at("44100", "modal_spatial_newton"), at("44100", "modal_spatial_newton"));
-    EXPECT_EQ(at("44100", "exact_contact"), at("88200", "exact_contact"));
+    EXPECT_NE(at(44100, "modal_spatial_newton"), at(88200, "modal_spatial_newton"));
+    EXPECT_EQ(at(44100, "modal_spatial_newton"), at(44100, "modal_spatial_newton"));
+    EXPECT_EQ(at(44100, "exact_contact"), at(88200, "exact_contact"));
 }
 
 TEST(Maps, AReferenceWithModesOfItsOwnIsTheSameForEveryPoint) {
-    const bench::compare::Catalogue catalogue;
-    bench::suite::Trials trials(catalogue);
-    const auto error = [&](const char* modes, int reference_modes) {
-        const bench::suite::Trial t = bench::suite::trial_of(
-            "tanpura_c3_release", catalogue.find("modal_two_point"), "exact_contact",
-            {{"rate", "705600"}, {"modes", modes}, {"duration", "0.005"}}, reference_modes);
-        return trials(t).error;
+    const auto error = [](int modes, const std::string& reference_modes) {
+        const bench::suite::Suite suite = bench::suite::parse_suite(
+            "[[cells]]\nname = \"a\"\nscenes = \"tanpura_c3_release\"\nschemes = "
+            "\"modal_two_point\"\nreference = \"exact_contact\"\nrates = 705600\nduration = "
+            "0.005\nmeasure = \"outcome\"\nreference_modes = " +
+                reference_modes + "\nsweep = { modes = [" + std::to_string(modes) + "] }",
+            "a.toml");
+        return Mapped(suite).run.points.at(0).error;
     };
-    EXPECT_LT(error("20", 0), 0.02);  // within a string of 20 modes
-    EXPECT_GT(error("20", 80), 0.1);  // of 80
-    EXPECT_DOUBLE_EQ(error("80", 80), error("80", 0));
+    EXPECT_LT(error(20, "\"cell\""), 0.02);  // within a string of 20 modes
+    EXPECT_GT(error(20, "80"), 0.1);         // of 80
+    EXPECT_DOUBLE_EQ(error(80, "80"), error(80, "\"cell\""));
 }
 
 TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
     const bench::suite::Suite suite = bench::suite::parse_suite(R"(
-        [[map]]
+        [[cells]]
         name = "a"
-        scene = "free_string"
+        scenes = "free_string"
         schemes = ["modal_two_point", "finite_difference_explicit"]
-        x = { key = "modes", values = [10, 2000] }
-        y = { key = "amplitude", values = [1, 2] }
+        measure = "outcome"
+        sweep = { modes = [10, 2000], amplitude = [1, 2] }
         duration = 0.005
     )",
                                                                 "a.toml");
-    const bench::suite::MapRun run = run_of(suite);
+    const Mapped mapped(suite);
+    const bench::suite::MapRun& run = mapped.run;
     const bench::store::Table t = bench::suite::maps_table(run);
     ASSERT_EQ(t.rows.size(), 8u);
+    EXPECT_NE(mapped.plan.points[0].hash, mapped.plan.points[2].hash);  // twice the amplitude
+    EXPECT_EQ(mapped.plan.points[0].hash, mapped.plan.points[1].hash);
     EXPECT_EQ(t.text(0, "outcome"), "sound");
     EXPECT_EQ(t.text(0, "reference"), "exact_linear");
     EXPECT_EQ(t.text(1, "outcome"), "refused");
     EXPECT_TRUE(says(t.text(1, "detail"), "half the sample rate"));
-    const bench::store::Table boundaries = bench::suite::boundaries_table(
-        run, {{{"modal_two_point", bench::study::Verdict::refused}, "failures/a.toml"}});
+    const bench::suite::Failure refused{
+        "a.toml", &map_schemes().find("modal_two_point"), {}, {}, "",
+        0,        {bench::study::Verdict::refused, "", 0}};
+    const bench::store::Table boundaries = bench::suite::boundaries_table(run, {refused});
     ASSERT_GE(boundaries.rows.size(), 2u);
     EXPECT_EQ(boundaries.text(0, "between"), "sound|refused");
     EXPECT_EQ(boundaries.text(0, "reproducer"), "failures/a.toml");
@@ -258,36 +303,37 @@ TEST(Maps, EveryPointIsARowAndARefusalSaysWhy) {
 TEST(Maps, PointsThatAreKeptAreNotRunAgainAndTheTableIsTheSame) {
     const Scratch scratch;
     const bench::suite::Suite suite = bench::suite::parse_suite(limits, "a.toml");
-    const bench::suite::MapRun whole = run_of(suite, scratch.path);
-    EXPECT_EQ(whole.read_back, 0);
+    const Mapped whole(suite, scratch / "cells");
+    EXPECT_EQ(whole.run.read_back, 0);
     // as if the suite had been stopped: a part of its points, and one that was cut off
     int removed = 0;
-    for (const auto& entry : fs::directory_iterator(scratch.path / "points")) {
+    for (const auto& entry : fs::directory_iterator(scratch.path / "cells")) {
         if (++removed % 3 == 0) fs::remove(entry.path());
         if (removed % 7 == 0) std::ofstream(entry.path()) << "{";
     }
-    const bench::suite::MapRun resumed = run_of(suite, scratch.path, true, 2);
-    EXPECT_GT(resumed.read_back, 0);
-    EXPECT_GT(resumed.ran, 0);
-    EXPECT_EQ(resumed.ran + resumed.read_back, whole.ran);
-    EXPECT_EQ(csv(maps_table(resumed)), csv(maps_table(whole)));
-    EXPECT_EQ(csv(boundaries_table(resumed, {})), csv(boundaries_table(whole, {})));
-    EXPECT_EQ(run_of(suite, scratch.path, true).ran, 0);
-    const auto first = fs::directory_iterator(scratch.path / "points")->path(),
-               second = std::next(fs::directory_iterator(scratch.path / "points"))->path();
+    const Mapped resumed(suite, scratch / "cells", true, 2);
+    EXPECT_GT(resumed.run.read_back, 0);
+    EXPECT_GT(resumed.run.ran, 0);
+    EXPECT_EQ(resumed.run.ran + resumed.run.read_back, whole.run.ran);
+    EXPECT_EQ(csv(maps_table(resumed.run)), csv(maps_table(whole.run)));
+    EXPECT_EQ(csv(boundaries_table(resumed.run, {})), csv(boundaries_table(whole.run, {})));
+    EXPECT_EQ(Mapped(suite, scratch / "cells", true).run.ran, 0);
+    const auto first = fs::directory_iterator(scratch.path / "cells")->path(),
+               second = std::next(fs::directory_iterator(scratch.path / "cells"))->path();
     // a point under the name of another
     fs::copy_file(first, second, fs::copy_options::overwrite_existing);
-    EXPECT_EQ(run_of(suite, scratch.path, true).ran, 1);
+    EXPECT_EQ(Mapped(suite, scratch / "cells", true).run.ran, 1);
 }
 
 TEST(Maps, TheProgramWritesTablesForASuiteOfMapsAlone) {
     const Scratch scratch;
     std::ofstream(scratch / "s.toml") << R"(
-        [[map]]
+        [[cells]]
         name = "a"
-        scene = "free_string"
+        scenes = "free_string"
         schemes = ["modal_two_point"]
-        x = { key = "rate", values = [44100, 88200] }
+        measure = "outcome"
+        sweep = { rate = [44100, 88200] }
         duration = 0.005
     )";
     const auto r = jvari(scratch, "suite " + (scratch / "s.toml") + " --out " + (scratch / "out"),

@@ -103,7 +103,7 @@ TEST(Population, SaysWhatIsWrongOfIt) {
     EXPECT_TRUE(says(refusal_of("[[cells]]\nscenes = \"free_string\"\nmeasure = \"share\""),
                      "found share in [[cells]]"));
     EXPECT_TRUE(says(refusal_of(population() + "[[cells]]\nscenes = \"free_string\""),
-                     "found [[cells]] or [[map]] too"));
+                     "found [[cells]] too"));
     EXPECT_TRUE(says(refusal_of("[population]"), "found no strings"));
     EXPECT_TRUE(says(refusal_of("[[ground]]\nname = \"a\"\nscene = \"free_string\"\nnumber = 1"),
                      "expected [population] beside it"));
@@ -113,7 +113,8 @@ TEST(Population, SaysWhatIsWrongOfIt) {
 }
 
 bench::suite::StringTables tables_of(const Suite& suite) {
-    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::study::Plan plan =
+        bench::suite::plan_of(suite.sets, bench::compare::Catalogue(), {});
     const auto records = bench::study::run(plan, "", false, 2, bench::store::Listener()).records;
     return string_tables(suite, bench::study::cells_of(plan, records), records);
 }

@@ -37,22 +37,23 @@ reference_modes = "cell"
 duration = 0.01
 repeats = 2
 measure = ["errors", "cost"]
-[[map]]
+[[cells]]
 name = "penalty"
-scene = "tanpura_c3"
+scenes = "tanpura_c3"
 schemes = ["modal_explicit_penalty", "modal_two_point"]
-x = { key = "rate", from = 1e5, to = 1e6, points = 3 }
-y = { key = "string.0.tension", values = [30, 40] }
+measure = "outcome"
+sweep = { rate = { from = 1e5, to = 1e6, points = 3 }, "string.0.tension" = [30, 40] }
 set = { "string.0.barrier.0.stiffness" = 4.39e6 }
 modes = 60
 duration = 0.02
 reference = "none"
 refine = 5
-[[map]]
+[[cells]]
 name = "tension"
-scene = "tanpura_c3_release"
+scenes = "tanpura_c3_release"
 schemes = ["modal_two_point", "modal_quadratised"]
-x = { key = "string.0.tension", values = [30, 40] }
+measure = "outcome"
+sweep = { "string.0.tension" = [30, 40] }
 duration = 0.01
 reproduce = false
 )";
@@ -100,7 +101,7 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
     const std::vector<int> alone = numbers_before("run,", scratch, 1);
     ASSERT_EQ(alone.size(), 2u);  // points of maps, cells
     const int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-    for (const char* name : {"cells", "points", "references"}) {
+    for (const char* name : {"cells", "references"}) {
         fs::create_directories(scratch.path / "all" / name);
         ASSERT_GE(inotify_add_watch(watch, (scratch.path / "all" / name).c_str(), IN_MOVED_TO), 0);
     }
@@ -136,8 +137,8 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
             << name;
     EXPECT_GT(bench::store::read_csv(content(scratch / "all/boundaries.csv")).rows.size(), 0u);
     EXPECT_GT(bench::store::read_csv(content(scratch / "all/failures/index.csv")).rows.size(), 0u);
-    std::map<fs::path, fs::file_time_type> minimised;  // kept beside the points
-    for (const auto& entry : fs::directory_iterator(scratch / "all/points"))
+    std::map<fs::path, fs::file_time_type> minimised;  // kept beside the cells
+    for (const auto& entry : fs::directory_iterator(scratch / "all/cells"))
         if (const fs::path index = entry.path() / "index.csv"; fs::exists(index))
             minimised[index] = fs::last_write_time(index);
     EXPECT_EQ(minimised.size(),
@@ -146,7 +147,7 @@ TEST(SharedFolder, ThreeProcessesComeToTheTablesOfOneAndDoNothingTwice) {
     EXPECT_EQ(again.code, 0);
     for (const auto& [index, written] : minimised)
         EXPECT_EQ(fs::last_write_time(index), written) << "minimised again: " << index;
-    EXPECT_FALSE(says(again.err, "holds what is not of a suite"));
+    EXPECT_FALSE(says(again.err, "holds what is not of"));
     EXPECT_TRUE(says(again.out, "16 cells, 0 run, 0 timed, 16 read back"));
 }
 
@@ -268,9 +269,10 @@ TEST(Machines, AFolderHasTheCostsOfOne) {
     std::ofstream(scratch / "a.toml") << costs;
     const std::string resume = "$J suite a.toml --out all --resume";
     ASSERT_EQ(shell(scratch, resume + " --quiet").code, 0) << content(scratch / "stderr");
+    const bench::suite::Suite suite =
+        bench::suite::parse_suite(content(scratch / "a.toml"), "a.toml");
     const bench::study::Plan plan =
-        bench::suite::plan_of(bench::suite::parse_suite(content(scratch / "a.toml"), "a.toml"),
-                              bench::compare::Catalogue{}, {});
+        bench::suite::plan_of(suite.sets, bench::compare::Catalogue{}, {});
     const auto file = [&](std::size_t i) {
         return scratch.path / "all/cells" / bench::study::clock_file(plan.jobs[i]);
     };

@@ -52,11 +52,12 @@ TEST(SuiteFile, SpreadsOutToTheProductOfWhatItLists) {
         sweep = { "string.0.tension" = [30], "tap.0.name" = ["a"] }
     )",
                                                                 "a.toml");
-    const auto points = bench::suite::points_of(suite);
+    const auto points = bench::suite::points_of(suite.sets);
     ASSERT_EQ(points.size(), 2u * 2 * 2 + 1);
     EXPECT_EQ(points[1].request.set,
               (std::vector<std::string>{"string.0.tension=31.5", "tap.0.name=\"a\""}));
-    const bench::study::Plan plan = bench::suite::plan_of(suite, bench::compare::Catalogue(), {});
+    const bench::study::Plan plan =
+        bench::suite::plan_of(suite.sets, bench::compare::Catalogue(), {});
     // the second set repeats six cells of the first
     EXPECT_EQ(plan.jobs.size(), 2u * 2 * 2 * 2 * 3);
     std::set<std::string> ids;
@@ -93,7 +94,8 @@ TEST(SuiteFile, WhatASetDoesNotNameIsSoughtUnlessItSaysNot) {
                 more,
             "a.toml");
         std::vector<std::string> all;
-        for (const auto& c : bench::suite::plan_of(suite, bench::compare::Catalogue(), {}).jobs)
+        for (const auto& c :
+             bench::suite::plan_of(suite.sets, bench::compare::Catalogue(), {}).jobs)
             all.push_back(bench::store::options_text(c.cell.settings.options) + " " +
                           std::to_string(c.cell.settings.modes));
         return all;
@@ -190,7 +192,8 @@ TEST(SuiteFile, WhatItDoesNotKnowIsAnErrorWithFileAndLine) {
          "a.toml:3: cells.0.rates.0: found -1, expected a number > 0"},
         {"[[cells]]\nscenes = [\"b\"]\nmodes = 1.5",
          "a.toml:3: cells.0.modes: found 1.5, expected a whole number from 1 to 9999999"},
-        {"[[cells]]\nscenes = [\"b\"]\nsweep = { x = 3 }", "expected an array"},
+        {"[[cells]]\nscenes = [\"b\"]\nsweep = { x = 3 }",
+         "expected an array of the values to vary, or { from, to, points }"},
         {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"eror\"]", "unknown measure"},
         {"[[cells]]\nscenes = [\"b\"]\nmeasure = [\"cost\"]", "no speed without an error"},
         {"[[cells]]\nscenes = [\"b\"]\nreference_modes = 10000000", "from 0 to 9999999"},
@@ -218,12 +221,12 @@ TEST(SuiteFile, OfMoreCellsThanCanBeRunIsRefusedBeforeTheyArePlanned) {
 TEST(SuiteFile, EverySuiteOfTheLibraryCanBePlanned) {
     for (const std::string& name : bench::suite::library_suites()) {
         const bench::suite::Suite suite = bench::suite::read_suite(name);
-        EXPECT_FALSE(plan_of(suite, bench::compare::Catalogue(), {}).jobs.empty() &&
-                     suite.maps.empty())
+        EXPECT_FALSE(plan_of(suite.sets, bench::compare::Catalogue(), {}).jobs.empty() &&
+                     plan_of(suite.maps, bench::compare::Catalogue(), {}).jobs.empty())
             << name;
     }
     const bench::suite::Suite sitar = bench::suite::read_suite("paper-deshmukh");
-    const auto jobs = plan_of(sitar, bench::compare::Catalogue(), {}).jobs;
+    const auto jobs = plan_of(sitar.sets, bench::compare::Catalogue(), {}).jobs;
     // seven variants, two schemes
     EXPECT_EQ(std::ranges::count(jobs, 0, &bench::study::Job::set), 14);
 }
@@ -365,7 +368,7 @@ TEST(SuiteRun, ASoundWithoutItsFieldsIsNotBelieved) {
     )",
                                                                 "a.toml");
     const Workshop w;
-    const bench::study::Plan plan = bench::suite::plan_of(suite, w.catalogue, {});
+    const bench::study::Plan plan = bench::suite::plan_of(suite.sets, w.catalogue, {});
     bench::study::run(plan, scratch.path, false, 1, w.listener);
     const std::string path = scratch / (plan.jobs[0].id + ".json");
     auto json = nlohmann::ordered_json::parse(bench::store::unsealed(content(path)));

@@ -23,10 +23,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const bench::suite::Suite suite =
             bench::suite::parse_suite(test::text_of(data, size), "no_such_directory/suite.toml");
         ++inputs_read;
-        double points = 0;
-        for (const bench::suite::CellSet& set : suite.sets) points += points_in(set);
-        // a valid suite may ask for more than there is memory
-        if (points < 1000) bench::suite::points_of(suite);
+        for (const auto* sets : {&suite.sets, &suite.maps}) {
+            double points = 0;
+            for (const bench::suite::CellSet& set : *sets) points += points_in(set);
+            // a valid suite may ask for more than there is memory
+            if (points < 1000) bench::suite::points_of(*sets);
+        }
     } catch (const SceneFileError&) {
     } catch (const bench::store::UsageError&) {}
     return 0;

@@ -257,9 +257,9 @@ os._exit(1)"""
                         'rates = [44100, 88200]\nduration = 0.2\nreference = "sundials"\n'
                         'reference_modes = "cell"\n')
             with open(slow_map, "w") as f:
-                f.write('[[map]]\nname = "m"\nscene = "tanpura_c3"\nschemes = ["modal_two_point"]\n'
-                        'duration = 0.2\nreference = "sundials"\n'
-                        'x = { key = "rate", values = [44100, 48000] }\n')
+                f.write('[[cells]]\nname = "m"\nscenes = "tanpura_c3"\nmeasure = "outcome"\n'
+                        'schemes = ["modal_two_point"]\nduration = 0.2\nreference = "sundials"\n'
+                        'sweep = { rate = [44100, 48000] }\n')
             for name, call in {
                 "run": lambda: jvari.run("tanpura_c3", "modal_two_point", rate=rate, duration=60),
                 "run_many": lambda: jvari.run_many(["tanpura_c3"] * 4, "modal_two_point", rate=rate,
@@ -423,12 +423,12 @@ os._exit(1)"""
         with tempfile.TemporaryDirectory() as folder:
             file, out = folder + "/a.toml", folder + "/out"
             with open(file, "w") as f:
-                f.write('[[map]]\nname = "penalty"\nscene = "tanpura_c3"\n'
+                f.write('[[cells]]\nname = "penalty"\nscenes = "tanpura_c3"\nmeasure = "outcome"\n'
                         'schemes = ["modal_explicit_penalty"]\nmodes = 60\nduration = 0.02\n'
                         'reference = "none"\ntheory = "penalty_limit"\nrefine = 5\n'
                         'reproduce = false\nset = { "string.0.barrier.0.stiffness" = 4.39e6 }\n'
-                        'x = { key = "rate", from = 1e5, to = 1e6, points = 3 }\n'
-                        'y = { key = "string.0.tension", values = [30, 40] }\n'
+                        'sweep = { rate = { from = 1e5, to = 1e6, points = 3 }, '
+                        '"string.0.tension" = [30, 40] }\n'
                         '[[cells]]\nscenes = ["free_string"]\nschemes = ["modal_two_point"]\n'
                         'rates = [44100]\nduration = 0.01\nmeasure = ["errors"]\n')
             tables = jvari.suite_tables(file, out=out)
@@ -446,11 +446,12 @@ os._exit(1)"""
             self.assertLess(min(abs(row["relative_difference"] or 1)
                                 for row in tables["boundaries"]), 0.1)
             self.assertEqual(len(tables["cells"]), 1)
-            points = os.listdir(out + "/points")
-            self.assertEqual(len(points), 6 + 4 * 5)  # with five bisections of each boundary
-            at = os.stat(out + "/points/" + points[0]).st_mtime_ns
+            cells = os.listdir(out + "/cells")
+            # with five bisections of each boundary, and the one cell
+            self.assertEqual(len(cells), 6 + 4 * 5 + 1)
+            at = os.stat(out + "/cells/" + cells[0]).st_mtime_ns
             self.assertEqual(jvari.suite_tables(file, out=out, resume=True), tables)
-            self.assertEqual(os.stat(out + "/points/" + points[0]).st_mtime_ns, at)
+            self.assertEqual(os.stat(out + "/cells/" + cells[0]).st_mtime_ns, at)
 
     def test_a_trim_is_its_path_and_its_needs(self):
         trimmed = jvari.trim("free_string", "10%", scheme="modal_two_point", duration=0.01,
