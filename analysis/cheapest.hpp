@@ -30,6 +30,7 @@ struct Offer {
 struct Choice {
     std::optional<std::size_t> best;
     std::vector<std::size_t> ties, perhaps;
+    bool operator==(const Choice&) const = default;
 };
 Choice cheapest_within(double accuracy, std::span<const Offer>);
 

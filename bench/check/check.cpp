@@ -1,5 +1,6 @@
 // JUnit XML: the schema that continuous integration reads, https://github.com/testmoapp/junitxml.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -277,14 +278,15 @@ std::string line_of(const Checked& c, const Promise& p) {
 
 std::string conclusion_of(const Checked& c) {
     std::map<Answer, int> number;
-    std::string excused, reasons;
+    std::string excused;
+    std::vector<std::string> reasons;
     for (const Promise* p : c.examined) {
         const Count n = count_of(c, *p);
         ++number[n.answer()];
         if (n.excused > 0) excused += (excused.empty() ? "" : ", ") + std::string(p->name);
         if (n.answer() != Answer::not_asked) continue;
-        if (const std::string why = n.why_not_asked(); reasons.find(why) == std::string::npos)
-            reasons += (reasons.empty() ? ": " : "; ") + why;
+        if (std::ranges::find(reasons, n.why_not_asked()) == reasons.end())
+            reasons.push_back(n.why_not_asked());
     }
     std::string text =
         number[Answer::broken] > 0
@@ -297,7 +299,8 @@ std::string conclusion_of(const Checked& c) {
         if (count > 0)
             counts +=
                 fmt::format("{}{} {}", counts.empty() ? "\n  " : ", ", count, name_of(answer));
-    return text + counts + reasons;
+    return fmt::format("{}{}{}{}", text, counts, reasons.empty() ? "" : ": ",
+                       fmt::join(reasons, "; "));
 }
 
 std::string json_of(const std::vector<Checked>& all) {

@@ -148,8 +148,8 @@ int compare_command(CompareCall r) {
         console.print("string: " + compare::tuning_text(string));
     std::string rows;
     for (const study::Point& p : c.plan.points)
-        rows +=
-            (rows.empty() ? "" : " and ") + store::text_of(p.references.front().settings.tap_rate);
+        rows += fmt::format("{}{}", rows.empty() ? "" : " and ",
+                            p.references.front().settings.tap_rate);
     console.print(fmt::format(
         "{} against {}{}, {} s, {} rows a second; L2 and horizon of {}, third octaves of {}",
         c.scene().name, c.reference.name(), std::isnan(rate) ? "" : fmt::format(" at {} Hz", rate),

@@ -28,11 +28,11 @@ struct TrimCall : Running, trim::Request {
 std::string needs_text(const trim::Trimmed& t, const trim::Judge& judge) {
     TextTable table{{{"part", true}, {"error"}, {"cost"}, {"needed"}, {"in the model", true}}, {}};
     for (const trim::Need& n : t.needs)
-        table.rows.push_back({' ',
-                              {n.part + (n.becomes == "left out" ? "" : " = " + n.becomes),
-                               judge.target().text(n.error),
-                               std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved),
-                               n.needed ? "yes" : "no", n.left_out ? "left out" : "kept"}});
+        table.rows.push_back(
+            {' ',
+             {n.part + (n.becomes.empty() ? "" : " = " + n.becomes), judge.target().text(n.error),
+              std::isnan(n.saved) ? "-" : fmt::format("{:+.0f} %", -100 * n.saved),
+              n.needed ? "yes" : "no", n.left_out ? "left out" : "kept"}});
     return table.text(Console::width());
 }
 

@@ -234,16 +234,15 @@ double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
 
 void add_jobs(study::Plan& into, const CompareRequest& r, const Catalogue& catalogue,
               const study::Point& common, const study::Job& like) {
-    std::string kinds;  // row rates
+    std::vector<double> kinds;  // row rates
     for (const CompareRequest& part : with_common_rows(r))
         if (add_point(into, part, catalogue, common, like, kinds.empty()))
-            kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ",
-                                 into.points.back().references.front().settings.tap_rate);
-    if (kinds.find(' ') != std::string::npos)
+            kinds.push_back(into.points.back().references.front().settings.tap_rate);
+    if (kinds.size() > 1)
         note(into, fmt::format("rates of {} rows a second: each kind has rows and a run of the "
                                "reference of its own, for they have no rows "
                                "in common. Nothing is resampled",
-                               kinds));
+                               fmt::join(kinds, " and ")));
 }
 
 std::vector<study::ReferenceChoice> references_of(const CompareRequest& r,

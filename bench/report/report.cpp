@@ -93,6 +93,26 @@ Json measures() {
     return all;
 }
 
+// Answers of each problem for each error, where they change: [tolerance, best, ties, perhaps] with
+// rows of the table of cells. The page looks an answer up.
+Json answers(const Results& r) {
+    Json all = Json::object();
+    for (const study::Rows& rows : study::by_problem(r.cells, study::all_rows(r.cells))) {
+        const study::TabledCell& first = r.cells[rows.front()];
+        std::vector<std::string> taps{""};
+        taps.insert(taps.end(), first.taps.begin(), first.taps.end());
+        for (std::size_t m = 0; m < study::measures().size(); ++m)
+            for (const std::string& tap : taps)
+                for (const auto& [from, choice] :
+                     compare::answers_along(r.cells, rows, m, tap, r.controls))
+                    all[first.problem()]
+                       [study::measures()[m].column + std::string(tap.empty() ? "" : "_") + tap]
+                           .push_back({from, choice.best ? Json(*choice.best) : Json(), choice.ties,
+                                       choice.perhaps});
+    }
+    return all;
+}
+
 // Levels for the cells with spectrograms, and for the references that were played.
 Json kept_levels(const Results& r) {
     Json all = Json::array();
@@ -123,8 +143,6 @@ Json data_of(const Results& r) {
     data["source"] = r.source;
     data["command"] = r.command;
     data["measures"] = measures();
-    for (const study::TabledCell& c : r.cells)
-        data["options"][store::options_text(c.options)] = c.options;
     data["units"] = units();
     data["manifest"] = store::parsed(r.manifest);
     data["quantities"] = quantities_in(data["manifest"]);
@@ -134,10 +152,14 @@ Json data_of(const Results& r) {
     shorten_errors(tables["errors"], data["left_out"]["cells"]);
     tables.insert(r.tables.begin(), r.tables.end());
     for (const auto& [name, table] : tables)
+        for (std::size_t i = 0; table.column("options") >= 0 && i < table.rows.size(); ++i)
+            data["options"][table.text(i, "options")] = store::options_in(table.text(i, "options"));
+    for (const auto& [name, table] : tables)
         if (!table.columns.empty())
             data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
     data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
+    data["answers"] = answers(r);
     return data;
 }
 
@@ -151,6 +173,7 @@ nlohmann::ordered_json empty_data(const std::string& title, const std::string& a
               {"schemes", known},
               {"tables", Json::object()},
               {"options", Json::object()},
+              {"answers", Json::object()},
               {"units", Json::object()},
               {"quantities", Json::object()},
               {"manifest", Json::object()}};

@@ -1,6 +1,7 @@
 #include "bench/suite/difference.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -187,21 +188,22 @@ void compare_cells(const Results& a, const Results& b, Difference& d) {
     only(&Names::taps, "errors of ");
     std::ranges::set_difference(are.measures, were.measures, std::back_inserter(d.columns.after));
     int other_truth = 0;
-    std::string how;
+    std::vector<std::string> changes;
     for (const Pair& p : pairs) {
         const CellDifference of =
             compare_cell(p.name, a.cells[p.before], b.cells[p.after], facts, were.measures, d);
         other_truth += !of.references.empty();
         d.to_the_last_digit += of.same_digits;
         for (const std::string& change : of.references)
-            if (how.size() < 100 && how.find(change) == std::string::npos)
-                how += (how.empty() ? "" : ", ") + change;
+            if (std::ranges::find(changes, change) == changes.end()) changes.push_back(change);
     }
     if (other_truth > 0)
         d.references = fmt::format(
             "the references differ in {} of {} cells ({}): there errors are against another "
             "solution",
-            other_truth, pairs.size(), how);
+            other_truth, pairs.size(),
+            fmt::join(changes.begin(), changes.begin() + std::min<long>(3, std::ssize(changes)),
+                      ", "));
     compare_costs(a, b, pairs, d);
 }
 

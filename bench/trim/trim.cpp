@@ -105,12 +105,8 @@ std::vector<Need> needs_of(Judge& judge, const Model& whole, const Model& trimme
         if (!judge.may_go(k)) continue;
         const Reduction& r = judge.reductions()[k];
         const Model alone = toggled(whole, k);
-        Need n{r.key,
-               r.becomes.empty() ? "left out" : r.becomes,
-               judge.worst_error(alone, starts),
-               std::nan(""),
-               std::nan(""),
-               std::ranges::binary_search(trimmed.left_out, k),
+        Need n{r.key,        r.becomes,    judge.worst_error(alone, starts),
+               std::nan(""), std::nan(""), std::ranges::binary_search(trimmed.left_out, k),
                true};
         if (!std::isnan(n.error)) {
             n.needed = !std::ranges::all_of(
@@ -208,9 +204,9 @@ store::Table needs_table(const Trimmed& t) {
                         "in_trimmed_model", "error_if_turned_round"},
                        {}};
     for (const Need& n : t.needs)
-        table.rows.push_back({n.part, n.becomes, rounded(n.error), rounded(n.saved),
-                              n.needed ? "yes" : "no", n.left_out ? "left out" : "kept",
-                              rounded(n.error_in_trimmed)});
+        table.rows.push_back({n.part, n.becomes.empty() ? "left out" : n.becomes, rounded(n.error),
+                              rounded(n.saved), n.needed ? "yes" : "no",
+                              n.left_out ? "left out" : "kept", rounded(n.error_in_trimmed)});
     return table;
 }
 
@@ -261,9 +257,8 @@ std::string trimmed_toml(const Trimmed& t, const Judge& judge) {
     text += comment("") + comment(" What went:");
     for (const int k : last.model.left_out) {
         const Reduction& r = judge.reductions()[k];
-        const auto need = std::ranges::find_if(t.needs, [&](const Need& n) {
-            return n.part == r.key && (r.becomes.empty() || n.becomes == r.becomes);
-        });
+        const auto need = std::ranges::find_if(
+            t.needs, [&](const Need& n) { return n.part == r.key && n.becomes == r.becomes; });
         const bool known = need != t.needs.end() && !std::isnan(need->error);
         text += comment("   " + r.description() +
                         (known ? fmt::format(" (alone: error {})", target.text(need->error)) : ""));

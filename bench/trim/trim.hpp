@@ -68,7 +68,7 @@ Path search(Judge&, const std::vector<const Descriptor*>& schemes, const std::ve
 
 // Need for a part of a scene: the error if only this part is left out, and the part's cost.
 struct Need {
-    std::string part, becomes;
+    std::string part, becomes;  // becomes "": left out
     // worst error over the starts without the part, for the whole scene at the trimmed model's
     // settings; NaN: no such model runs
     double error;

@@ -947,7 +947,20 @@ test("no chart has a hue of its own", () => {
 });
 test("a scheme looks the same in any company and like no other", () => {
   const {schemes} = report(folder_of(["manifest.json", "maps.csv"])),
-    of = on({schemes, tables: {}}),
+    forms = [
+      "",
+      " compliance=own",
+      " compliance=matched",
+      " compliance=own tolerance=1e-6",
+      " compliance=matched tolerance=1e-6",
+    ],
+    pairs = form => [...form.matchAll(/(\S+)=(\S+)/g)].map(([, ...pair]) => pair),
+    runs = schemes.flatMap(([name]) => forms.map(form => `${name},${form.trim()}\n`)),
+    of = on({
+      schemes,
+      options: Object.fromEntries(forms.map(form => [form.trim(), pairs(form)])),
+      tables: {path: "scheme,options\n" + runs.join("")},
+    }),
     names = schemes.map(([name]) => name),
     all = of("looks_of")(names);
   assert.ok(names.length > 15 && schemes.some(([, control]) => control));
@@ -977,14 +990,7 @@ test("a scheme looks the same in any company and like no other", () => {
   );
   // no family begins like it
   assert.equal(beside_others("modal_three_point_moreau_jean"), of("families").at(-1)[2]);
-  const dash = name => of("looks_of")([name]).get(name).dash,
-    forms = [
-      "",
-      " compliance=own",
-      " compliance=matched",
-      " compliance=own tolerance=1e-6",
-      " compliance=matched tolerance=1e-6",
-    ];
+  const dash = name => of("looks_of")([name]).get(name).dash;
   assert.equal(new Set(forms.map(form => dash("exact_contact" + form).join())).size, forms.length);
   for (const form of [" compliance=own", " compliance=matched"])
     assert.deepEqual(
@@ -1028,6 +1034,7 @@ test("a trace is drawn from where its reference is liveliest, with the differenc
     title: "t",
     schemes: registry,
     measures: [],
+    options: {},
     tables: {sounds: csv, cells: ""},
     sounds: [sound(truth, {row: 0}), sound(own, {row: 1})],
     left_out: {sounds: []},

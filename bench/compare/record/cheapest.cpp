@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "analysis/cheapest.hpp"
 #include "bench/compare/scene_notes.hpp"
 #include "reference/references.hpp"
 #include "schemes/controls.hpp"
@@ -31,14 +31,15 @@ std::string named(const Cells& cells, const Rows& rows, const std::vector<std::s
     return text;
 }
 
-Choice choice_of(const Cells& cells, const Rows& rows, const Goal& goal) {
+std::vector<Offer> offers_of(const Cells& cells, const Rows& rows, std::size_t measure,
+                             const std::string& tap = "") {
     std::vector<Offer> offers;
     for (const std::size_t i : rows) {
-        const Bound b = bound_of(cells[i], goal.measure);
+        const Bound b = bound_of(cells[i], measure, tap);
         offers.push_back({cells[i].scheme, b.most(), b.least(), cells[i].cost_s_per_s,
                           cells[i].cost_lower, cells[i].cost_upper});
     }
-    return cheapest_within(goal.most, offers);
+    return offers;
 }
 
 const Cell* least_cost(const Cells& cells, const Rows& rows, const auto& which) {
@@ -96,8 +97,15 @@ std::string published_text(const Cell* c, const Goal& goal) {
                        quoted(bound_of(*c, goal.measure), goal.measure), c->cost_s_per_s);
 }
 
+Rows contenders(const Cells& cells, Rows rows, Controls controls) {
+    std::erase_if(rows, [&](std::size_t i) {
+        return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0);
+    });
+    return rows;
+}
+
 Answer answer_of(const Cells& cells, const Rows& rows, const Goal& goal) {
-    const Choice choice = choice_of(cells, rows, goal);
+    const Choice choice = cheapest_within(goal.most, offers_of(cells, rows, goal.measure));
     Answer a{rows.front(), goal.measure, goal.most, "found", std::nullopt};
     if (!choice.best) {
         const bool open = !choice.perhaps.empty();
@@ -130,13 +138,32 @@ bool may_win(const Cell& c, Controls controls) {
            (controls == Controls::compete || std::ranges::none_of(schemes(), is_this));
 }
 
+std::vector<AnswerFrom> answers_along(const Cells& cells, const Rows& of, std::size_t measure,
+                                      const std::string& tap, Controls controls) {
+    Rows rows = contenders(cells, of, controls);
+    std::erase_if(
+        rows, [&](std::size_t i) { return !std::isfinite(cells[i].figure(measure, tap).value); });
+    const std::vector<Offer> offers = offers_of(cells, rows, measure, tap);
+    std::set<double> tolerances;
+    for (const Offer& o : offers)
+        for (const double bound : {o.least, o.most})
+            if (std::isfinite(bound)) tolerances.insert(bound);
+    std::vector<AnswerFrom> all;
+    for (const double tolerance : tolerances) {
+        Choice c = cheapest_within(tolerance, offers);
+        if (c.best) c.best = rows[*c.best];
+        for (auto* list : {&c.ties, &c.perhaps})
+            for (std::size_t& i : *list) i = rows[i];
+        if (all.empty() || c != all.back().choice) all.push_back({tolerance, std::move(c)});
+    }
+    return all;
+}
+
 std::vector<Answer> cheapest_of(const Cells& cells, Controls controls) {
     std::vector<Answer> answers;
     const std::size_t octaves = study::measure("third_octave_db");
-    for (Rows rows : study::by_problem(cells, study::all_rows(cells))) {
-        std::erase_if(rows, [&](std::size_t i) {
-            return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0);
-        });
+    for (const Rows& all : study::by_problem(cells, study::all_rows(cells))) {
+        const Rows rows = contenders(cells, all, controls);
         // nothing was timed, or this group holds the untimed cells
         if (rows.empty()) continue;
         std::vector<Goal> goals;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/cheapest.hpp"
 #include "bench/compare/bound.hpp"
 #include "bench/store/system/listener.hpp"
 
@@ -44,6 +45,15 @@ enum class Controls { stand_beside, compete };
 std::vector<Answer> cheapest_of(const study::Cells&, Controls = Controls::stand_beside);
 // True for a trusted cell; false for a control that stands beside.
 bool may_win(const study::TabledCell&, Controls);
+
+// Answers at all tolerances: the cheapest of the cells `rows` for one error, from each tolerance at
+// which it changes. Indices are of cells.
+struct AnswerFrom {
+    double tolerance;
+    Choice choice;
+};
+std::vector<AnswerFrom> answers_along(const study::Cells&, const study::Rows&, std::size_t measure,
+                                      const std::string& tap, Controls);
 
 // Columns scene, <swept keys>, measure, target, status, run, scheme, options, rate, modes, error,
 // bound, cost_s_per_s, ties, perhaps, as_published, why.

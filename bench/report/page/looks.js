@@ -55,18 +55,30 @@ function known() {
   );
   return known_schemes;
 }
-const scheme_in = name => name.split(/[ ,:]/)[0];
+
+// Series and variants by name: {scheme, options, variant}, as the tables have them.
+let known_series = null;
+function series_of(name) {
+  known_series ??= new Map(
+    Object.keys(page.tables)
+      .flatMap(records)
+      .filter(r => r.scheme)
+      .flatMap(r => [r.series, variant(r)].map(key => [key, r]))
+      .map(([key, r]) => [key, {scheme: r.scheme, options: options_of(r), variant: variant(r)}]),
+  );
+  return known_series.get(name) ?? {scheme: name, options: [], variant: name};
+}
+const scheme_in = name => series_of(name).scheme;
 
 // Dash for options: matched is dashed, as published dotted; further options add a dot.
-function dash_of(variant) {
-  if (variant === "") return [1, 0];
-  for (const [form, ...dash] of [
-    [" compliance=matched", 6, 3],
-    [" compliance=own", 2, 3],
-  ])
-    if (variant.includes(form)) return variant === form ? dash : [...dash, 1, dash[1]];
+const dashes = {matched: [6, 3], own: [2, 3]};
+function dash_of(name) {
+  const {scheme, options, variant} = series_of(name);
+  if (name === scheme) return [1, 0];
+  const dash = dashes[Object.fromEntries(options).compliance];
+  if (dash) return options.length === 1 && name === variant ? dash : [...dash, 1, dash[1]];
   let hash = 0;
-  for (const letter of variant) hash = (31 * hash + letter.charCodeAt(0)) >>> 0;
+  for (const letter of name.slice(scheme.length)) hash = (31 * hash + letter.charCodeAt(0)) >>> 0;
   return [
     [10, 3],
     [4, 2],
@@ -88,7 +100,7 @@ function looks_of(names) {
             ...k,
             colour: families[k.family][2],
             shape: shapes[k.place % shapes.length],
-            dash: dash_of(name.slice(scheme_in(name).length)),
+            dash: dash_of(name),
           },
         ];
       // A pairing belongs to the string's family,
@@ -107,7 +119,7 @@ function looks_of(names) {
           control: false,
           colour: families[hue][2],
           shape: shapes[(place + 3) % shapes.length],
-          dash: of >= 0 ? dash_of(name.slice(scheme_in(name).length)) : [1, 0],
+          dash: of >= 0 ? dash_of(name) : [1, 0],
         },
       ];
     }),
@@ -126,8 +138,12 @@ function in_order(names) {
 }
 
 // Name of a scheme in a sentence; tables keep the options in their own form.
-const spoken = name =>
-  name.replace(" compliance=matched", ", matched").replace(" compliance=own", ", as published");
+function spoken(name, own = ", as published") {
+  const {scheme, options, variant} = series_of(name),
+    words = {"compliance=matched": ", matched", "compliance=own": own};
+  const all = options.map(option => option.join("=")).map(text => words[text] ?? " " + text);
+  return scheme + all.join("") + name.slice(variant.length);
+}
 
 // Vega-Lite encodings for the series: {color, shape, strokeDash}. The legend is drawn apart, with
 // line and marker together.

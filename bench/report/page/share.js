@@ -163,16 +163,15 @@ const opens_strings = ({view: drawn}) =>
   });
 const string_chart = "error against cost of one string";
 function string_spec({scene}, print) {
-  const name_of = f => [f.scheme, f.options].filter(Boolean).join(" "),
-    fronts = records("fronts").filter(f => f.string === scene),
-    names = in_order(fronts.map(name_of)),
+  const fronts = records("fronts").filter(f => f.string === scene),
+    names = in_order(fronts.map(variant)),
     {color, shape, strokeDash} = encodings_of(names),
     rows = fronts.map(f => ({
-      series: name_of(f),
+      series: variant(f),
       x: number(f.cost_s_per_s),
       y: number(f.error),
       tooltip: tooltip([
-        ["settings", `${spoken(name_of(f))}, ${f.modes} modes, ${f.rate} Hz`],
+        ["settings", `${spoken(variant(f))}, ${f.modes} modes, ${f.rate} Hz`],
         ["error", percent(number(f.error))],
         ["cost", cost_text(number(f.cost_s_per_s), "cost_s_per_s")],
       ]),
@@ -212,7 +211,7 @@ function advice_spec(choice, print) {
         known: number(a.uncertainty) <= number(a.tolerance) / 2,
         tooltip: tooltip([
           ["string", a.string],
-          ["settings", `${spoken(`${a.scheme} ${a.options}`)}, ${a.modes} modes, ${a.rate} Hz`],
+          ["settings", `${spoken(variant(a))}, ${a.modes} modes, ${a.rate} Hz`],
           ["estimate", percent(number(a.estimate))],
           ["true error", percent(number(a.error))],
           ["reference known to", percent(number(a.uncertainty))],

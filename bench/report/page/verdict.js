@@ -1,7 +1,6 @@
-// Verdict on each scene: the cheapest scheme within any tolerance, with the uncertainties. The rule
-// repeats analysis/cheapest.hpp, because readers drag the tolerance; facts about each cell come
-// from the program.
-const scheme_words = name => spoken(name).replaceAll("_", " ");
+// Verdict on each scene: the cheapest scheme within any tolerance, with the uncertainties. The
+// program decides: readers drag the tolerance, and the page looks the answer up.
+const scheme_words = (name, own) => spoken(name, own).replaceAll("_", " ");
 // Modes and rate: ": 133 modes at 88.2 kHz". A grid takes its nodes from the rate: " at 88.2 kHz".
 const modes_words = c =>
     c.modes && !(number(c.fact_grid_intervals) > 0) ? `${c.modes} modes` : "",
@@ -24,26 +23,12 @@ function quoted(c, error) {
   return Number.isNaN(bound_of(c, error).most) ? text + " as measured" : text;
 }
 
-// Cheapest offer, ties and possible winners. offers: [{scheme, most, least, cost, lower, upper}]
-function cheapest_within(within, offers) {
-  const least = (all, of) => all.reduce((a, b) => (a && of(a) <= of(b) ? a : b), null),
-    met = o => o.most <= within,
-    best = least(offers.filter(met), o => o.cost),
-    tied = o => met(o) && o.lower <= best.upper && o.cost < 1.2 * best.cost;
-  const others = which => {
-    const found = new Map(); // other schemes, each with the cheapest offer
-    for (const o of offers.filter(which))
-      if (o.scheme !== best?.scheme && !(found.get(o.scheme)?.cost <= o.cost))
-        found.set(o.scheme, o);
-    return [...found.values()];
-  };
-  const perhaps = others(o => !met(o) && o.least <= within && (!best || o.cost < best.cost));
-  if (!best) return {best, ties: [], perhaps};
-  const finest = least(
-    offers.filter(o => o.scheme === best.scheme && tied(o)),
-    o => o.most,
-  );
-  return {best, ties: [finest, ...others(tied)].filter(o => o && o !== best), perhaps};
+// Cheapest offer, ties and possible winners within a tolerance, as the program has them.
+function cheapest_within(within, {problem}, error, offers) {
+  const from = (page.answers[problem]?.[error] ?? []).filter(([least]) => least <= within),
+    [, best, ties, perhaps] = from.at(-1) ?? [0, null, [], []],
+    of = row => offers.find(o => o.c.n === row);
+  return {best: best === null ? null : of(best), ties: ties.map(of), perhaps: perhaps.map(of)};
 }
 const has_cost = c => number(c.cost_s_per_s) > 0;
 // Schemes run without any measured cost, if others have costs.
@@ -69,7 +54,7 @@ function answer_at(rows, error, within) {
         upper: number(c.cost_upper),
       })),
     priced = offers.filter(o => o.cost > 0),
-    found = cheapest_within(within, priced),
+    found = cheapest_within(within, rows[0] ?? {}, error, priced),
     least = (all, of) => all.reduce((a, b) => (of(b) < of(a) ? b : a), all[0]),
     met = all => all.filter(o => o.most <= within);
   const rank = all =>

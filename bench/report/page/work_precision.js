@@ -316,7 +316,7 @@ function line_labels(names, points, view) {
     );
   for (const name of [...names].sort((a, b) => (b === first?.series) - (a === first?.series))) {
     const ends = placed.filter(p => p.series === name).sort((a, b) => b.y - a.y),
-      text = scheme_words(name).replace(", as published", ""),
+      text = scheme_words(name, ""),
       wide = 6.2 * text.length;
     const places = ends.slice(0, 4).flatMap(p => [
       [p.x + 9, p.y],
