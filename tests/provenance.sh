@@ -31,7 +31,7 @@ plant() {  # plant FILE NAME other|same: a line more in FILE makes hash NAME ano
     status=1
 }
 for file in bench/trim/target.cpp bench/suite/difference_rules.cpp \
-    bench/check/claims.cpp bench/store/keys.hpp bench/study/errors.cpp bench/suite/trial.cpp \
+    bench/check/claims.cpp bench/store/keys.hpp bench/study/errors.cpp bench/suite/map_points.cpp \
     bench/suite/facets.cpp bench/study/reference.cpp bench/new_room/new.cpp analysis/error.cpp \
     reference/sundials.cpp schemes/modal/modal_two_point.cpp schemes/schemes.def \
     schemes/modal/kernels/modal_two_point_pass-inl.hpp scenes/damping.cpp; do

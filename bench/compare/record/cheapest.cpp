@@ -97,13 +97,6 @@ std::string published_text(const Cell* c, const Goal& goal) {
                        quoted(bound_of(*c, goal.measure), goal.measure), c->cost_s_per_s);
 }
 
-Rows contenders(const Cells& cells, Rows rows, Controls controls) {
-    std::erase_if(rows, [&](std::size_t i) {
-        return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0);
-    });
-    return rows;
-}
-
 Answer answer_of(const Cells& cells, const Rows& rows, const Goal& goal) {
     const Choice choice = cheapest_within(goal.most, offers_of(cells, rows, goal.measure));
     Answer a{rows.front(), goal.measure, goal.most, "found", std::nullopt};
@@ -138,11 +131,12 @@ bool may_win(const Cell& c, Controls controls) {
            (controls == Controls::compete || std::ranges::none_of(schemes(), is_this));
 }
 
-std::vector<AnswerFrom> answers_along(const Cells& cells, const Rows& of, std::size_t measure,
+std::vector<AnswerFrom> answers_along(const Cells& cells, Rows rows, std::size_t measure,
                                       const std::string& tap, Controls controls) {
-    Rows rows = contenders(cells, of, controls);
-    std::erase_if(
-        rows, [&](std::size_t i) { return !std::isfinite(cells[i].figure(measure, tap).value); });
+    std::erase_if(rows, [&](std::size_t i) {
+        return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0) ||
+               !std::isfinite(cells[i].figure(measure, tap).value);
+    });
     const std::vector<Offer> offers = offers_of(cells, rows, measure, tap);
     std::set<double> tolerances;
     for (const Offer& o : offers)
@@ -162,8 +156,10 @@ std::vector<AnswerFrom> answers_along(const Cells& cells, const Rows& of, std::s
 std::vector<Answer> cheapest_of(const Cells& cells, Controls controls) {
     std::vector<Answer> answers;
     const std::size_t octaves = study::measure("third_octave_db");
-    for (const Rows& all : study::by_problem(cells, study::all_rows(cells))) {
-        const Rows rows = contenders(cells, all, controls);
+    for (Rows rows : study::by_problem(cells, study::all_rows(cells))) {
+        std::erase_if(rows, [&](std::size_t i) {
+            return !may_win(cells[i], controls) || !(cells[i].cost_s_per_s > 0);
+        });
         // nothing was timed, or this group holds the untimed cells
         if (rows.empty()) continue;
         std::vector<Goal> goals;

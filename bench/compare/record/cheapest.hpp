@@ -52,7 +52,7 @@ struct AnswerFrom {
     double tolerance;
     Choice choice;
 };
-std::vector<AnswerFrom> answers_along(const study::Cells&, const study::Rows&, std::size_t measure,
+std::vector<AnswerFrom> answers_along(const study::Cells&, study::Rows, std::size_t measure,
                                       const std::string& tap, Controls);
 
 // Columns scene, <swept keys>, measure, target, status, run, scheme, options, rate, modes, error,
