@@ -106,23 +106,6 @@ int modes_of(const Descriptor& d, const Scene& scene, const CompareRequest& r, S
     return 0;
 }
 
-std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalogue& catalogue,
-                                           const Scene& scene) {
-    std::vector<const Descriptor*> chosen;
-    for (const std::string& name : r.schemes) {
-        const Descriptor* d = &catalogue.find(name);
-        if (std::find(chosen.begin(), chosen.end(), d) == chosen.end()) chosen.push_back(d);
-    }
-    if (!r.schemes.empty()) return chosen;
-    for (const Descriptor* d : catalogue.schemes)
-        if (represents(*d, scene) && (r.controls || !left_out_unasked(*d, scene)))
-            chosen.push_back(d);
-    if (chosen.empty())
-        throw Refusal("no scheme represents scene " + scene.name + ": it needs " +
-                      names_of(needed_by(scene)));
-    return chosen;
-}
-
 // References with the options requested for them.
 std::vector<study::ReferenceChoice> references_for(const CompareRequest& r,
                                                    const Catalogue& catalogue, const Scene& scene,
@@ -218,6 +201,23 @@ bool add_point(study::Plan& into, const CompareRequest& r, const Catalogue& cata
     return false;
 }
 }  // namespace
+
+std::vector<const Descriptor*> schemes_for(const CompareRequest& r, const Catalogue& catalogue,
+                                           const Scene& scene) {
+    std::vector<const Descriptor*> chosen;
+    for (const std::string& name : r.schemes) {
+        const Descriptor* d = &catalogue.find(name);
+        if (std::find(chosen.begin(), chosen.end(), d) == chosen.end()) chosen.push_back(d);
+    }
+    if (!r.schemes.empty()) return chosen;
+    for (const Descriptor* d : catalogue.schemes)
+        if (represents(*d, scene) && (r.controls || !left_out_unasked(*d, scene)))
+            chosen.push_back(d);
+    if (chosen.empty())
+        throw Refusal("no scheme represents scene " + scene.name + ": it needs " +
+                      names_of(needed_by(scene)));
+    return chosen;
+}
 
 double tap_rate_for(const CompareRequest& r, const std::vector<double>& rates) {
     if (r.tap_rate) return *r.tap_rate;

@@ -14,6 +14,9 @@ namespace jvari::bench::compare {
 // Row rate for cells at these rates [Hz]; throws UsageError if there is no common rate.
 double tap_rate_for(const CompareRequest&, const std::vector<double>& rates);
 
+// Schemes named in the request, each once; else all that represent the scene. Throws Refusal.
+std::vector<const Descriptor*> schemes_for(const CompareRequest&, const Catalogue&, const Scene&);
+
 // Throws BadScene if the scene has no row at that tap rate, UsageError if the rows do not fit in
 // memory.
 void require_rows(const Scene&, const Settings&);

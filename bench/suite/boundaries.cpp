@@ -115,12 +115,10 @@ std::vector<Boundary> changes_in(const MapRun& run) {
     std::vector<Boundary> changes;
     for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
         const MapPoint &p = run.points[i], &q = run.points[i + 1];
-        const SweptKey& axis = run.map_of(p).sweep.front();
-        if (axis.at.empty() || !same_row(p, q) || p.judgement.verdict == q.judgement.verdict)
-            continue;
-        const auto x = std::ranges::find(axis.values, p.job->point->swept.front().second);
-        const double* at = &axis.at[static_cast<std::size_t>(x - axis.values.begin())];
-        changes.push_back({&p, {at[0], at[1], p.judgement.verdict, q.judgement.verdict}});
+        if (run.map_of(p).sweep.front().at.empty() || !same_row(p, q)) continue;
+        const auto x = [](const MapPoint& of) { return store::number_of(swept_at(of, 0).second); };
+        if (p.judgement.verdict != q.judgement.verdict)
+            changes.push_back({&p, {x(p), x(q), p.judgement.verdict, q.judgement.verdict}});
     }
     return changes;
 }

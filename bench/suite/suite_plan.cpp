@@ -12,7 +12,6 @@
 #include "bench/suite/maps.hpp"
 #include "reference/agreement.hpp"
 #include "scenes/modes.hpp"
-#include "schemes/making.hpp"
 
 namespace jvari::bench::suite {
 
@@ -95,15 +94,8 @@ void add_outcomes(study::Plan& plan, const SuitePoint& p, const compare::Catalog
                      r.reference_modes.value_or(0)));
     point.swept = p.swept;
     point.time_limit = like.point->time_limit;
-    std::vector<const Descriptor*> schemes;
-    for (const std::string& name : r.schemes) schemes.push_back(&catalogue.find(name));
-    if (schemes.empty())
-        std::ranges::copy_if(catalogue.schemes, std::back_inserter(schemes),
-                             [scene = compare::load_scene(r.scene, {}, {})](const Descriptor* d) {
-                                 return represents(*d, scene);
-                             });
-    if (schemes.empty()) throw Refusal("no scheme represents it");
-    for (const Descriptor* d : schemes) {
+    const Scene own = compare::load_scene(r.scene, {}, std::nullopt);
+    for (const Descriptor* d : compare::schemes_for(r, catalogue, own)) {
         settings.options.clear();
         for (const compare::SchemeOption& o : r.options)
             if (o.scheme.empty() || o.scheme == d->name)
