@@ -45,6 +45,19 @@ HWY_INLINE void sums_of(const double* const* on_a, const double* const* on_b, co
         to[t] = hn::GetLane(hn::SumOfLanes(d, hn::Add(of_a[t], of_b[t])));
 }
 
+// Sums over the lanes of an even number of vectors.
+template <int count>
+HWY_INLINE void put_sums(const V* sum, double* HWY_RESTRICT to) {
+    for (int c = 0; c + 4 <= count; c += 4)
+        sums(sum[c], sum[c + 1], sum[c + 2], sum[c + 3], to + c);
+    if constexpr (count % 4 != 0) {
+        alignas(64) double four[4];
+        const V &a = sum[count - 2], &b = sum[count - 1];
+        sums(a, b, a, b, four);
+        to[count - 2] = four[0], to[count - 1] = four[1];
+    }
+}
+
 // pushing: the contacts that push, a bit for each, or by_place(count): those at `places`. A thread
 // always pulls.
 template <int points, bool thread, int pushing>
@@ -100,14 +113,7 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, const int*
                 sum[c] = hn::MulAdd(w[c], c < points ? new_b : new_a, sum[c]);
             }
         }
-    constexpr int all = 2 * points;
-    for (int c = 0; c + 4 <= all; c += 4)
-        sums(sum[c], sum[c + 1], sum[c + 2], sum[c + 3], m.free + c);
-    if constexpr (all % 4 != 0) {
-        alignas(64) double four[4];
-        sums(sum[all - 2], sum[all - 1], sum[all - 2], sum[all - 1], four);
-        m.free[all - 2] = four[0], m.free[all - 1] = four[1];
-    }
+    put_sums<2 * points>(sum, m.free);
 }
 
 // Any number of points: forces and sums pass through memory, a line at a time.
