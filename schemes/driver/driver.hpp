@@ -259,12 +259,11 @@ private:
     double by_way_of_series(long older, long newer) noexcept {
         double work = 0;
         if (!plucked_in_series_) return work;
-        const double change = pluck_at(newer) - pluck_at(older);
+        const double change = pluck_at(newer) - pluck_at(older), turned = turned_pluck(older);
         for (int p = 0; p < points().count(); ++p) {
             work += force_[p] * points().series->pluck[p] * change;
             if constexpr (moments == 2)
-                work +=
-                    force_[points().count() + p] * points().series->pluck[p] * turned_pluck(older);
+                work += force_[points().count() + p] * points().series->pluck[p] * turned;
         }
         return work / levels;
     }

@@ -513,10 +513,7 @@ void MomentRule::solve(const MomentMatrix& T, double eta, double b_0, double b_1
 
 MomentMatrix MomentRule::answer(const MomentMatrix& T, const MomentContact& s) const noexcept {
     MomentMatrix K = s.slope;
-    if (linear_ && s.from > 0 && s.to > 0) {
-        const double half = 0.5 * law_.k;
-        K = {-half, half, -half, -half};
-    } else if (!s.by_parabola) {
+    if (!s.by_parabola) {
         const Powers a = powers(s.from);
         const Quotient v = quotient(s.from, s.to, a, powers(s.to));
         K.m00 -= v.by_to, K.m01 += v.by_from;

@@ -56,12 +56,11 @@ HWY_INLINE NewMode step_of(double* HWY_RESTRICT line, V forced) {
 // so that an absent point costs nothing. Two accumulators per dot hide the latency of adding.
 // pushing: the points with a force, a bit for each, or by_place(count): those at `places`.
 template <int points, bool dots_of_y, int pushing>
-HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force,
-                           const int* places = nullptr) {
+HWY_INLINE void few_points(TwoPointStream& m, const double* HWY_RESTRICT force, const int* places) {
     const D d;
     const int N = static_cast<int>(hn::Lanes(d));
-    constexpr int some = points > 0 ? points : 1, columns = static_cast<int>(Column::g) + points;
-    constexpr int placed = std::max(-pushing, 0);
+    constexpr int some = points > 0 ? points : 1, columns = static_cast<int>(Column::g) + points,
+                  placed = std::max(-pushing, 0);
     V F[some], y[some][2], u[some][2];
     for (int p = 0; p < some; ++p) {
         F[p] = hn::Set(d, points > 0 ? force[p < placed ? places[p] : p] : 0);
