@@ -5,13 +5,14 @@
 
 namespace jvari {
 
-// `lanes` rows in to = M x, or in to += M x. stride: from one column of M to the next
+// `lanes` rows in to = M x, or in to = from + M x. stride: from one column of M to the next
 template <int lanes, bool add>
 [[gnu::always_inline]] inline void product_of_lanes(const double* M, int stride, const double* x,
-                                                    int columns, double* to) noexcept {
+                                                    int columns, const double* from,
+                                                    double* to) noexcept {
     using Lanes [[gnu::vector_size(8 * lanes), gnu::aligned(8), gnu::may_alias]] = double;
     Lanes even = {}, odd = {};  // two sums hide the latency of adding
-    if constexpr (add) even = *reinterpret_cast<const Lanes*>(to);
+    if constexpr (add) even = *reinterpret_cast<const Lanes*>(from);
     int c = 0;
     for (; c + 1 < columns; c += 2) {
         even += *reinterpret_cast<const Lanes*>(M + c * stride) * x[c];
@@ -24,18 +25,20 @@ template <int lanes, bool add>
 // rows: known to the compiler, or 0 and given at the end
 template <int rows, bool add = false>
 [[gnu::always_inline]] inline void product(const double* M, const double* x, int columns,
-                                           double* to, int some_rows = rows) noexcept {
+                                           double* to, int some_rows = rows,
+                                           const double* from = nullptr) noexcept {
     const int n = rows > 0 ? rows : some_rows;
     int r = 0;
-    for (; r + 8 <= n; r += 8) product_of_lanes<8, add>(M + r, n, x, columns, to + r);
-    if (n & 4) product_of_lanes<4, add>(M + r, n, x, columns, to + r), r += 4;
-    if (n & 2) product_of_lanes<2, add>(M + r, n, x, columns, to + r), r += 2;
-    if (n & 1) product_of_lanes<1, add>(M + r, n, x, columns, to + r);
+    for (; r + 8 <= n; r += 8)
+        product_of_lanes<8, add>(M + r, n, x, columns, from + r, to + r);
+    if (n & 4) product_of_lanes<4, add>(M + r, n, x, columns, from + r, to + r), r += 4;
+    if (n & 2) product_of_lanes<2, add>(M + r, n, x, columns, from + r, to + r), r += 2;
+    if (n & 1) product_of_lanes<1, add>(M + r, n, x, columns, from + r, to + r);
 }
 template <int rows>
 [[gnu::always_inline]] inline void add_product(const double* M, const double* x, int columns,
                                                double* to, int some_rows = rows) noexcept {
-    product<rows, true>(M, x, columns, to, some_rows);
+    product<rows, true>(M, x, columns, to, some_rows, to);
 }
 
 }  // namespace jvari

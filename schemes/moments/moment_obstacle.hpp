@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -223,13 +224,9 @@ template <int few, bool thread, bool series>
     if (states == 0) {
         for (int i = 0; i < 2 * P; ++i) b[i] = free[i];
     } else {
-        product<D>(points_by_.data(), x, states, b, 2 * P);
-        if (has_thread) {  // otherwise the matrix is the identity
+        if (has_thread)  // otherwise the matrix is the identity
             product<D>(points_by_.data() + states * 2 * P, free, 2 * P, by_free, 2 * P);
-            for (int i = 0; i < 2 * P; ++i) b[i] += by_free[i];
-        } else {
-            for (int i = 0; i < 2 * P; ++i) b[i] += free[i];
-        }
+        product<D, true>(points_by_.data(), x, states, b, 2 * P, has_thread ? by_free : free);
         product<S>(state_by_.data(), x, states, next, states);
     }
     bool converged = true;
@@ -248,7 +245,8 @@ template <int few, bool thread, bool series>
         bool forced = has_thread;
         for (int i = 0; i < 2 * P; ++i) forced = forced || force[i] != 0;
         if (forced) add_product<S>(state_by_.data() + states * states, force, 2 * P, next, states);
-        for (int i = 0; i < states; ++i) x_before_[i] = x_[i], x_[i] = next[i];
+        std::memcpy(x_before_.data(), x, sizeof(double) * states);
+        std::memcpy(x_.data(), next, sizeof(double) * states);
         for (int i = 0; i < 2 * P; ++i) last_[i] = force[i];
     }
     return converged;
