@@ -28,12 +28,12 @@ template <int rows, bool add = false>
                                            double* to, int some_rows = rows,
                                            const double* from = nullptr) noexcept {
     const int n = rows > 0 ? rows : some_rows;
+    const double* base = add ? from : to;
     int r = 0;
-    for (; r + 8 <= n; r += 8)
-        product_of_lanes<8, add>(M + r, n, x, columns, from + r, to + r);
-    if (n & 4) product_of_lanes<4, add>(M + r, n, x, columns, from + r, to + r), r += 4;
-    if (n & 2) product_of_lanes<2, add>(M + r, n, x, columns, from + r, to + r), r += 2;
-    if (n & 1) product_of_lanes<1, add>(M + r, n, x, columns, from + r, to + r);
+    for (; r + 8 <= n; r += 8) product_of_lanes<8, add>(M + r, n, x, columns, base + r, to + r);
+    if (n & 4) product_of_lanes<4, add>(M + r, n, x, columns, base + r, to + r), r += 4;
+    if (n & 2) product_of_lanes<2, add>(M + r, n, x, columns, base + r, to + r), r += 2;
+    if (n & 1) product_of_lanes<1, add>(M + r, n, x, columns, base + r, to + r);
 }
 template <int rows>
 [[gnu::always_inline]] inline void add_product(const double* M, const double* x, int columns,

@@ -44,20 +44,30 @@ MomentRule::MomentRule(const ContactLaw& law, double beta, LossLaw loss, const M
     return {force * eta * share_, force, law_.alpha * by, root};
 }
 
-// DV without a difference, 2 alpha a small whole number. With the sums h_m = a^m + a^(m-1) b + ...
-// + b^m over both penetrations: DV = k/(alpha + 1) h_alpha for a whole alpha; else, with the roots
-// s and t and m = alpha + 1/2, DV = k/(alpha + 1) (h_m + st h_(m-1))/(s + t).
+namespace {
+// h_n = u^(n-1) + u^(n-2) w + ... + w^(n-1) = (u^n - w^n)/(u - w), and its derivative by u
+struct Sum {
+    double value, by_u;
+};
+[[gnu::always_inline]] inline Sum sum_of_powers(double u, double w, int n) {
+    double h = 1, by_u = 0, power_of_w = 1;
+    for (int i = 1; i < n; ++i) {
+        by_u = by_u * u + h;
+        power_of_w *= w;
+        h = h * u + power_of_w;
+    }
+    return {h, by_u};
+}
+}  // namespace
+
+// DV without a difference, 2 alpha a small whole number: k/(alpha + 1) h_(alpha+1) of both
+// penetrations for a whole alpha, else h_(2 alpha+2)/h_2 of their roots.
 [[gnu::always_inline]] inline double MomentRule::quotient_by_sums(double from, double to,
                                                                   const Powers& a,
                                                                   const Powers& b) const noexcept {
-    double before = 0, h = 1, power_of_to = 1;
-    for (int m = (halves_ + 1) / 2; m > 0; --m) {
-        before = h;
-        power_of_to *= to;
-        h = h * from + power_of_to;
-    }
     const double by = law_.k * share_;
-    return halves_ % 2 == 1 ? by * ((h + a.root * b.root * before) / (a.root + b.root)) : by * h;
+    if (halves_ % 2 == 0) return by * sum_of_powers(from, to, halves_ / 2 + 1).value;
+    return by * (sum_of_powers(a.root, b.root, halves_ + 2).value / (a.root + b.root));
 }
 
 [[gnu::always_inline]] inline MomentRule::Quotient MomentRule::quotient(
@@ -128,9 +138,9 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
     return (half != 0 && leaves(C / half)) || (A != 0 && leaves(half / A));
 }
 
-// x = e_0 by the law's tangent at the present penetration, in full contact.
-double MomentRule::first_guess(const MomentMatrix& T, double eta, double E_0,
-                               double E_1) const noexcept {
+// Both ends by the law's tangent at the present penetration, in full contact.
+MomentRule::Ends MomentRule::first_guess(const MomentMatrix& T, double eta, double E_0,
+                                         double E_1) const noexcept {
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, low = std::min(E_0, 0.0);
     const double at = eta > 0 ? eta : 0.5 * std::max(E_0, E_1);
     const Powers l = powers(at);
@@ -138,13 +148,51 @@ double MomentRule::first_guess(const MomentMatrix& T, double eta, double E_0,
     const double a = 1 - 0.5 * k * A_1 + k * T.m11, b = -0.5 * k * A_1,
                  c = 0.5 * k * A_0 - k * T.m01, d = 1 + 0.5 * k * A_0, R_0 = E_0 + T.m10 * F,
                  R_1 = E_1 - T.m00 * F;
-    double x = (d * R_0 - b * R_1) / (a * d - b * c);
+    const double by_det = 1 / (a * d - b * c), to = (a * R_1 - c * R_0) * by_det;
+    double x = (d * R_0 - b * R_1) * by_det;
     if (eta <= 0 && E_0 <= 0) {  // enters
         const double out = E_0 + A_1 * E_1 / A_0;
         if (out <= 0) x = low + 0.999 * (out - low);
     }
     if (!(x > low)) x = eta > low ? eta : low + std::max(1e-3 * std::abs(E_0 - E_1), 1e-14);
-    return x;
+    return {x, to};
+}
+
+// Newton's steps for (9) in full contact, 2 alpha a small whole number. In the roots u, w of both
+// ends (in the ends, for a whole alpha) both equations are polynomials: p h_j = k/(alpha + 1)
+// h_(m+j) and w^j = E_1 - A_0 p + T_01 k u^m, with p = (u^j + T_11 k u^m - E_0)/A_1.
+bool MomentRule::by_polynomials(const MomentMatrix& T, const Ends& guess, double E_0, double E_1,
+                                MomentContact& s) const noexcept {
+    if (halves_ <= 0 || !(guess.from > 0 && guess.to > 0)) return false;
+    constexpr int most = 6;
+    constexpr double close = 1e-8;  // relative: the next error is about its square
+    const bool roots = halves_ % 2 == 1;
+    const int j = roots ? 2 : 1, m = roots ? halves_ : halves_ / 2;
+    const double by_A_1 = 1 / (T.m10 + T.m11), A_0 = T.m00 + T.m01, by = law_.k * share_;
+    const auto end = [=](double x) { return roots ? x * x : x; };
+    double u = roots ? std::sqrt(guess.from) : guess.from,
+           w = roots ? std::sqrt(guess.to) : guess.to;
+    for (s.iterations = 1; s.iterations <= most; ++s.iterations) {
+        double below = law_.k;  // k u^(m-1)
+        for (int i = 1; i < m; ++i) below *= u;
+        const double F = below * u, F_u = m * below, from_u = roots ? 2 * u : 1,
+                     to_w = roots ? 2 * w : 1, p = (end(u) + T.m11 * F - E_0) * by_A_1,
+                     p_u = (from_u + T.m11 * F_u) * by_A_1, h_j = roots ? u + w : 1;
+        const Sum h = sum_of_powers(u, w, m + j);
+        const double h_w = sum_of_powers(w, u, m + j).by_u, p_by = roots ? p : 0,
+                     R = p * h_j - by * h.value, S = end(w) - E_1 + A_0 * p - T.m01 * F,
+                     R_u = p_u * h_j + p_by - by * h.by_u, R_w = p_by - by * h_w,
+                     S_u = A_0 * p_u - T.m01 * F_u, by_det = 1 / (R_u * to_w - R_w * S_u),
+                     du = (R_w * S - R * to_w) * by_det, dw = (S_u * R - R_u * S) * by_det;
+        u += du, w += dw;
+        if (!(u > 0 && w > 0)) return false;
+        if (std::abs(du) > close * u || std::abs(dw) > close * w) continue;
+        s.phi_0 = p + p_u * du, s.phi_1 = s.phi_0 - (F + F_u * du);
+        s.from = end(u), s.to = end(w);
+        s.residual = std::abs(R) / (p * h_j);
+        return s.converged = true;
+    }
+    return false;
 }
 
 // Newton's steps for the end e_1 of a contact that enters, from the energy.
@@ -169,8 +217,9 @@ void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double
         return;
     }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, by_A_1 = 1 / A_1;
-    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(),
-           x = first_guess(T, eta, E_0, E_1);
+    const Ends guess = first_guess(T, eta, E_0, E_1);
+    if (eta > 0 && by_polynomials(T, guess, E_0, E_1, s)) return;
+    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(), x = guess.from;
     double p = 0, to = 0;
     Powers a{}, b{};
     Quotient v{};

@@ -96,7 +96,12 @@ private:
     bool by_lines(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
     void by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
                    MomentContact&) const noexcept;
-    double first_guess(const MomentMatrix& T, double eta, double E_0, double E_1) const noexcept;
+    struct Ends {
+        double from, to;
+    };
+    Ends first_guess(const MomentMatrix& T, double eta, double E_0, double E_1) const noexcept;
+    bool by_polynomials(const MomentMatrix& T, const Ends& guess, double E_0, double E_1,
+                        MomentContact&) const noexcept;
     void end_from_energy(double p, double x, MomentContact&) const noexcept;
     void by_bracket(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
     void without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
