@@ -127,7 +127,7 @@ TEST(Json, HasTextsWhereAColumnIsOfTextAndNumbersWhereItIsOfNumbers) {
     EXPECT_EQ(cell["pareto"], false);
     EXPECT_EQ(cell["string.0.tension"], 30);
     EXPECT_EQ(cell["string.0.start"], "\"8\"");
-    EXPECT_TRUE(std::isnan(cell["modes"].get<double>()));
+    EXPECT_TRUE(cell["modes"].is_null());
     for (const char* text : {"reason", "cause", "untimed", "reference"})
         EXPECT_EQ(cell[text], "") << text;
 }

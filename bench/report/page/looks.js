@@ -309,10 +309,7 @@ const brought_out = {
   value: 0.1,
 };
 // Tooltip: pairs of name and value, without empty values.
-const tooltip = pairs =>
-  Object.fromEntries(
-    pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined),
-  );
+const tooltip = pairs => Object.fromEntries(pairs.filter(([, value]) => !is_blank(value)));
 const hover = {tooltip: {field: "tooltip", type: "nominal"}};
 // Zooms by wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set
 // the signals zoom_FIELD.

@@ -23,7 +23,7 @@ function place_label(rate, modes, modes_differ) {
 function of_several_modes(rows) {
   const modes = new Map();
   for (const c of rows)
-    if (!(number(c.fact_grid_intervals) > 0))
+    if (!(c.fact_grid_intervals > 0))
       modes.set(c.series, (modes.get(c.series) ?? new Set()).add(c.modes));
   return new Set([...modes].filter(([, all]) => all.size > 1).map(([series]) => series));
 }
@@ -36,15 +36,14 @@ function points_of(rows, error, cost, series = "series") {
     looks = looks_of(distinct(named.map(c => c.series)));
   const several = of_several_modes(named);
   return named.map(c => {
-    const rate = number(c.rate),
-      modes = number(c.modes),
-      x = number(c[cost]) * (cost === "rate" ? 1e-3 : 1),
+    const {rate, modes} = c,
+      x = c[cost] * (cost === "rate" ? 1e-3 : 1),
       y = error_of(c, error),
       differ = several.has(c.series);
     const label = place_label(rate, modes, differ),
       timed = cost === "cost_s_per_s" && x > 0,
-      from = timed ? finite(number(c.cost_lower)) : null,
-      to = timed ? finite(number(c.cost_upper)) : null,
+      from = timed ? finite(c.cost_lower) : null,
+      to = timed ? finite(c.cost_upper) : null,
       bounded = is_bounded(c, error) ? "\u2264 " : "";
     return {
       series: c.series,
