@@ -1109,6 +1109,82 @@ test(
   },
 );
 
+// ---- Columns
+test("the page reads no column that the program does not write", () => {
+  const quiet = {encoding: "utf8", env: {...process.env, JVARI_NODE_MODULES: "/nowhere"}},
+    records = join(sources, "../../../results"),
+    {facts} = JSON.parse(spawnSync(program, ["list", "facts", "--json"], quiet).stdout),
+    optional = [
+      ...facts.map(fact => "cells.fact_" + fact.name),
+      "cells.fact_reference_limit_hz", // of strings whose modes were measured
+      "sounds.what", // of trim
+    ],
+    names = ["scheme", "options", "series"], // looked for in every table
+    cells = folder_of([]),
+    maps = folder_of([], {
+      "s.toml":
+        '[[cells]]\nname = "m"\nscenes = "free_string"\nschemes = "finite_difference_explicit"\n' +
+        'measure = "outcome"\nduration = 0.002\noptions = { grid = 100 }\n' +
+        "sweep = { rate = [20000, 88200] }\n",
+    });
+  const run = "free_string --rates 44100,88200 --modes 20 --duration 0.06 --repeats 1 --schemes",
+    schemes = ["finite_difference_theta,modal_two_point,sitar_fdm"];
+  for (const words of [
+    ["compare", ...run.split(" "), ...schemes, "--out", cells],
+    ["suite", join(maps, "s.toml"), "--out", maps],
+  ])
+    assert.equal(spawnSync(program, [...words, "--quiet"], quiet).status, 0, words.join(" "));
+  const own_tables = ["cells", "convergence", "sounds", "maps", "boundaries"],
+    // held against the program by tests/bench
+    recorded_tables = ["path", "needs", "strings", "fronts", "advice"],
+    copies = ["trim/two_point_bridge-10", "population"].map(record =>
+      folder_of(
+        [],
+        Object.fromEntries(
+          ["manifest.json", ...recorded_tables.map(name => name + ".csv")]
+            .filter(name => existsSync(join(records, record, name)))
+            .map(name => [name, readFileSync(join(records, record, name), "utf8")]),
+        ),
+      ),
+    );
+  const seen = new Set(),
+    missing = new Set();
+  for (const folder of [cells, maps, ...copies]) {
+    const page = report(folder),
+      of = on(page);
+    for (const name of Object.keys(page.tables)) {
+      const t = of("table")(name);
+      if (t.rows.length) seen.add(name);
+      t.records = t.records.map(
+        record =>
+          new Proxy(record, {
+            get: (record, key) => {
+              const column = `${name}.${String(key)}`;
+              if (!(key in record) && !names.includes(key) && !optional.includes(column))
+                missing.add(column);
+              return record[key];
+            },
+          }),
+      );
+    }
+    for (const {charts} of of("sections_of()"))
+      for (const chart of charts)
+        for (const twin of chart.twins)
+          for (const print of [false, true]) chart.spec(twin.choice, print);
+    of("[finding_of_maps(), finding_of_trim(), finding_of_share()]");
+    for (const scene of of("scenes_of_cells()")) {
+      const rows = of("of_scene")(of("cells()"), scene);
+      for (const error of of("errors_in")(rows)) of("spoken_error")(error, rows);
+      for (const within of [1e-9, 0.1, 10]) at(of, scene, within);
+    }
+  }
+  assert.deepEqual(
+    [...own_tables, ...recorded_tables].filter(name => !seen.has(name)),
+    [],
+  );
+  assert.deepEqual([...missing], []);
+});
+
 // ---- And Vega draws them
 if (!existsSync(join(modules, "vega/build/vega.min.js")))
   console.log("not drawn: no vega (npm ci at the root of the sources)");
