@@ -8,7 +8,6 @@ const distinct = values => [...new Set(values)];
 const finite = x => (Number.isFinite(x) ? x : null);
 const digits = (x, n) => String(Number(x.toPrecision(n))); // "280", "0.0021"
 const percent = x => `${digits(100 * x, 2)}\u00a0%`;
-const decibels = x => `${digits(x, 2)}\u00a0dB`;
 const kilohertz = hz => (hz > 0 ? `${digits(hz / 1000, 5)} kHz` : "");
 
 const tables = {}; // name: {columns, rows, records}; `n` in a record is the row number
