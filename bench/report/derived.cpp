@@ -44,12 +44,11 @@ Table cells_table(const Results& r, const std::vector<std::string>& lines) {
     Table t = study::table_of(r.cells, study::Contents::everything);
     t.columns.insert(t.columns.begin(), {"problem", "series"});
     t.columns.insert(t.columns.end(), {"trusted", "may_win", "line"});
-    const auto yes = [](bool holds) { return holds ? store::Field(true) : store::Field(); };
     for (std::size_t i = 0; i < r.cells.size(); ++i) {
         const Cell& c = r.cells[i];
         t.rows[i].insert(t.rows[i].begin(), {c.problem(), r.series[i]});
-        t.rows[i].insert(t.rows[i].end(), {yes(compare::trusted(c)),
-                                           yes(compare::may_win(c, r.controls)), lines[i]});
+        t.rows[i].insert(t.rows[i].end(),
+                         {compare::trusted(c), compare::may_win(c, r.controls), lines[i]});
     }
     return t;
 }

@@ -156,7 +156,7 @@ Json data_of(const Results& r) {
             data["options"][table.text(i, "options")] = store::options_in(table.text(i, "options"));
     for (const auto& [name, table] : tables)
         if (!table.columns.empty())
-            data["tables"][name] = store::csv(fitting(table, data["left_out"]["cells"]));
+            data["tables"][name] = store::table_json(fitting(table, data["left_out"]["cells"]));
     data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
     data["answers"] = answers(r);
@@ -247,11 +247,10 @@ std::string fitting_page_of(const Results& r, Json data, const std::string& scri
         html = fitting_page_of(data, scripts, limit);
     }
     while (html.size() > limit && !data["tables"].empty()) {
-        auto largest = data["tables"].begin();
-        for (auto t = data["tables"].begin(); t != data["tables"].end(); ++t)
-            if (t->get_ref<const std::string&>().size() >
-                largest->get_ref<const std::string&>().size())
-                largest = t;
+        const auto largest = std::max_element(
+            data["tables"].begin(), data["tables"].end(), [](const Json& a, const Json& b) {
+                return store::compact(a).size() < store::compact(b).size();
+            });
         data["left_out"]["cells"].push_back(
             fmt::format("The table {} is left out for the page's size; {}.csv lies beside it.",
                         largest.key(), largest.key()));

@@ -126,7 +126,7 @@ Json run_data(const DrawnRun& r) {
     std::stable_partition(order.begin(), order.end(),
                           [&](int k) { return quantity(k) == Quantity::bridge_force; });
     const auto add = [&data](const std::string& name, const Table& table) {
-        data["tables"][name] = store::csv(table);
+        data["tables"][name] = store::table_json(table);
     };
     for (const int k : order) {
         add("waves_" + std::to_string(taps.size()), wave_of(t.column(k), t.tap_rate));

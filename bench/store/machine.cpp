@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bench/provenance.hpp"  // written at build time by provenance.cmake
 #include "bench/store/encoding.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/records.hpp"
@@ -36,9 +35,9 @@ std::string system_name() {
 
 const Machine& machine() {
     static const Machine m{JVARI_VERSION,
-                           JVARI_COMMIT,
-                           JVARI_RUN_SOURCES,
-                           JVARI_CELL_SOURCES,
+                           build_sources.commit,
+                           build_sources.run_sources,
+                           build_sources.cell_sources,
                            JVARI_COMPILER,
                            JVARI_FLAGS,
                            JVARI_BUILD,

@@ -9,6 +9,11 @@
 
 namespace jvari::bench::store {
 
+struct Sources {  // of this build: provenance.cpp
+    const char *commit, *run_sources, *cell_sources;
+};
+extern const Sources build_sources;
+
 struct Machine {
     // commit: git describe at build time, "unknown" outside git
     std::string version, commit;

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "bench/store/json.hpp"
 #include "bench/store/usage.hpp"
@@ -76,10 +77,17 @@ nlohmann::ordered_json Field::json() const {
     if (const auto* words = std::get_if<std::string>(&content_)) return *words;
     if (const auto* holds = std::get_if<bool>(&content_)) return *holds;
     const double x = number();
+    if (!std::isfinite(x)) return nullptr;
     // JSON of a count: 532, where a double would have 532.0
     constexpr double most_digits = 1e16;
     if (!std::signbit(x) && x < most_digits && x == std::floor(x)) return static_cast<long>(x);
     return x;
+}
+
+std::string Field::csv() const {
+    const auto* words = std::get_if<std::string>(&content_);
+    if (!words) return text();
+    return std::isnan(number()) ? quoted(*words) : '"' + *words + '"';
 }
 
 // ---- Tables
@@ -133,55 +141,70 @@ std::string csv(const Table& table) {
         text += (k ? "," : "") + quoted(table.columns[k]);
     text += '\n';
     for (const auto& row : table.rows) {
-        for (std::size_t k = 0; k < row.size(); ++k) text += (k ? "," : "") + quoted(row[k].text());
+        for (std::size_t k = 0; k < row.size(); ++k) text += (k ? "," : "") + row[k].csv();
         text += '\n';
     }
     return text;
 }
 
+namespace {
+struct CsvField {  // field as a file has it
+    std::string text;
+    bool quoted = false;
+};
+
+void add_row(Table& table, std::vector<CsvField> fields, int line) {
+    for (CsvField& f : fields)
+        if (is_marked(f.text)) f.text.erase(0, 1), f.quoted = true;
+    if (table.columns.empty()) {
+        for (const CsvField& f : fields) table.columns.push_back(f.text);
+        auto names = table.columns;
+        std::ranges::sort(names);
+        if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+            throw std::runtime_error(
+                fmt::format("line 1: found two columns {}, expected one", found_text(*twice)));
+        return;
+    }
+    if (fields.size() != table.columns.size())
+        throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line,
+                                             fields.size(), table.columns.size()));
+    auto& row = table.rows.emplace_back();
+    for (CsvField& f : fields)
+        row.push_back(f.text.empty() ? Field()
+                      : f.quoted     ? Field(std::move(f.text))
+                                     : Field::as_written(std::move(f.text)));
+}
+}  // namespace
+
 Table read_csv(const std::string& text) {
     Table table;
-    std::vector<std::string> fields{""};
+    std::vector<CsvField> fields(1);
     bool inside = false, begun = false;
     const std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
     int line = 1;
     const auto end_row = [&] {
-        if (!begun) return;  // an empty line
-        for (std::string& field : fields)
-            if (is_marked(field)) field.erase(0, 1);
-        if (table.columns.empty()) {
-            table.columns = fields;
-            std::ranges::sort(fields);
-            if (const auto twice = std::ranges::adjacent_find(fields); twice != fields.end())
-                throw std::runtime_error(
-                    fmt::format("line 1: found two columns {}, expected one", found_text(*twice)));
-        } else if (fields.size() != table.columns.size()) {
-            throw std::runtime_error(fmt::format("line {}: found {} fields, expected {}", line,
-                                                 fields.size(), table.columns.size()));
-        } else {
-            table.rows.emplace_back(std::make_move_iterator(fields.begin()),
-                                    std::make_move_iterator(fields.end()));
-        }
-        fields.assign(1, "");
-        begun = false;
+        if (begun) add_row(table, std::exchange(fields, std::vector<CsvField>(1)), line);
+        begun = false;  // else an empty line
     };
     for (std::size_t i = start; i < text.size(); ++i) {
         const char c = text[i];
-        if (inside) {
-            if (c != '"') fields.back() += c;
-            else if (i + 1 < text.size() && text[i + 1] == '"') fields.back() += text[++i];
-            else inside = false;
-        } else if (c == '"') {
-            inside = begun = true;
-        } else if (c == ',') {
-            fields.emplace_back();
-            begun = true;
-        } else if (c == '\n') {
+        CsvField& last = fields.back();
+        if (c == '\n' && !inside) {
             end_row();
             ++line;
+            continue;
+        }
+        begun = begun || c != '\r';
+        if (inside) {
+            if (c != '"') last.text += c;
+            else if (i + 1 < text.size() && text[i + 1] == '"') last.text += text[++i];
+            else inside = false;
+        } else if (c == '"') {
+            inside = last.quoted = true;
+        } else if (c == ',') {
+            fields.emplace_back();
         } else if (c != '\r') {
-            fields.back() += c;
-            begun = true;
+            last.text += c;
         }
     }
     if (inside)
@@ -198,6 +221,19 @@ nlohmann::ordered_json rows_json(const Table& table) {
         rows.push_back(std::move(j));
     }
     return rows;
+}
+
+nlohmann::ordered_json table_json(const Table& table) {
+    auto rows = nlohmann::ordered_json::array();
+    for (const auto& row : table.rows) {
+        auto& fields = rows.emplace_back(nlohmann::ordered_json::array());
+        for (const Field& field : row) {
+            fields.push_back(field.json());
+            if (fields.back().is_null() && std::isinf(field.number()))
+                fields.back().push_back(field.number() > 0 ? 1 : -1);
+        }
+    }
+    return {{"columns", table.columns}, {"rows", std::move(rows)}};
 }
 
 namespace fs = std::filesystem;

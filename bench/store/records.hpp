@@ -1,6 +1,7 @@
-// Results are rows: a table of fields with named columns, written and read as CSV (RFC 4180). A
-// spreadsheet would take a text that begins with = + - @ and is no number for a formula, so the
-// file puts an apostrophe in front. Texts that begin with an apostrophe get another one.
+// Results are rows: a table of fields with named columns, written and read as CSV (RFC 4180), and
+// written as JSON. Fields keep their types in CSV: a text that looks like a number has quotation
+// marks. A spreadsheet would take a text that begins with = + - @ and is no number for a formula,
+// so the file puts an apostrophe in front. Texts that begin with an apostrophe get another one.
 #pragma once
 
 #include <concepts>
@@ -45,6 +46,7 @@ public:
     double number() const;     // NaN for a blank, and for a text that is no number
     bool empty() const { return text().empty(); }
     nlohmann::ordered_json json() const;  // null for a blank and for an infinity
+    std::string csv() const;
     friend bool operator==(const Field& a, const Field& b) { return a.text() == b.text(); }
 
 private:
@@ -69,11 +71,13 @@ struct Table {
     Table only(const std::vector<std::string>& names) const;
 };
 
-std::string quoted(const std::string& field);    // CSV form
+std::string quoted(const std::string& text);     // CSV form
 nlohmann::ordered_json rows_json(const Table&);  // one object per row
+// {"columns": [...], "rows": [[...], ...]}. JSON has no infinity: it stands as [1] or [-1].
+nlohmann::ordered_json table_json(const Table&);
 std::string csv(const Table&);
-// Fields of a CSV file are texts. Throws std::runtime_error with the line if a row has too few or
-// too many fields.
+// Reads a number from each field without quotation marks that has one. Throws std::runtime_error
+// with the line if a row has too few or too many fields.
 Table read_csv(const std::string& text);
 
 // A folder of results: its manifest and its tables. An unreadable file throws UsageError with the

@@ -29,41 +29,31 @@ namespace jvari {
 namespace {
 // ---- What is known of an error
 
-TEST(Bound, IsTheErrorAndTheCertificateTogether) {
-    const bench::compare::Bound b{0.03, 0.02, nan};
-    EXPECT_DOUBLE_EQ(b.most(), 0.05);
-    EXPECT_DOUBLE_EQ(b.least(), 0.01);
-    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.01, 0.02, nan}).least(), 0);
-    EXPECT_EQ(error_text(b, "{:.2e}"), "\u22645.00e-02");
-    EXPECT_DOUBLE_EQ(b.shown(), 0.05);
-}
-
-TEST(Bound, WhereTheCertificateIsSmallWhatWasMeasuredStands) {
-    EXPECT_EQ(bench::compare::error_text({0.03, 0.003, nan}, "{:.2e}"), "3.00e-02");
-    EXPECT_EQ(bench::compare::error_text({0.03, 0.0031, nan}, "{:.2e}"), "\u22643.31e-02");
-    EXPECT_EQ(bench::compare::error_text({HUGE_VAL, 0.1, nan}, "{:.2e}"), "inf");
-    EXPECT_EQ(bench::compare::error_text({}, "{:.2e}"), "-");
-    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).shown(), 0.03);
-    // what a target is held against all the same
-    EXPECT_DOUBLE_EQ((bench::compare::Bound{0.03, 0.003, nan}).most(), 0.033);
-}
-
-TEST(Bound, IsNotKnownWhereErrorAndCertificateReachOne) {
-    EXPECT_EQ(bench::compare::error_text({0.01, 0.98, nan}, "{:.2e}"), "\u22649.90e-01");
-    EXPECT_EQ(bench::compare::error_text({0.01, 0.99, nan}, "{:.2e}"), "not known");
-    // known to be all wrong
-    EXPECT_EQ(bench::compare::error_text({1.3, 0.01, nan}, "{:.2e}"), "1.30e+00");
-}
-
-TEST(Bound, WithoutACertificateNothingIsCertainOfAnError) {
-    const bench::compare::Bound b{0.03, nan, nan};
-    EXPECT_EQ(b.says(), bench::compare::Bound::Says::unsure);
-    EXPECT_EQ(error_text(b, "{:.2e}"), "3.00e-02?");
-    EXPECT_FALSE(b.most() <= 0.1);
-    EXPECT_EQ(b.least(), 0);
-    EXPECT_DOUBLE_EQ(b.shown(), 0.03);  // in a picture
-    // a run that failed is known to
-    EXPECT_EQ(bench::compare::error_text({HUGE_VAL, nan, nan}, "{:.2e}"), "inf");
+TEST(Bound, IsErrorAndCertificateTogetherAsFarAsTheyTell) {
+    struct {
+        double error, certificate, least, most, shown;
+        const char* text;
+    } const rows[] = {{0.03, 0.02, 0.01, 0.05, 0.05, "\u22645.00e-02"},
+                      {0.01, 0.02, 0, 0.03, 0.03, "\u22643.00e-02"},
+                      // up to a tenth of the error the measured value stands
+                      {0.03, 0.003, 0.027, 0.033, 0.03, "3.00e-02"},
+                      {0.03, 0.0031, 0.0269, 0.0331, 0.0331, "\u22643.31e-02"},
+                      {0.01, 0.98, 0, 0.99, 0.99, "\u22649.90e-01"},
+                      {0.01, 0.99, 0, 1, 1, "not known"},
+                      {1.3, 0.01, 1.29, 1.31, 1.3, "1.30e+00"},  // known to be all wrong
+                      {0.03, nan, 0, nan, 0.03, "3.00e-02?"},
+                      // a run that failed is known to
+                      {HUGE_VAL, 0.1, HUGE_VAL, HUGE_VAL, HUGE_VAL, "inf"},
+                      {HUGE_VAL, nan, HUGE_VAL, nan, HUGE_VAL, "inf"},
+                      {nan, nan, 0, nan, nan, "-"}};
+    for (const auto& row : rows) {
+        const bench::compare::Bound b{row.error, row.certificate, nan};
+        EXPECT_EQ(error_text(b, "{:.2e}"), row.text);
+        for (const auto& [is, expected] :
+             {std::pair{b.least(), row.least}, {b.most(), row.most}, {b.shown(), row.shown}})
+            if (std::isnan(expected)) EXPECT_TRUE(std::isnan(is)) << row.text;
+            else EXPECT_DOUBLE_EQ(is, expected) << row.text;
+    }
 }
 
 TEST(Bound, OfAColumnHasTheCertificateAndTheFloorOfItsWindowAndTap) {
@@ -127,7 +117,7 @@ TEST(Json, HasTextsWhereAColumnIsOfTextAndNumbersWhereItIsOfNumbers) {
     EXPECT_EQ(cell["pareto"], false);
     EXPECT_EQ(cell["string.0.tension"], 30);
     EXPECT_EQ(cell["string.0.start"], "\"8\"");
-    EXPECT_TRUE(std::isnan(cell["modes"].get<double>()));
+    EXPECT_TRUE(cell["modes"].is_null());
     for (const char* text : {"reason", "cause", "untimed", "reference"})
         EXPECT_EQ(cell[text], "") << text;
 }
@@ -138,152 +128,137 @@ struct Sample {  // a cell of the tables below
     std::string scheme, rate, flags, error, certificate, octaves;
     double cost;
     std::string status = "ok";
+    bench::store::Options options = {};
+    double lower = 0.95;  // quartile of the cost, as a part of it
+    std::string certificate_10ms = "";
 };
 bench::study::Cells cells_of(const std::vector<Sample>& samples) {
     bench::store::Table t{
         {"cell", "scene", "scheme", "options", "rate", "modes", "status", "flags", "error_l2_50ms",
-         "error_l2_10ms_nut", "certificate_l2_50ms", "certificate_l2_10ms_nut", "third_octave_db",
-         "cost_s_per_s", "cost_lower", "cost_upper"},
+         "error_l2_10ms_nut", "certificate_l2_50ms", "certificate_l2_10ms",
+         "certificate_l2_10ms_nut", "third_octave_db", "cost_s_per_s", "cost_lower", "cost_upper"},
         {}};
     for (const Sample& s : samples)
-        t.rows.push_back({"1", "s", s.scheme, "", s.rate, "10", s.status, s.flags, s.error, s.error,
-                          s.certificate, s.certificate, s.octaves, s.cost, 0.95 * s.cost,
-                          1.05 * s.cost});
+        t.rows.push_back({"1", "s", s.scheme, bench::store::options_text(s.options), s.rate, "10",
+                          s.status, s.flags, s.error, s.error, s.certificate, s.certificate_10ms,
+                          s.certificate, s.octaves, s.cost, s.lower * s.cost, 1.05 * s.cost});
     return test::cells_from(t);
 }
-bench::store::Table cheapest_in(
-    const bench::study::Cells& cells,
-    bench::compare::Controls controls = bench::compare::Controls::stand_beside) {
-    return table_of(bench::compare::cheapest_of(cells, controls), cells);
-}
-std::string cheapest_text(const bench::study::Cells& cells) {
-    return bench::store::text_of(
-        bench::compare::cheapest_lines(bench::compare::cheapest_of(cells), cells));
-}
 
-TEST(Cheapest, IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough) {
-    const bench::study::Cells cells =
-        cells_of({{"a", "100", "", "0.2", "0", "0.5", 1},
-                  {"a", "200", "", "0.009", "0", "0.5", 3},
-                  {"b", "100", "", "0.05", "0", "4", 2},
-                  // pulls
-                  {"c", "100", "adhesion", "0.0001", "0", "0.1", 0.5},
-                  {"d", "100", "", "inf", "0", "inf", 0.1, "diverged"},
-                  // touches b
-                  {"e", "100", "", "0.04", "0", "4", 2.1}});
-    const bench::store::Table t = cheapest_in(cells);
-    ASSERT_EQ(t.rows.size(), 5u);
-    // 10 %: that a more accurate one costs as much for all that is known changes nothing
-    EXPECT_EQ(t.text(0, "scheme"), "b");
-    EXPECT_EQ(t.text(0, "ties"), "e, 10 modes at 0.1 kHz");
-    EXPECT_EQ(t.text(0, "run"), "b, 10 modes at 0.1 kHz");
-    EXPECT_EQ(t.text(1, "scheme"), "a");  // 1 %
-    EXPECT_EQ(t.text(1, "rate"), "200");
-    EXPECT_EQ(t.text(1, "ties"), "");
-    EXPECT_EQ(t.text(2, "scheme"), "");  // 0.1 %
-    EXPECT_EQ(t.text(2, "status"), "none");
-    EXPECT_EQ(t.text(3, "scheme"), "a");  // 3 dB
-    EXPECT_EQ(t.text(3, "rate"), "100");
-    EXPECT_TRUE(says(cheapest_text(cells), "within 0.1 %   none. Closest: a, 10 modes"));
-}
+enum Goal { within_10, within_1, within_01, within_3_db };  // rows of the table of the cheapest
+struct Cheapest {
+    const char* name;
+    std::vector<Sample> cells;
+    struct Answer {
+        Goal goal;
+        const char *column, *expected;
+    };
+    std::vector<Answer> answers;
+    std::vector<const char*> lines = {};  // parts of the text
+    bench::compare::Controls controls = bench::compare::Controls::stand_beside;
+};
+const std::vector<Sample> with_controls{
+    {"modal_two_point_trapezoidal", "1", "", "5e-4", "0", "", 1},
+    {"modal_two_point", "1", "", "0.005", "0", "", 2},
+    {"modal_explicit_penalty", "1", "", "0.005", "0", "", 2}};
+const Cheapest cheapest[] = {
+    {"IsTheLeastCostAmongTheTrustedCellsThatAreAccurateEnough",
+     {{"a", "100", "", "0.2", "0", "0.5", 1},
+      {"a", "200", "", "0.009", "0", "0.5", 3},
+      {"b", "100", "", "0.05", "0", "4", 2},
+      {"c", "100", "adhesion", "0.0001", "0", "0.1", 0.5},  // pulls
+      {"d", "100", "", "inf", "0", "inf", 0.1, "diverged"},
+      {"e", "100", "", "0.04", "0", "4", 2.1}},  // touches b
+     // that a more accurate one costs as much for all that is known changes nothing
+     {{within_10, "run", "b, 10 modes at 0.1 kHz"},
+      {within_10, "scheme", "b"},
+      {within_10, "ties", "e, 10 modes at 0.1 kHz"},
+      {within_1, "scheme", "a"},
+      {within_1, "rate", "200"},
+      {within_1, "ties", ""},
+      {within_01, "scheme", ""},
+      {within_01, "status", "none"},
+      {within_3_db, "scheme", "a"},
+      {within_3_db, "rate", "100"}},
+     {"within 0.1 %   none. Closest: a, 10 modes"}},
+    {"NamesWhatABusyClockCannotTellFromItAndNoneThatCosts1_2TimesTheLeast",
+     {{"a", "44100", "", "0.009", "0", "", 1, "ok", {}, 0.5},
+      {"a", "88200", "", "0.004", "0", "", 1.09, "ok", {}, 0.45},
+      {"a", "176400", "", "0.001", "0", "", 1.3, "ok", {}, 0.38}},
+     {{within_1, "rate", "44100"}, {within_1, "ties", "a, 10 modes at 88.2 kHz"}},
+     {"a tie with a, 10 modes at 88.2 kHz"}},
+    {"NamesEachTieWithItsOwnRateWhereOneHasNone",
+     {{"a", "44100", "", "0.05", "0", "", 1},
+      {"exact", "", "", "0.05", "0", "", 1.01},
+      {"b", "88200", "", "0.05", "0", "", 1.02}},
+     {{within_10, "ties", "exact, 10 modes; b, 10 modes at 88.2 kHz"}}},
+    {"CannotBeDecidedWhereTheUncertaintyOfTheReferenceIsUnknown",
+     {{"a", "44100", "", "0.052", "", "2", 1},
+      {"b", "44100", "", "0.04", "", "2", 2},
+      {"c", "44100", "", "inf", "", "", 0.1}},
+     {{within_10, "status", "not_known"},
+      {within_10, "scheme", ""},
+      {within_10, "why",
+       "the uncertainty of the reference is unknown; measured against it, the cheapest is a, 10 "
+       "modes at 44.1 kHz, 5.2 %"},
+      {within_1, "why", "the uncertainty of the reference is unknown"},
+      {within_3_db, "scheme", "a"},  // as measured
+      {within_3_db, "why", "measured against a reference whose uncertainty is unknown"}}},
+    {"SaysWhatTheBestWithoutMatchedComplianceCosts",
+     {{"a", "44100", "", "0.009", "0", "", 1, "ok", {{"compliance", "matched"}}},
+      {"a", "88200", "", "0.0095", "0", "", 3, "ok", {{"compliance", "own"}}},
+      {"b", "88200", "", "0.0094", "0", "", 2.5},
+      {"b", "44100", "", "0.09", "0", "", 0.5}},
+     {{within_1, "run", "a compliance=matched, 10 modes at 44.1 kHz"},
+      {within_1, "as_published", "b, 10 modes at 88.2 kHz, 0.94 %, 2.5 s per s"},
+      {within_10, "as_published", ""}}},  // b is as published
+    {"ReachesATargetWithErrorAndCertificateTogether",
+     {{"a", "100", "", "0.0095", "0.001", "", 1},  // 0.0085 to 0.0105
+      {"b", "100", "", "0.0088", "0.001", "", 2},  // to 0.0098
+      {"c", "100", "", "0.05", "0.001", "", 0.1},
+      {"d", "100", "", "0.0005", "0.001", "", 9}},
+     {{within_1, "scheme", "b"},
+      {within_1, "error", "0.0088"},
+      {within_1, "bound", "0.0098"},
+      {within_1, "perhaps", "a, 10 modes at 0.1 kHz"},
+      {within_01, "status", "not_known"},  // d is within 0.15 %
+      {within_01, "scheme", ""},
+      {within_01, "perhaps", "d, 10 modes at 0.1 kHz"},
+      {within_01, "why", "the reference is known to 0.1 % only"}},
+     {"b, 10 modes at 0.1 kHz, ≤ 0.98 %, 2 s per s", "perhaps for less a, 10 modes",
+      "within 0.1 %   cannot be decided: the reference is known to 0.1 % only"}},
+    {"IsLeftOpenWhereNoWindowCanBeDecided",
+     {{"a", "44100", "", "0.0095", "0.03", "", 1}},
+     {{within_1, "why", "the reference is known to 3 % only"}}},
+    {"NamesTheLongestWindowThatCanBeDecided",
+     {{"a", "44100", "", "0.0095", "0.03", "", 1, "ok", {}, 0.95, "0.004"}},
+     {{within_1, "why", "the reference is known to 3 % only; over the first 10 ms to 0.4 %"},
+      {within_01, "why", "the reference is known to 3 % only"}}},
+    {"NamesNoControlWhereNoneCompetes",
+     with_controls,
+     {{within_10, "scheme", "modal_two_point"},
+      {within_10, "ties", ""},
+      {within_01, "status", "none"}}},
+    {"NamesAControlThatCompetes",
+     with_controls,
+     {{within_10, "scheme", "modal_two_point_trapezoidal"},
+      {within_01, "scheme", "modal_two_point_trapezoidal"}},
+     {},
+     bench::compare::Controls::compete}};
 
-TEST(Cheapest, NamesWhatTheClockCannotTellFromItAndNoneThatCosts1_2TimesTheLeast) {
-    bench::study::Cells cells = cells_of({{"a", "44100", "", "0.009", "0", "", 1},
-                                          {"a", "88200", "", "0.004", "0", "", 1.09},
-                                          {"a", "176400", "", "0.001", "0", "", 1.3}});
-    // a busy clock
-    for (bench::study::TabledCell& c : cells) c.cost_lower = 0.5;
-    const bench::store::Table t = cheapest_in(cells);
-    EXPECT_EQ(t.text(1, "rate"), "44100");
-    EXPECT_EQ(t.text(1, "ties"), "a, 10 modes at 88.2 kHz");  // of the same scheme
-    EXPECT_TRUE(says(cheapest_text(cells), "a tie with a, 10 modes at 88.2 kHz"));
+class CheapestOf : public testing::TestWithParam<Cheapest> {};
+TEST_P(CheapestOf, Cells) {
+    const bench::study::Cells cells = cells_of(GetParam().cells);
+    const auto answers = bench::compare::cheapest_of(cells, GetParam().controls);
+    const bench::store::Table t = table_of(answers, cells);
+    ASSERT_EQ(t.rows.size(), GetParam().cells[0].octaves.empty() ? 3u : 5u);
+    for (const auto& [goal, column, expected] : GetParam().answers)
+        EXPECT_EQ(t.text(goal, column), expected) << goal << " " << column;
+    for (const char* line : GetParam().lines)
+        EXPECT_TRUE(says(bench::store::text_of(cheapest_lines(answers, cells)), line)) << line;
 }
-
-TEST(Cheapest, NamesEachTieWithItsOwnRateWhereOneHasNone) {
-    const bench::study::Cells cells = cells_of({{"a", "44100", "", "0.05", "0", "", 1},
-                                                {"exact", "", "", "0.05", "0", "", 1.01},
-                                                {"b", "88200", "", "0.05", "0", "", 1.02}});
-    const bench::store::Table t = cheapest_in(cells);
-    EXPECT_EQ(t.text(0, "ties"), "exact, 10 modes; b, 10 modes at 88.2 kHz");
-}
-
-TEST(Cheapest, CannotBeDecidedWhereTheUncertaintyOfTheReferenceIsUnknown) {
-    const bench::study::Cells cells = cells_of({{"a", "44100", "", "0.052", "", "2", 1},
-                                                {"b", "44100", "", "0.04", "", "2", 2},
-                                                {"c", "44100", "", "inf", "", "", 0.1}});
-    const bench::store::Table t = cheapest_in(cells);
-    EXPECT_EQ(t.text(0, "status"), "not_known");  // 10 %
-    EXPECT_EQ(t.text(0, "scheme"), "");
-    EXPECT_EQ(t.text(0, "why"),
-              "the uncertainty of the reference is unknown; measured against it, the cheapest is "
-              "a, 10 modes at 44.1 kHz, 5.2 %");
-    EXPECT_EQ(t.text(1, "why"), "the uncertainty of the reference is unknown");  // 1 %
-    // 3 dB count as measured
-    EXPECT_EQ(t.text(3, "scheme"), "a");
-    EXPECT_EQ(t.text(3, "why"), "measured against a reference whose uncertainty is unknown");
-}
-
-TEST(Cheapest, SaysWhatTheBestWithoutMatchedComplianceCosts) {
-    bench::study::Cells cells = cells_of({{"a", "44100", "", "0.009", "0", "", 1},
-                                          {"a", "88200", "", "0.0095", "0", "", 3},
-                                          {"b", "88200", "", "0.0094", "0", "", 2.5},
-                                          {"b", "44100", "", "0.09", "0", "", 0.5}});
-    cells[0].options = {{"compliance", "matched"}};
-    cells[1].options = {{"compliance", "own"}};
-    const bench::store::Table t = cheapest_in(cells);
-    EXPECT_EQ(t.text(1, "run"), "a compliance=matched, 10 modes at 44.1 kHz");
-    EXPECT_EQ(t.text(1, "as_published"), "b, 10 modes at 88.2 kHz, 0.94 %, 2.5 s per s");
-    EXPECT_EQ(t.text(0, "as_published"), "");  // 10 %: b is as published
-}
-
-TEST(Cheapest, ReachesATargetWithErrorAndCertificateTogether) {
-    // 0.0085 to 0.0105
-    const bench::study::Cells cells = cells_of({{"a", "100", "", "0.0095", "0.001", "", 1},
-                                                // to 0.0098
-                                                {"b", "100", "", "0.0088", "0.001", "", 2},
-                                                {"c", "100", "", "0.05", "0.001", "", 0.1},
-                                                {"d", "100", "", "0.0005", "0.001", "", 9}});
-    const bench::store::Table t = cheapest_in(cells);
-    ASSERT_EQ(t.rows.size(), 3u);
-    EXPECT_EQ(t.text(1, "scheme"), "b");
-    EXPECT_EQ(t.text(1, "error"), "0.0088");
-    EXPECT_NEAR(t.number(1, "bound"), 0.0098, 1e-15);
-    EXPECT_EQ(t.text(1, "perhaps"), "a, 10 modes at 0.1 kHz");
-    // as the page has it
-    EXPECT_TRUE(says(cheapest_text(cells), "b, 10 modes at 0.1 kHz, \u2264 0.98 %, 2 s per s"));
-    // 0.1 %: d is within 0.15 %
-    EXPECT_EQ(t.text(2, "status"), "not_known");
-    EXPECT_EQ(t.text(2, "scheme"), "");
-    EXPECT_EQ(t.text(2, "perhaps"), "d, 10 modes at 0.1 kHz");
-    EXPECT_EQ(t.text(2, "why"), "the reference is known to 0.1 % only");
-    EXPECT_TRUE(says(cheapest_text(cells),
-                     "within 0.1 %   cannot be decided: the reference is known to 0.1 % only"));
-    EXPECT_TRUE(says(cheapest_text(cells), "perhaps for less a, 10 modes"));
-}
-
-TEST(Cheapest, NamesTheLongestWindowThatCanBeDecided) {
-    bench::study::Cells cells = cells_of({{"a", "44100", "", "0.0095", "0.03", "", 1}});
-    EXPECT_EQ(cheapest_in(cells).at(1, "why"), "the reference is known to 3 % only");
-    const std::size_t shorter = bench::study::measure("error_l2_10ms");
-    cells[0].figures[0][shorter].certificate = 4e-3;
-    EXPECT_EQ(cheapest_in(cells).at(1, "why"),
-              "the reference is known to 3 % only; over the first 10 ms to 0.4 %");
-    EXPECT_EQ(cheapest_in(cells).at(2, "why"), "the reference is known to 3 % only");  // 0.1 %
-}
-
-TEST(Cheapest, AControlIsNamedOnlyWhereItCompetes) {
-    const bench::study::Cells cells =
-        cells_of({{"modal_two_point_trapezoidal", "100", "", "0.0005", "0", "0.5", 1},
-                  {"modal_two_point", "100", "", "0.005", "0", "2", 2},
-                  {"modal_explicit_penalty", "100", "", "0.005", "0", "2", 2}});
-    const bench::store::Table t = cheapest_in(cells);
-    EXPECT_EQ(t.text(0, "scheme"), "modal_two_point");  // 10 %
-    EXPECT_EQ(t.text(0, "ties"), "");
-    EXPECT_EQ(t.text(2, "status"), "none");  // 0.1 %
-    const bench::store::Table all = cheapest_in(cells, bench::compare::Controls::compete);
-    EXPECT_EQ(all.text(0, "scheme"), "modal_two_point_trapezoidal");
-    EXPECT_EQ(all.text(2, "scheme"), "modal_two_point_trapezoidal");
-}
+INSTANTIATE_TEST_SUITE_P(, CheapestOf, testing::ValuesIn(cheapest),
+                         [](const auto& one) { return one.param.name; });
 
 std::vector<bool> front_of(const std::vector<Sample>& samples) {
     std::vector<bool> front;

@@ -148,6 +148,8 @@ TEST(Population, ThreeStringsOfTheRecordAreWhatTheyWereWhenItWasMade) {
     std::erase_if(suite.sets, [&](const auto& set) { return !three.contains(set.drawn->name); });
     for (auto& set : suite.sets) std::erase(set.measure, "cost");
     const auto now = tables_of(suite);
+    EXPECT_EQ(now.fronts.columns,
+              bench::store::Folder{root / "results/population"}.table("fronts").columns);
     for (const auto& [name, table] : {std::pair{"strings", &now.strings},
                                       {"outcomes", &now.outcomes},
                                       {"advice", &now.advice}}) {

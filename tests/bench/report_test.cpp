@@ -46,9 +46,14 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
     EXPECT_TRUE(says(data.at("missing").get<std::string>(), "npm ci"));
     EXPECT_EQ(data.at("manifest").at("suite"), "made up");
     for (const char* name : {"convergence", "maps", "boundaries"}) {
-        const auto kept = bench::store::read_csv(data.at("tables").at(name)),
-                   file = bench::store::read_csv(content(folder / (std::string(name) + ".csv")));
-        EXPECT_EQ(kept.only(file.columns).rows, file.rows) << name;  // the files' own rows, whole
+        // the file's own columns behind the problem and the series
+        Json kept = data.at("tables").at(name);
+        for (Json& row : kept.at("rows")) row.erase(row.begin(), row.begin() + 2);
+        EXPECT_EQ(kept.at("rows"),
+                  Json(bench::store::table_json(
+                           bench::store::read_csv(content(folder / (std::string(name) + ".csv"))))
+                           .at("rows")))
+            << name;
     }
     for (const auto& entry : fs::directory_iterator(folder.path))
         EXPECT_NE(entry.path().extension(), ".svg") << entry.path();
@@ -270,9 +275,7 @@ TEST(Report, APageOfManyCellsKeepsItsSizeAndTheBestOfEachScheme) {
     const std::string page = bench::report::fitting_page_of(results, whole, "", limit);
     EXPECT_LE(page.size(), limit);
     const Json data = data_of(page);
-    const auto cells = [](const Json& of) {
-        return bench::store::read_csv(of.at("tables").at("cells")).rows.size();
-    };
+    const auto cells = [](const Json& of) { return of.at("tables").at("cells").at("rows").size(); };
     EXPECT_GT(cells(data), 20u);
     EXPECT_LT(cells(data), results.cells.size());
     EXPECT_TRUE(

@@ -497,7 +497,12 @@ TEST(Trim, IsTakenUpWhereItWasStoppedAndVerifiedByAnotherStart) {
         for (const int part : t.last().model.left_out)
             EXPECT_TRUE(says(toml, judge.reductions()[part].description()));
         EXPECT_TRUE(says(toml, trim::command_of(t, "trimmed.toml")));
-        EXPECT_EQ(trim::path_table(t, judge).rows.size(), t.path.steps.size());
+        const auto path = trim::path_table(t, judge);
+        EXPECT_EQ(path.rows.size(), t.path.steps.size());
+        // the page reads columns of these names
+        const bench::store::Folder record{JVARI_SOURCE "/results/trim/two_point_bridge-10"};
+        EXPECT_EQ(path.columns, record.table("path").columns);
+        EXPECT_EQ(trim::needs_table(t).columns, record.table("needs").columns);
         if (k == 0) first = trim::command_of(t, "");
         else EXPECT_EQ(trim::command_of(t, ""), first);
         const long files = std::distance(std::filesystem::directory_iterator(folder / "cells"), {});

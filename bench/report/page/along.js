@@ -14,8 +14,8 @@ function orders() {
   const all = new Map(),
     add = (o, error) =>
       all.set(`${o.problem}|${o.series}|${error_name(error)}`, {
-        order: number(o.order),
-        text: order_text(number(o.order), number(o.half_width)),
+        order: o.order,
+        text: order_text(o.order, o.half_width),
       });
   for (const o of records("orders")) add(o, o);
   for (const o of records("convergence")) add(o, {measure: "error_l2_" + o.window, tap: o.tap});
@@ -145,14 +145,7 @@ function convergence_section() {
     ].includes(error);
   const of_cells = found
     .filter(o => wanted(error_name(o)))
-    .map(o => [
-      o.problem,
-      o.series,
-      error_name(o),
-      number(o.order).toFixed(4),
-      o.half_width,
-      o.points,
-    ]);
+    .map(o => [o.problem, o.series, error_name(o), o.order, o.half_width, o.points]);
   const own = {
     columns: ["scene", "scheme", "error", "order", "half_width", "points"],
     rows: of_cells,
@@ -198,16 +191,16 @@ function cells_along(key, keys) {
   const rows = cells().filter(
     c =>
       c.status !== "refused" &&
-      Number.isFinite(number(c[key])) &&
+      Number.isFinite(c[key]) &&
       (key !== "modes" || c.series !== variant(c)),
   );
   return rows.map(c => ({
     ...c,
     base: c.scene ?? page.title,
-    at: number(c[key]),
+    at: c[key],
     along: key === "modes" ? variant(c) : c.series,
     others: keys
-      .filter(other => other !== key && c[other])
+      .filter(other => other !== key && !is_blank(c[other]))
       .map(other => `${other} = ${c[other]}`)
       .join(", "),
   }));
@@ -215,7 +208,7 @@ function cells_along(key, keys) {
 function sweep_chart(key, keys) {
   const rows = cells_along(key, keys),
     bases = distinct(rows.map(c => c.base)),
-    rates = distinct(rows.map(c => number(c.rate)).filter(Number.isFinite)).sort((a, b) => a - b);
+    rates = distinct(rows.map(c => c.rate).filter(Number.isFinite)).sort((a, b) => a - b);
   if (distinct(rows.map(c => c.at)).length < 2 || !errors_in(rows).length || !rates.length)
     return null;
   const menus = scene => {
@@ -237,7 +230,7 @@ function sweep_chart(key, keys) {
     const {column: error, title} = chosen_error(rows, choice),
       place = new Map(rows.map(c => [c.n, c]));
     const all = points_of(
-      rows.filter(c => c.base === choice.base_field && number(c.rate) === choice.rate_field),
+      rows.filter(c => c.base === choice.base_field && c.rate === choice.rate_field),
       error,
       "rate",
       "along",

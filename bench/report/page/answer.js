@@ -59,10 +59,13 @@ const literal = text => JSON.stringify(text);
 // Commands that repeat the cheapest run: {shell, "C++", Python}.
 function commands(c) {
   const {asked_as = c.scene ?? page.title, set = []} = page.manifest?.scene ?? {},
-    changed = [...set, ...swept_keys().flatMap(key => (c[key] ? [`${key}=${c[key]}`] : []))],
+    changed = [
+      ...set,
+      ...swept_keys().flatMap(key => (is_blank(c[key]) ? [] : [`${key}=${c[key]}`])),
+    ],
     options = options_of(c),
-    rate = number(c.rate) > 0 ? number(c.rate) : 0,
-    modes = number(c.modes) > 0 && !(number(c.fact_grid_intervals) > 0) ? number(c.modes) : 0,
+    rate = c.rate > 0 ? c.rate : 0,
+    modes = c.modes > 0 && !(c.fact_grid_intervals > 0) ? c.modes : 0,
     pairs = (...[open, between, close]) =>
       options
         .map(([name, value]) => open + literal(name) + between + literal(value) + close)
@@ -230,7 +233,7 @@ function answer_of(section, heard) {
     rows = of_scene(cells(), answer.scene);
     const value = (c, column) => c.errors[column]?.value; // lists a tap equal to the headline once
     errors = errors_in(rows)
-      .filter(e => !e.tap || !rows.every(c => value(c, e.column) === value(c, e.measure)))
+      .filter(e => !e.tap || !rows.every(c => Object.is(value(c, e.column), value(c, e.measure))))
       .sort((a, b) => group_of(a) - group_of(b));
     measure.replaceChildren(
       ...groups.map((label, k) =>
@@ -250,8 +253,8 @@ function answer_of(section, heard) {
       suite && `record ${suite}`,
       date && new Date(date).toLocaleDateString("en-GB", {dateStyle: "medium", timeZone: "UTC"}),
       cpu && `one core of ${cpu}`,
-      certificate
-        ? `reference known to ${error_text(number(certificate), headline)}`
+      certificate >= 0
+        ? `reference known to ${error_text(certificate, headline)}`
         : "how wrong the reference may be is not known",
     ];
     document
@@ -260,7 +263,7 @@ function answer_of(section, heard) {
         element("strong", {}, answer.scene.replaceAll("_", " ")),
         element("span", {}, facts.filter(Boolean).join(" \u00b7 ")),
       );
-    begin(number(view.get("within")));
+    begin(Number(view.get("within") ?? NaN));
   }
   measure.onchange = async () => {
     const k = measure.selectedIndex;

@@ -1,53 +1,23 @@
-// Data for the report: the folder's CSV tables, read once, with look-ups. `page` holds the tables
-// and is written by report.cpp. The page and draw.js, which makes the SVG files, run the same code.
-// Reads CSV into {columns, rows}, fields as text. A leading apostrophe, which keeps a spreadsheet
-// from reading a formula, is removed.
-function read_csv(text) {
-  const rows = [],
-    plain = /[^,\n]*/y;
-  for (let at = 0, row = []; at < text.length; ) {
-    let field,
-      end = at + 1;
-    if (text[at] === '"') {
-      while (text[end] !== '"' || text[end + 1] === '"') end += text[end] === '"' ? 2 : 1;
-      field = text.slice(at + 1, end++).replaceAll('""', '"');
-    } else {
-      plain.lastIndex = at;
-      field = plain.exec(text)[0];
-      end = plain.lastIndex;
-    }
-    row.push(field.startsWith("'") ? field.slice(1) : field);
-    if (text[end] !== ",") {
-      rows.push(row);
-      row = [];
-    } else if (end + 1 === text.length) row.push("");
-    at = end + 1;
-  }
-  return {columns: rows[0] ?? [], rows: rows.slice(1)};
-}
-
-const number = text =>
-  text === "" || text === undefined
-    ? NaN
-    : text === "inf"
-      ? Infinity
-      : text === "-inf"
-        ? -Infinity
-        : Number(text);
+// Data for the report: the folder's tables, with look-ups. `page` holds the tables and is written by
+// report.cpp. The page and draw.js, which makes the SVG files, run the same code.
+// Field of a table: a number, a truth value or a text; NaN for a blank. JSON has [1] for Infinity.
+const field = x => (x === null ? NaN : Array.isArray(x) ? x[0] * Infinity : x);
+const is_blank = x => x === "" || x === undefined || x === null || Number.isNaN(x);
+const plain = x => (is_blank(x) ? "" : typeof x === "string" ? x : String(Number(x)));
 const distinct = values => [...new Set(values)];
 const finite = x => (Number.isFinite(x) ? x : null);
 const digits = (x, n) => String(Number(x.toPrecision(n))); // "280", "0.0021"
 const percent = x => `${digits(100 * x, 2)}\u00a0%`;
-const decibels = x => `${digits(x, 2)}\u00a0dB`;
-const kilohertz = hz => (Number.isNaN(hz) ? "" : `${digits(hz / 1000, 5)} kHz`);
+const kilohertz = hz => (hz > 0 ? `${digits(hz / 1000, 5)} kHz` : "");
 
 const tables = {}; // name: {columns, rows, records}; `n` in a record is the row number
 function table(name) {
-  return (tables[name] ??= with_records(read_csv(page.tables[name] ?? "")));
+  return (tables[name] ??= with_records(page.tables[name] ?? {columns: [], rows: []}));
 }
-function with_records(t) {
+function with_records({columns, rows}) {
+  const t = {columns, rows: rows.map(row => row.map(field))};
   t.records = t.rows.map((row, n) =>
-    Object.assign(Object.fromEntries(t.columns.map((column, k) => [column, row[k]])), {n}),
+    Object.assign(Object.fromEntries(columns.map((column, k) => [column, row[k]])), {n}),
   );
   return t;
 }
@@ -65,13 +35,12 @@ function without(t, names) {
 
 // Cells with the program's judgement: `trusted`, `may_win`, `line` (series in the chart with the
 // front; none if another number of modes is better), and errors by name.
-const error_name = ({measure, tap}) => measure + (tap && "_" + tap); // tap "": headline
+const error_name = ({measure, tap}) => measure + (is_blank(tap) ? "" : "_" + tap); // blank: headline
 let joined = null;
 function cells() {
   if (joined) return joined;
   joined = records("cells");
-  for (const c of joined)
-    Object.assign(c, {trusted: c.trusted === "1", may_win: c.may_win === "1", errors: {}});
+  for (const c of joined) c.errors = {};
   for (const e of records("errors")) joined[e.row].errors[error_name(e)] = e;
   return joined;
 }
@@ -79,7 +48,7 @@ const options_of = c => page.options[c.options] ?? []; // [[name, value]]
 const is_matched = c =>
   options_of(c).some(([name, value]) => name === "compliance" && value === "matched");
 // Figure `what` for an error: value, floor, certificate; for a bound also shown, text.
-const figure_of = (cell, error, what) => number(cell.errors[error]?.[what]);
+const figure_of = (cell, error, what) => cell.errors[error]?.[what] ?? NaN;
 const is_bounded = (cell, error) => Boolean(cell.errors[error]?.text);
 const error_of = (cell, error) =>
   figure_of(cell, error, is_bounded(cell, error) ? "shown" : "value");
@@ -94,10 +63,10 @@ function bound_of(cell, error) {
   };
 }
 const of_scene = (rows, scene) => rows.filter(row => row.problem === scene);
-const has_finite = (rows, column) => rows.some(row => Number.isFinite(number(row[column])));
+const has_finite = (rows, column) => rows.some(row => Number.isFinite(row[column]));
 
 // Start of the error windows in these rows, for a title.
-const after_pluck = rows => (number(rows[0]?.free_from_s) > 0 ? " after the last pluck" : "");
+const after_pluck = rows => (rows[0]?.free_from_s > 0 ? " after the last pluck" : "");
 // Errors for the menus of a scene, headline first: {column, title, menu, name, measure, tap}.
 let taps = null;
 function errors_in(rows) {

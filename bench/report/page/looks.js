@@ -277,12 +277,9 @@ const quantity = (field, axis = {}, scale = {}) => ({
 });
 const log = padding => ({type: "log", nice: false, padding});
 const is_percent = error => error.startsWith("error_l2_");
+const unit_of_error = error => page.measures.find(([measure]) => error.startsWith(measure))?.[3];
 const error_text = (x, error) =>
-  is_percent(error) || /convergence|relative/.test(error)
-    ? percent(x)
-    : error.includes("_hz")
-      ? `${digits(x, 2)}\u00a0Hz`
-      : decibels(x);
+  unit_of_error(error) === "1" ? percent(x) : `${digits(x, 2)}\u00a0${unit_of_error(error)}`;
 // Labels decades; on an axis below three decades 2 and 5 as well. `text`: expression for a
 // label.
 function decades(channel, text) {
@@ -309,10 +306,7 @@ const brought_out = {
   value: 0.1,
 };
 // Tooltip: pairs of name and value, without empty values.
-const tooltip = pairs =>
-  Object.fromEntries(
-    pairs.filter(([, value]) => value !== "" && value !== null && value !== undefined),
-  );
+const tooltip = pairs => Object.fromEntries(pairs.filter(([, value]) => !is_blank(value)));
 const hover = {tooltip: {field: "tooltip", type: "nominal"}};
 // Zooms by wheel or pinch with Ctrl, by dragging, and by the page's buttons (chart.js), which set
 // the signals zoom_FIELD.

@@ -17,14 +17,12 @@ const outcomes = {
 // Axis of a map: numeric if all values are numbers, and logarithmic if all are positive and span
 // more than five to one.
 function map_axis(rows, which) {
-  const numbers = rows.every(r => !Number.isNaN(number(r[which]))),
-    places = distinct(rows.map(r => number(r[which])).filter(x => !Number.isNaN(x))).sort(
-      (a, b) => a - b,
-    );
+  const numbers = rows.every(r => Number.isFinite(r[which])),
+    places = distinct(rows.map(r => r[which]).filter(Number.isFinite)).sort((a, b) => a - b);
   const least = places[0] ?? 0,
     most = places.at(-1) ?? 0,
     logarithmic = numbers && least > 0 && most > 5 * least,
-    title = with_unit(rows[0][which + "_key"]);
+    title = with_unit(plain(rows[0][which + "_key"]));
   const on = logarithmic ? Math.log : x => x,
     back = logarithmic ? Math.exp : x => x;
   const around = x => {
@@ -52,7 +50,7 @@ function map_axis(rows, which) {
     around,
     title,
     channel,
-    value: text => (numbers ? number(text) : text),
+    value: x => (numbers ? x : plain(x)),
   };
 }
 
@@ -61,8 +59,8 @@ function map_rows(name) {
     x = map_axis(runs, "x"),
     y = map_axis(runs, "y");
   const tiles = runs.map(r => {
-    const [left, right] = x.numbers ? x.around(number(r.x)) : [],
-      [below, upper] = y.numbers ? y.around(number(r.y)) : [];
+    const [left, right] = x.numbers ? x.around(r.x) : [],
+      [below, upper] = y.numbers ? y.around(r.y) : [];
     return {
       kind: "tile",
       series: r.series,
@@ -87,15 +85,14 @@ function map_rows(name) {
     ? records("boundaries")
         .filter(b => b.map === name)
         .map(b => {
-          const low = number(b.x_low),
-            high = number(b.x_high);
+          const {x_low: low, x_high: high} = b;
           return {
             kind: "line",
             series: b.series,
             x: finite(low > 0 && high > 0 ? Math.sqrt(low * high) : (low + high) / 2),
             y: y.value(b.y),
             between: b.between,
-            theory: finite(number(b.theory)),
+            theory: finite(b.theory),
           };
         })
     : [];
@@ -316,7 +313,7 @@ function overview_spec(choice, print) {
 }
 function overview_section() {
   if (!records("maps").length) return null;
-  const rows = shares().map(s => [s.series, s.map, String(s.sound), String(s.runs)]);
+  const rows = shares().map(s => [s.series, s.map, s.sound, s.runs]);
   return {
     id: "overview",
     heading: "How often each scheme stays sound",
@@ -339,7 +336,7 @@ function overview_section() {
 function finding_of_maps() {
   const all = shares(),
     names = distinct(all.map(s => s.series)),
-    sum = (name, key) => all.reduce((n, s) => n + (s.series === name ? Number(s[key]) : 0), 0),
+    sum = (name, key) => all.reduce((n, s) => n + (s.series === name ? s[key] : 0), 0),
     share = name => sum(name, "sound") / sum(name, "runs"),
     words = name => `in ${sum(name, "sound")} of ${sum(name, "runs")} runs`,
     [best, ...rest] = [...names].sort().sort((a, b) => share(b) - share(a));
@@ -356,16 +353,16 @@ function path_spec(choice, print) {
     label: `${r.step}. ${r.change}`,
     before: k ? `${all[k - 1].step}. ${all[k - 1].change}` : null,
     series: variant(r),
-    cost: number(r.cost_s_per_s),
-    cost_before: k ? number(all[k - 1].cost_s_per_s) : null,
-    error: number(r.error),
-    target: number(r.target),
+    cost: r.cost_s_per_s,
+    cost_before: k ? all[k - 1].cost_s_per_s : null,
+    error: r.error,
+    target: r.target,
     tooltip: tooltip([
       ["", r.change],
       ["scheme", spoken(variant(r))],
       ["modes", r.modes],
-      ["rate", kilohertz(number(r.rate))],
-      ["cost", cost_text(number(r.cost_s_per_s), "cost_s_per_s")],
+      ["rate", kilohertz(r.rate)],
+      ["cost", cost_text(r.cost_s_per_s, "cost_s_per_s")],
       ["error", r.error],
       ["uncertainty of the reference", r.certificate],
     ]),
@@ -516,12 +513,12 @@ function finding_of_trim() {
     last = path.at(-1);
   if (!last) return "";
   const scene = page.trimmed,
-    target = number(last.target),
+    {target} = last,
     within = is_ratio(last.measure) ? `${digits(100 * target, 6)} %` : `${digits(target, 6)} dB`;
   if (last.within !== "yes") return `No model of ${scene} within ${within} was found`;
   return (
     `${scene} within ${within}: the trimmed model costs ` +
-    `${digits(number(first.cost_s_per_s) / number(last.cost_s_per_s), 2)} times less than ` +
+    `${digits(first.cost_s_per_s / last.cost_s_per_s, 2)} times less than ` +
     "the whole scene as published"
   );
 }

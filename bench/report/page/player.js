@@ -103,7 +103,7 @@ function hear_it() {
     player.seen?.();
   };
   player.prefer = best => {
-    const k = own.findIndex(s => s.series === best?.series && s.hertz === number(best?.rate));
+    const k = own.findIndex(s => s.series === best?.series && s.hertz === best?.rate);
     if (k < 0 || own[k] === player.pair[1]) return;
     selects[1].selectedIndex = k;
     choose_pair();

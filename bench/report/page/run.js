@@ -10,7 +10,7 @@ function run_spec(choice, print) {
     narrow = print && print_width() < 500,
     width = narrow ? print_width() : print ? print_width() - 60 : 700;
   const of = (name, columns) =>
-    records(name).map(r => Object.fromEntries(columns.map(c => [c, finite(number(r[c]))])));
+    records(name).map(r => Object.fromEntries(columns.map(c => [c, finite(r[c])])));
   const axis = (field, title, scale = {}, format = "~g") => ({
       field,
       type: "quantitative",
@@ -44,7 +44,7 @@ function run_spec(choice, print) {
       panel(
         contact.title,
         narrow ? 14 : 26,
-        records("contacts").map(r => ({tap: r.tap, a: number(r.from), b: number(r.to)})),
+        records("contacts").map(r => ({tap: r.tap, a: r.from, b: r.to})),
         {type: "bar", height: narrow ? 10 : 16},
         {
           x: {

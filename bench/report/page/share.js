@@ -8,15 +8,15 @@ const all_schemes = "best of all";
 function solved_within(within) {
   const cheapest = new Map([[all_schemes, new Map()]]);
   for (const f of records("fronts")) {
-    if (!(number(f.error) <= within)) continue;
+    if (!(f.error <= within)) continue;
     for (const series of [all_schemes, f.scheme]) {
       const costs = cheapest.get(series) ?? new Map(),
-        cost = number(f.cost_s_per_s);
+        cost = f.cost_s_per_s;
       cheapest.set(series, costs.set(f.string, Math.min(cost, costs.get(f.string) ?? Infinity)));
     }
   }
   const solved = cheapest.get(all_schemes),
-    decided = strings_in().filter(s => number(s.uncertainty) <= within / 2 || solved.has(s.string));
+    decided = strings_in().filter(s => s.uncertainty <= within / 2 || solved.has(s.string));
   return {cheapest, decided: decided.length};
 }
 const within_text = within => `within ${percent(within)}`;
@@ -118,7 +118,7 @@ function share_panel(within, names, domain, first, width, print) {
 }
 const share_tolerances = [0.1, 0.01, 0.001];
 function share_spec(choice, print) {
-  const costs = records("fronts").map(f => number(f.cost_s_per_s)),
+  const costs = records("fronts").map(f => f.cost_s_per_s),
     domain = [0.8 * Math.min(...costs), 1.2 * Math.max(...costs)],
     names = schemes_in(records("fronts")),
     one = choice.within_field > 0,
@@ -168,12 +168,12 @@ function string_spec({scene}, print) {
     {color, shape, strokeDash} = encodings_of(names),
     rows = fronts.map(f => ({
       series: variant(f),
-      x: number(f.cost_s_per_s),
-      y: number(f.error),
+      x: f.cost_s_per_s,
+      y: f.error,
       tooltip: tooltip([
         ["settings", `${spoken(variant(f))}, ${f.modes} modes, ${f.rate} Hz`],
-        ["error", percent(number(f.error))],
-        ["cost", cost_text(number(f.cost_s_per_s), "cost_s_per_s")],
+        ["error", percent(f.error)],
+        ["cost", cost_text(f.cost_s_per_s, "cost_s_per_s")],
       ]),
     })),
     string = strings_in().find(s => s.string === scene) ?? {};
@@ -203,18 +203,18 @@ function string_spec({scene}, print) {
 function advice_spec(choice, print) {
   const names = share_tolerances.map(within_text),
     given = records("advice")
-      .filter(a => a.outcome !== "none" && number(a.estimate) > 0 && number(a.error) > 0)
+      .filter(a => a.outcome !== "none" && a.estimate > 0 && a.error > 0)
       .map(a => ({
-        series: within_text(number(a.tolerance)),
-        x: number(a.estimate),
-        y: number(a.error),
-        known: number(a.uncertainty) <= number(a.tolerance) / 2,
+        series: within_text(a.tolerance),
+        x: a.estimate,
+        y: a.error,
+        known: a.uncertainty <= a.tolerance / 2,
         tooltip: tooltip([
           ["string", a.string],
           ["settings", `${spoken(variant(a))}, ${a.modes} modes, ${a.rate} Hz`],
-          ["estimate", percent(number(a.estimate))],
-          ["true error", percent(number(a.error))],
-          ["reference known to", percent(number(a.uncertainty))],
+          ["estimate", percent(a.estimate)],
+          ["true error", percent(a.error)],
+          ["reference known to", percent(a.uncertainty)],
         ]),
       })),
     all = given.flatMap(a => [a.x, a.y]),
@@ -279,7 +279,7 @@ function finding_of_share() {
 function share_section() {
   if (!strings_in().length) return null;
   const timed = records("fronts").length > 0,
-    advised = records("advice").some(a => number(a.error) > 0);
+    advised = records("advice").some(a => a.error > 0);
   const within = {
     label: "within",
     key: "within_field",

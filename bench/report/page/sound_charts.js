@@ -26,8 +26,8 @@ function sounds() {
       ...row,
       ...sound,
       reference,
-      hertz: number(row.rate),
-      detail: reference ? "" : kilohertz(number(row.rate)),
+      hertz: row.rate,
+      detail: reference ? "" : kilohertz(row.rate),
       name:
         row.what ||
         (reference ? `reference ${reference_name(row.problem)}` : (row.series ?? row.name)),
@@ -325,7 +325,7 @@ function heard_cells() {
         status: c.status,
         problem: c.problem,
         series: c.series,
-        rate: several ? ` at ${digits(number(c.rate) / 1000, 6)} kHz` : "",
+        rate: several ? ` at ${digits(c.rate / 1000, 6)} kHz` : "",
         levels: own,
         reference: truth,
         against: own && truth && on_one_grid(own, truth) ? truth : null,

@@ -6,17 +6,20 @@ const element = (name, properties = {}, ...children) => {
   return e;
 };
 
-// Field with the apostrophe of the program's files: no spreadsheet reads a formula in a text.
-function csv_field(plain) {
-  const text = /^[=+@'\t-]/.test(plain) && Number.isNaN(number(plain)) ? "'" + plain : plain;
-  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+// Field as in the program's files: quotation marks keep a text a text, and an apostrophe keeps a
+// spreadsheet from reading a formula.
+function csv_field(x) {
+  if (typeof x !== "string") return plain(x).replace("Infinity", "inf");
+  const number_like = /^[-+.]*(\d|inf)/i.test(x),
+    text = /^[=+@'\t-]/.test(x) && !number_like ? "'" + x : x;
+  return number_like || /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
 function table_of(table, caption) {
   const at = Object.fromEntries(table.columns.map((name, k) => [name, k]));
   const texts = new Set(
     table.columns.filter(name =>
-      table.rows.some(row => row[at[name]] !== "" && Number.isNaN(number(row[at[name]]))),
+      table.rows.some(row => typeof row[at[name]] === "string" && row[at[name]] !== ""),
     ),
   );
   const all = element("input", {type: "checkbox"});
@@ -35,9 +38,9 @@ function table_of(table, caption) {
   // Bound shown instead of the measured value.
   const shown = (row, name) => table.shown?.[name]?.[place.get(row)];
   function written(row, name) {
-    const text = row[at[name]];
+    const text = plain(row[at[name]]);
     if (texts.has(name) || text === "") return text;
-    const x = number(text),
+    const x = Number(row[at[name]]),
       bound = shown(row, name);
     if (bound) return bound;
     if (!Number.isFinite(x)) return x > 0 ? "\u221e" : "\u2212\u221e";
@@ -47,12 +50,10 @@ function table_of(table, caption) {
       : String(Number(x.toPrecision(4)));
   }
   function compare(a, b) {
-    const x = a[at[sorted]],
-      y = b[at[sorted]],
+    const p = a[at[sorted]],
+      q = b[at[sorted]],
       sign = downward ? -1 : 1;
-    if (texts.has(sorted)) return sign * x.localeCompare(y);
-    const p = number(x),
-      q = number(y);
+    if (texts.has(sorted)) return sign * plain(p).localeCompare(plain(q));
     // Empty values go last.
     return Number.isNaN(p)
       ? Number.isNaN(q)
@@ -97,7 +98,7 @@ function table_of(table, caption) {
     );
     const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
     const found = table.rows.filter(row => {
-      const text = row.join(" ").toLowerCase();
+      const text = row.map(plain).join(" ").toLowerCase();
       return words.every(word => text.includes(word));
     });
     const rows = (sorted ? found.sort(compare) : found).slice(0, whole ? Infinity : at_first);
@@ -111,7 +112,7 @@ function table_of(table, caption) {
         const status = row[at.status];
         const tr = element("tr", {
           className:
-            row[at.pareto] === "1"
+            row[at.pareto] === true
               ? "front"
               : (status === undefined || status === "ok") && !row[at.flags]
                 ? ""
@@ -125,7 +126,8 @@ function table_of(table, caption) {
           );
           td.dataset.name = name.replaceAll("_", " ");
           if (td.textContent === "") td.classList.add("empty");
-          if (!texts.has(name)) td.title = (shown(row, name) ? "measured: " : "") + row[at[name]];
+          if (!texts.has(name))
+            td.title = (shown(row, name) ? "measured: " : "") + plain(row[at[name]]);
           tr.append(td);
         }
         return tr;

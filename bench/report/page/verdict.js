@@ -2,10 +2,10 @@
 // program decides: readers drag the tolerance, and the page looks the answer up.
 const scheme_words = (name, own) => spoken(name, own).replaceAll("_", " ");
 // Modes and rate: ": 133 modes at 88.2 kHz". A grid takes its nodes from the rate: " at 88.2 kHz".
-const modes_words = c =>
-    c.modes && !(number(c.fact_grid_intervals) > 0) ? `${c.modes} modes` : "",
-  rate_words = c => (c.rate ? `at ${digits(number(c.rate) / 1000, 4)}\u00a0kHz` : ""),
-  place_words = c => (modes_words(c) && ": " + modes_words(c)) + (c.rate && " " + rate_words(c));
+const modes_words = c => (c.modes && !(c.fact_grid_intervals > 0) ? `${c.modes} modes` : ""),
+  rate_words = c => (c.rate ? `at ${digits(c.rate / 1000, 4)}\u00a0kHz` : ""),
+  place_words = c =>
+    (modes_words(c) && ": " + modes_words(c)) + (rate_words(c) && " " + rate_words(c));
 const option_words = c =>
   options_of(c)
     .map(([name, value]) =>
@@ -30,7 +30,7 @@ function cheapest_within(within, {problem}, error, offers) {
     of = row => offers.find(o => o.c.n === row);
   return {best: best === null ? null : of(best), ties: ties.map(of), perhaps: perhaps.map(of)};
 }
-const has_cost = c => number(c.cost_s_per_s) > 0;
+const has_cost = c => c.cost_s_per_s > 0;
 // Schemes run without any measured cost, if others have costs.
 function unpriced_in(rows) {
   const priced = new Set(rows.filter(has_cost).map(c => c.scheme));
@@ -49,9 +49,9 @@ function answer_at(rows, error, within) {
         c,
         scheme: c.scheme,
         ...bound_of(c, error),
-        cost: number(c.cost_s_per_s),
-        lower: number(c.cost_lower),
-        upper: number(c.cost_upper),
+        cost: c.cost_s_per_s,
+        lower: c.cost_lower,
+        upper: c.cost_upper,
       })),
     priced = offers.filter(o => o.cost > 0),
     found = cheapest_within(within, rows[0] ?? {}, error, priced),
@@ -125,7 +125,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
         c.problem === rows[0].problem &&
         c.status === "none" &&
         c.measure === error &&
-        number(c.target) >= within,
+        c.target >= within,
     );
     return perhaps.length
       ? [
@@ -143,8 +143,8 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
         : [];
   }
   const {c, cost} = best,
-    limit = number(c.fact_reference_limit_hz) / 1000, // highest mode of a measured table
-    worst = number(c.worst_block_of_deadline),
+    limit = c.fact_reference_limit_hz / 1000, // highest mode of a measured table
+    worst = c.worst_block_of_deadline,
     whole = error.replace(/error_l2_(10|50)ms/, "error_l2_whole"),
     later = c.errors[whole];
   return [
@@ -165,7 +165,7 @@ function consequences({error, within, best, ties, perhaps, published, nearest}, 
     ties.length && `No dearer by this clock: ${all(ties)}.`,
     perhaps.length &&
       `Perhaps for less: ${all(perhaps)}; the reference is not known well enough to tell.`,
-    Number.isNaN(number(scene_facts(rows).certificate)) && `${unknown}; this is as measured.`,
+    !(scene_facts(rows).certificate >= 0) && `${unknown}; this is as measured.`,
     limit > 0 && `What lies above ${digits(limit, 2)} kHz is not in your table.`,
     scene_facts(rows).busy && `Costs: ${scene_facts(rows).busy}.`,
   ].filter(Boolean);
@@ -225,7 +225,7 @@ function cell_section() {
   const all = table("cells"),
     own = ["problem", "series", "trusted", "may_win", "line"],
     columns = all.columns.filter(
-      (name, k) => !own.includes(name) && all.rows.some(row => row[k] !== ""),
+      (name, k) => !own.includes(name) && all.rows.some(row => !is_blank(row[k])),
     );
   const shown = {};
   for (const e of records("errors"))

@@ -20,34 +20,31 @@ function place_label(rate, modes, modes_differ) {
   return Number.isNaN(rate) ? text : `${text}${text && ", "}${digits(rate / 1000, 4)} kHz`;
 }
 // Series with several numbers of modes, among schemes with a choice of modes.
-function of_several_modes(rows) {
+function of_several_modes(rows, series) {
   const modes = new Map();
   for (const c of rows)
-    if (!(number(c.fact_grid_intervals) > 0))
-      modes.set(c.series, (modes.get(c.series) ?? new Set()).add(c.modes));
-  return new Set([...modes].filter(([, all]) => all.size > 1).map(([series]) => series));
+    if (!(c.fact_grid_intervals > 0))
+      modes.set(c[series], (modes.get(c[series]) ?? new Set()).add(c.modes));
+  return new Set([...modes].filter(([, all]) => all.size > 1).map(([name]) => name));
 }
 
 // Points of a chart from cells: {series, x, y, ...}. `series`: column that names the line.
 function points_of(rows, error, cost, series = "series") {
-  const named = rows
-      .filter(c => c.status !== "refused" && c[series])
-      .map(c => ({...c, series: c[series]})),
-    looks = looks_of(distinct(named.map(c => c.series)));
-  const several = of_several_modes(named);
-  return named.map(c => {
-    const rate = number(c.rate),
-      modes = number(c.modes),
-      x = number(c[cost]) * (cost === "rate" ? 1e-3 : 1),
+  const drawn = rows.filter(c => c.status !== "refused" && c[series]),
+    looks = looks_of(distinct(drawn.map(c => c[series]))),
+    several = of_several_modes(drawn, series);
+  return drawn.map(c => {
+    const {rate, modes, [series]: name} = c,
+      x = c[cost] * (cost === "rate" ? 1e-3 : 1),
       y = error_of(c, error),
-      differ = several.has(c.series);
+      differ = several.has(name);
     const label = place_label(rate, modes, differ),
       timed = cost === "cost_s_per_s" && x > 0,
-      from = timed ? finite(number(c.cost_lower)) : null,
-      to = timed ? finite(number(c.cost_upper)) : null,
+      from = timed ? finite(c.cost_lower) : null,
+      to = timed ? finite(c.cost_upper) : null,
       bounded = is_bounded(c, error) ? "\u2264 " : "";
     return {
-      series: c.series,
+      series: name,
       scheme: c.scheme,
       problem: c.problem,
       n: c.n,
@@ -62,10 +59,10 @@ function points_of(rows, error, cost, series = "series") {
       status: c.status,
       flags: c.flags ?? "",
       may_win: c.may_win,
-      control: looks.get(c.series).control,
+      control: looks.get(name).control,
       order: finite(Number.isNaN(rate) ? modes : differ ? x : rate),
       tooltip: tooltip([
-        ["scheme", spoken(c.series)],
+        ["scheme", spoken(name)],
         ["rate", kilohertz(rate)],
         ["modes", c.modes],
         ["error", Number.isFinite(y) ? bounded + error_text(y, error) : ""],
