@@ -344,7 +344,10 @@ const parts = {
     await until("shown.scene.name === 'two_point_bridge' && shown.verdict", "an estimate");
     await until("!by_id('go_on').hidden", "the button that goes on");
     await settled_chart();
-    expect((await see("chart.points.length")) === 20, "the chart is judged by the estimate");
+    expect(
+      (await see("chart.points.length")) === 20,
+      "the chart is whole before the exact solution",
+    );
     await see("by_id('go_on').click(); 0");
     await until(
       "client.received.has('charted') && shown.verdict && by_id('go_on').hidden",
@@ -952,6 +955,13 @@ const parts = {
           (await see("document.documentElement.scrollWidth")) <= width,
           `nothing is wider than ${width}`,
         );
+        const cut = await see(
+          "(() => { const svg = document.querySelector('#chart svg'), box = " +
+            "svg.getBoundingClientRect(); return [...svg.querySelectorAll('text')].filter(t => { " +
+            "const {left, right} = t.getBoundingClientRect(); return left < box.left || right > " +
+            "box.right; }).map(t => t.textContent); })()",
+        );
+        expect(cut.length === 0, `texts of the chart are whole at ${width}: ${cut}`);
         if (!shots) continue;
         mkdirSync(shots, {recursive: true});
         for (const [name, whole] of [
