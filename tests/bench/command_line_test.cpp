@@ -295,6 +295,9 @@ TEST(CommandLine, WhereNoSettingIsWithinTheToleranceNothingIsRunAndTheNearestIsN
     EXPECT_TRUE(says(o.err, "nothing is known to be within 1e-09 %"));
     EXPECT_TRUE(says(o.err, "nearest: modal_two_"));
     EXPECT_TRUE(says(o.err, "try --within 0.0"));
+    const std::string bands =
+        jvari(scratch, "run tanpura_c3 --of third_octave_db --within 1e-9dB").err;
+    EXPECT_TRUE(says(bands, "dB --of third_octave_db")) << bands;
     EXPECT_EQ(scratch.files(), 0);
     EXPECT_EQ(jvari(scratch, "run tanpura_c3 --within 1% --scheme finite_difference_theta").code,
               3);
