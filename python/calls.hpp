@@ -322,11 +322,15 @@ inline py::dict tables_of(const suite::Suite& suite, const std::filesystem::path
         [&] {
             const suite::MapRun maps = suite::run_maps(own.cells, resume, suite.maps, points,
                                                        catalogue, files, jobs, PythonListener());
+            std::vector<suite::Failure> failures;
+            if (!folder.empty())
+                failures = suite::failures_of(own.cells, resume, maps, catalogue, files, jobs,
+                                              PythonListener());
             const study::Study run = study::run(plan, own.cells, resume, jobs, PythonListener());
-            cells = store::indented(
-                compare::json_of(compare::with_front(study::cells_of(plan, run.records))));
+            cells = store::indented(compare::json_of(
+                report::written(folder, suite, plan, run, maps, failures, PythonListener()).cells));
             tables.emplace_back("maps", suite::maps_table(maps));
-            tables.emplace_back("boundaries", suite::boundaries_table(maps, {}));
+            tables.emplace_back("boundaries", suite::boundaries_table(maps, failures));
         },
         [&] {
             return folder.empty() ? "nothing is kept, for there is no out"

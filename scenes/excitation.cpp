@@ -127,10 +127,10 @@ std::optional<double> steady_from(const Pluck& e, double until) {
 double free_from(const Scene& scene) {
     double from = 0;
     for (const String& s : scene.strings)
-        if (s.pluck && s.pluck->amplitude != 0 && s.pluck->start < scene.duration)
-            from = std::max(
-                from,
-                steady_from(*s.pluck, scene.duration).value_or(s.pluck->start + s.pluck->duration));
+        if (const auto& p = s.pluck; p && p->amplitude != 0 && p->start < scene.duration) {
+            const double end = steady_from(*p, scene.duration).value_or(p->start + p->duration);
+            from = std::max(from, p->kind == PluckKind::blow ? p->start : end);
+        }
     return from;
 }
 

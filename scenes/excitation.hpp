@@ -33,9 +33,9 @@ double next_knot(const Pluck&, double t);
 // example a side load; nothing if it changes or ends.
 std::optional<double> steady_from(const Pluck&, double until);
 
-// Instant [s] from which on nothing pushes any more, or with a steady force: the end of the last
-// pluck that begins before the scene ends, 0 without one. All error windows begin there, because
-// every model moves alike while a finger holds the string.
+// Instant [s] at which all error windows begin: the end of the last pluck that begins before the
+// scene ends, because every model moves alike while a finger holds the string; the start of a blow;
+// for a force that lasts, where it is steady. 0 without a pluck.
 double free_from(const Scene&);
 
 // Coefficient of sin(beta x) [m] in the smoothed triangle: 2AL^2/(i^2 pi^2 x0 (L-x0)) sin(beta x0)

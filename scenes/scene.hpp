@@ -175,6 +175,8 @@ using Start = std::variant<ModeShape, TriangleShape, TableStart, RestStart>;
 
 // Force: from a file, with straight lines between its rows, or by van Walstijn et al. 2016, eqs
 // 14-15.
+// A pull lets go at its end, a blow sounds from its start.
+enum class PluckKind { pull, blow };
 struct Pluck {
     double amplitude = 0;   // a_e; for a file the largest force [N]
     double duration = 0;    // tau_e [s]
@@ -186,6 +188,7 @@ struct Pluck {
     // from the file: instants [s], ascending, and the force relative to the largest one
     std::vector<double> time = {}, share = {};
     double peak = 0;  // the largest force in the file [N]
+    PluckKind kind = PluckKind::pull;
     bool operator==(const Pluck&) const = default;
 };
 struct Polarisation {

@@ -95,7 +95,7 @@ public:
             fail(table_, path_, table_.found(), "a table");
         Names names(table_);
         fields(names, part);
-        for (const Member& m : std::get<TomlTable>(table_.content)) refuse_unknown(m, names);
+        refuse_unknown(std::get<TomlTable>(table_.content), names);
         fields(*this, part);
     }
 
@@ -372,12 +372,20 @@ private:
         fail(*v, at(key), v->found(),
              expected + (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
     }
-    void refuse_unknown(const Member& m, const Names& names) const {
+    void refuse_unknown(const TomlTable& members, const Names& names) const {
         const auto& known = names.names;
-        if (std::find(known.begin(), known.end(), m.key) != known.end()) return;
-        if (m.value.place > 0 &&
-            std::find(names.idle.begin(), names.idle.end(), m.key) != names.idle.end())
-            return;
+        const auto among = [](const std::vector<std::string>& keys, const Member& m) {
+            return std::find(keys.begin(), keys.end(), m.key) != keys.end();
+        };
+        std::vector<Member> unknown;
+        for (const Member& m : members)
+            if (!among(known, m) && !(m.value.place > 0 && among(names.idle, m)))
+                unknown.push_back(m);
+        if (unknown.empty()) return;
+        const Member& m = unknown[0];
+        std::string others;
+        for (std::size_t k = 1; k < std::min<std::size_t>(unknown.size(), 9); ++k)
+            others += (k > 1 ? ", " : "; unknown as well: ") + found_text(unknown[k].key);
         const bool bare = !m.key.empty() &&
                           m.key.find_first_not_of(
                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
@@ -390,7 +398,8 @@ private:
                              at(bare ? m.key : found_text(m.key)) + ": unknown key; " +
                              (start          ? "it is called \"start\""
                               : near.empty() ? "known here: " + list_of(known)
-                                             : "did you mean " + quote(near) + "?"));
+                                             : "did you mean " + quote(near) + "?") +
+                             others);
     }
 
     const Document& document_;

@@ -76,6 +76,7 @@ inline constexpr const char* damping_names[] = {"none", "polynomial", "quality_f
 inline constexpr const char* barrier_names[] = {"lumped", "profile"};
 inline constexpr const char* loss_law_names[] = {"hunt_crossley", "clipped"};
 inline constexpr const char* side_names[] = {"below", "above"};
+inline constexpr const char* pluck_names[] = {"pull", "blow"};
 inline constexpr const char* curve_names[] = {"flat", "line", "parabola", "table"};
 inline constexpr const char* shape_names[] = {"mode", "triangle"};
 
@@ -242,6 +243,7 @@ void fields(auto& pass, Is<Pluck> auto& p) {
     }
     pass.number("position", p.position, any, "m");
     pass.number("width", p.width, not_negative, "m", 0.0);
+    pass.choice("kind", p.kind, pluck_names, PluckKind::pull);
 }
 void fields(auto& pass, Is<Polarisation> auto& p) {
     pass.number("rotation", p.rotation, any, "rad");

@@ -1,5 +1,5 @@
 // assemble.mjs BUILD SOURCES: writes BUILD/play.html, one file with the module, the worker and the
-// scenes of the library.
+// scenes of the library with their solutions.
 import {readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join, resolve} from "node:path";
 import {gzipSync} from "node:zlib";
@@ -12,6 +12,25 @@ const library = Object.fromEntries(
     .sort()
     .map(name => [name.slice(0, -5), readFileSync(join(sources, "scenes", name), "utf8")]),
 );
+// Solutions of strings as they stand in the library, from the set of problems: the headline's tap
+// over 50 ms after the pluck, 16 bits a sample, as differences, which pack well.
+const problems = join(sources, "results/problems"),
+  solutions = {};
+for (const file of readdirSync(problems).filter(name =>
+  Object.hasOwn(library, name.slice(0, -5)),
+)) {
+  const {reference, tap_quantities} = JSON.parse(readFileSync(join(problems, file), "utf8")),
+    tap = Math.max(0, tap_quantities.indexOf("nut_force")),
+    {name, modes, free_from_s: from, uncertainty_l2_50ms: uncertainty, trace} = reference,
+    first = Math.ceil(44100 * from - 1e-6),
+    after = trace[tap].slice(first, Math.floor(44100 * (from + 0.05) + 1e-6) + 1),
+    unit = after.reduce((most, y) => Math.max(most, Math.abs(y)), 0) / 32767,
+    whole = after.map(y => Math.round(y / unit));
+  solutions[file.slice(0, -5)] = {
+    ...{reference: name, modes, window: 0.05, uncertainty: uncertainty[tap], unit},
+    differences: whole.map((y, k) => y - (whole[k - 1] ?? 0)),
+  };
+}
 const wasm = readFileSync(join(build, "jvari.wasm"));
 
 const safe = text => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
@@ -21,6 +40,7 @@ const parts = {
   CORE: safe(web("core.js")),
   WORKER: safe(web("worker.js")),
   MODULE: gzipSync(wasm, {level: 9}).toString("base64"),
+  SOLUTIONS: gzipSync(JSON.stringify(solutions), {level: 9}).toString("base64"),
   LIBRARY: safe(JSON.stringify(library)),
   PROGRAM: safe(
     [

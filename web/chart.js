@@ -154,8 +154,7 @@ function draw_chart() {
   });
   const grid = (x1, x2, y1, y2, name = "grid") =>
       art.append(svg("line", {x1, x2, y1, y2, class: name})),
-    words = (x, y, anchor, text) => art.append(svg("text", {x, y, "text-anchor": anchor}, text)),
-    middle = (left + width - right) / 2;
+    words = (x, y, anchor, text) => art.append(svg("text", {x, y, "text-anchor": anchor}, text));
   for (let k = y0; k <= y1; ++k) {
     grid(left, width - right, Y(10 ** k), Y(10 ** k));
     words(left - 6, Y(10 ** k) + 4, "end", `${digits(100 * 10 ** k)} %`);
@@ -164,7 +163,7 @@ function draw_chart() {
     grid(X(10 ** k), X(10 ** k), top, height - bottom, k === 0 ? "real-time" : "grid");
     words(X(10 ** k), height - bottom + 16, "middle", time_text(10 ** k));
   }
-  words(middle, height - 6, "middle", "computing time for a second of sound, in this browser");
+  words(width - 2, height - 6, "end", "computing time for a second of sound, in this browser");
   const uncertainty = points[0]?.uncertainty;
   if (uncertainty > 10 ** y0)
     art.append(

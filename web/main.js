@@ -225,7 +225,7 @@ const shows = {
     show_run();
   },
   reference({picture, verdict: newest, last, can_go_on}) {
-    if (sound.buffers.reference && newest.reference !== shown.verdict?.reference)
+    if (sound.buffers.reference && newest.heard.estimated !== shown.verdict?.heard.estimated)
       delete sound.buffers.reference;
     shown.reference = picture;
     shown.verdict = newest;
@@ -473,7 +473,8 @@ async function begin() {
   watch_files();
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) by_id("paused").click();
   try {
-    client.module = await unpacked(by_id("module").textContent);
+    client.module = await WebAssembly.compile(await gunzipped(by_id("module").textContent));
+    client.solutions = JSON.parse(new TextDecoder().decode(await gunzipped(packed_solutions)));
     await start_worker();
   } catch (error) {
     return without_the_module(`This browser cannot start the module (${error.message})`);

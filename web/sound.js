@@ -69,12 +69,8 @@ async function fetch_reference_sound() {
   const of = shown.verdict;
   if (!of || sound.buffers.reference || sound.fetching === of) return;
   sound.fetching = of;
-  const {reference: scheme, options, estimated, reference_rate: rate, modes} = of,
-    exact = {scheme, modes: 0, options};
   try {
-    const {run} = await ask("pair", {
-      run: run_of({...(estimated ? {...exact, rate, modes} : exact), duration: heard_seconds}),
-    });
+    const {run} = await ask("pair", {run: run_of({...of.heard, duration: heard_seconds})});
     if (shown.verdict !== of) return;
     sound.buffers.reference = buffer_of({rate: run.rate, sound: Float32Array.from(run.nut)});
     if (sound.wanted === "reference") play_sound("reference");
@@ -85,7 +81,7 @@ async function fetch_reference_sound() {
 
 function mark_sound() {
   const button = document.getElementById("hear"),
-    exact = shown.verdict?.estimated ? "finer run" : "exact",
+    exact = shown.verdict?.heard.estimated ? "finer run" : "exact",
     [now, next] = {
       "": ["\u25b6 play", "the scheme"],
       scheme: ["\u25b6 scheme", shown.verdict ? `press for ${exact}` : "press to stop"],

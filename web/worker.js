@@ -79,10 +79,10 @@ function pictured(run, scene, points) {
 // no record verifies it. The uncertainty of the exact solution is the estimated change by further
 // doublings of the modes.
 
-const kept = {key: "", estimate: null, exact: null};
+const kept = {key: "", estimate: null, exact: null, known: null};
 function forget() {
-  for (const of of [kept.estimate, kept.exact]) of?.runs.forEach(run => run.free());
-  Object.assign(kept, {key: "", estimate: null, exact: null});
+  for (const of of [kept.estimate, kept.exact, kept.known]) of?.runs.forEach(run => run.free());
+  Object.assign(kept, {key: "", estimate: null, exact: null, known: null});
 }
 // Windows after the pluck [s]; a run is judged over the longest that is known to a tenth.
 const windows = [50e-3, 20e-3, 10e-3, 5e-3],
@@ -235,18 +235,38 @@ async function exact_of(state, scene, go_on) {
     throw error;
   }
 }
-// An exact solution that is known over no window gives way to an estimate that is.
-const best_kept = () =>
-  kept.exact?.window || !kept.estimate?.window ? (kept.exact ?? kept.estimate) : kept.estimate;
+// The program's solution of a string of the library: the headline's tap after the pluck, by the
+// differences of its samples. It takes the column of a run of the same rows.
+function known_of({known, ...state}, scene) {
+  const {scheme, rate, modes, options} = kept.estimate.heard[0],
+    run = jvari.run({...asked_of(state, {scheme, rate, modes, options}), duration: state.window}),
+    column = run.tap(headline_of(scene).nut),
+    first = run.rows - known.differences.length;
+  let sum = 0;
+  known.differences.forEach((d, k) => (column[first + k] = (sum += d) * known.unit));
+  const {reference, uncertainty, window} = known;
+  return {
+    ...{runs: [run], run, nut: Float64Array.from(column)},
+    ...{scheme: reference, modes: known.modes, uncertainty, window},
+  };
+}
+// What is drawn and heard as the string itself; and what a run is judged by: a solution that is
+// known over no window gives way to an estimate that is.
+const drawn = () =>
+    kept.exact?.window || !kept.estimate?.window ? (kept.exact ?? kept.estimate) : kept.estimate,
+  best_kept = () => kept.known ?? drawn(),
+  picture = () => ({...drawn().picture, ...(kept.known ? {nut: kept.known.nut} : {})}),
+  heard_of = ({scheme, options, estimated, rate, modes}) =>
+    estimated ? {scheme, options, estimated, rate, modes} : {scheme, options, modes: 0};
 
 // Verdict on a run at the headline's tap: the error, and the time of agreement within 10 %.
 function judged(run, scene) {
   const {nut} = headline_of(scene),
     of = best_kept(),
-    {estimated, recorded, window, uncertainty, scheme, modes, options, rate} = of;
+    {estimated, recorded, window, uncertainty, scheme, modes} = of;
   return {
-    ...{estimated, recorded, window, uncertainty},
-    ...{reference: scheme, modes, options, reference_rate: rate},
+    ...{estimated, recorded, window, uncertainty, reference: scheme, modes},
+    heard: heard_of(drawn()),
     error: jvari.error(run, of.run, nut, window ?? 0),
     horizon: jvari.horizon(run, of.run, nut),
     known_for: of.horizon ?? null,
@@ -418,9 +438,10 @@ async function show(request, post, go_on) {
     const post_verdict = last =>
       post({
         ...{kind: "reference", last, can_go_on: Boolean(scene.reference) && !kept.exact},
-        ...{picture: best_kept().picture, verdict: judged(run, scene)},
+        ...{picture: picture(), verdict: judged(run, scene)},
       });
     kept.estimate ??= await estimate_of(state, scene, go_on);
+    if (state.known) kept.known ??= known_of(state, scene);
     post_verdict(!tries_exact || Boolean(kept.exact));
     await go_on();
     if (run.outcome === "ok") post(await words_of(state, scene, go_on));

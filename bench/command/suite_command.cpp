@@ -34,24 +34,6 @@ struct SuiteRequest : Running {
     int jobs = 0;  // 0: one per core
 };
 
-Json manifest_of(const suite::Suite& suite, const study::Plan& plan) {
-    std::map<std::string, std::string> sources;
-    std::map<std::string, std::string> scenes;  // in a sweep the first scene
-    for (const study::Job& c : plan.jobs) {
-        sources[c.cell.scheme->name] = c.cell.scheme->source;
-        if (!scenes.contains(c.point->scene.name))
-            scenes[c.point->scene.name] = write_scene(c.point->scene);
-    }
-    Json manifest = store::made_by();
-    manifest.update({{"suite", suite.name},
-                     {"source", suite.source},
-                     {"cells", plan.jobs.size()},
-                     {"maps", suite.maps.size()},
-                     {"schemes", sources},
-                     {"scenes", scenes}});
-    return manifest;
-}
-
 std::string table_text(const study::Plan& plan, const study::Study& run,
                        const study::Cells& cells) {
     const std::size_t headline = compare::headline_error(cells, study::all_rows(cells));
@@ -88,14 +70,6 @@ std::string kept_text(const study::Plan& plan, const study::Plan& maps, const fs
                        study::kept_of(plan, maps, folder), folder.string());
 }
 
-void add_maps(report::ResultsFolder& results, const SuiteRequest& r, const suite::MapRun& maps,
-              const std::vector<suite::Failure>& failures) {
-    if (!results || maps.points.empty()) return;
-    results.add("maps.csv", store::csv(suite::maps_table(maps)));
-    results.add("boundaries.csv", store::csv(suite::boundaries_table(maps, failures)));
-    suite::write_failures(fs::path(r.out) / "failures", failures);
-}
-
 void note_missing_locks(const fs::path& folder, const Console& console) {
     const store::FileLock lock(folder / "cells" / "any", "begins", false);
     if (!lock.locked() && !lock.elsewhere())
@@ -116,7 +90,7 @@ int end_population(const SuiteRequest& r, const suite::Suite& suite, const study
                                       {"advice.csv", &strings.advice},
                                       {"fronts.csv", &strings.fronts}})
         results.add(name, store::csv(*table));
-    Json manifest = manifest_of(suite, plan);
+    Json manifest = report::manifest_of(suite, plan);
     manifest.erase("scenes");  // scenes/ already contains them, frozen
     manifest["strings"] = suite.sets.size();
     results.add_manifest(manifest);
@@ -164,19 +138,13 @@ int suite_command(const SuiteRequest& r) {
             suite::failures_of(own.cells, r.resume, maps, catalogue, r.plugins, r.jobs, console);
     const study::Study run = study::run(plan, own.cells, r.resume, r.jobs, console);
     if (suite.population) return end_population(r, suite, plan, run, console);
-    const study::Cells cells = compare::with_front(study::cells_of(plan, run.records));
-    const Json manifest = manifest_of(suite, plan);
-    const std::vector<compare::Answer> cheapest = compare::cheapest_of(cells);
-    report::ResultsFolder results(folder, console);
-    add_maps(results, r, maps, failures);
-    if (!plan.jobs.empty()) results.add_tables(cells);
-    if (results) suite::write_sounds(folder, plan, run.records);
-    results.add_manifest(manifest);
-    if (!plan.jobs.empty() || !suite.maps.empty()) results.add_report();
+    const report::Written written =
+        report::written(folder, suite, plan, run, maps, failures, console);
+    const study::Cells& cells = written.cells;
     // Print after writing the files, so that nothing is lost if nobody reads the terminal.
     if (!suite.maps.empty()) console.print(suite.name + "\n" + suite::maps_text(maps));
     if (!plan.jobs.empty()) console.print(suite.name + "\n" + table_text(plan, run, cells));
-    console.print(compare::cheapest_lines(cheapest, cells));
+    console.print(compare::cheapest_lines(written.cheapest, cells));
     if (!advised.empty()) console.print(suite::verdicts_on(advised, cells));
     for (const std::string& warning : compare::warnings_of(cells))
         console.print("warning: " + warning, store::Mark::doubtful);
@@ -187,7 +155,7 @@ int suite_command(const SuiteRequest& r) {
                                      {"ran", run.ran},
                                      {"timed", run.timed},
                                      {"read_back", run.read_back}},
-                                    {manifest, cells, cheapest, results.files}));
+                                    written));
     return code;
 }
 }  // namespace

@@ -343,9 +343,10 @@ std::string answer_text(const Advice& a) {
     if (!a.within)
         return fmt::format(
             "nothing is known to be within {} ({}){}; nearest: {}, within {} by an estimate: try "
-            "--within {:.2g}{}",
+            "--within {:.2g}{}{}",
             t.text(t.most), window, a.ended.empty() ? "" : ", and " + a.ended, settings,
-            t.text(bound), 1.05 * (t.unit == "%" ? 100 * bound : bound), t.unit);
+            t.text(bound), 1.05 * (t.unit == "%" ? 100 * bound : bound), t.unit,
+            t.unit == "%" ? "" : " --of " + t.name);
     std::string finer = fmt::format("twice the rate and {} modes", a.finer.modes);
     if (const auto& more = a.finer.options; more.size() > a.settings.options.size())
         finer += fmt::format(" and {} points", more.back().second);

@@ -156,7 +156,7 @@ Comparison compare(const CompareRequest& request, const Catalogue& catalogue,
     common.time_limit = request.time_limit.value_or(HUGE_VAL);
     common.begin = request.modes.empty() ? 0 : request.modes.front();
     note_scene(common.scene, listener);
-    note_lasting_forces(common.scene, listener);
+    note_windows(common.scene, listener);
     for (const double rate : request.rates) refuse_slow_rate(common.scene, rate);
     c.headline = study::headline_of(common.scene);
     study::Job like{};

@@ -131,11 +131,22 @@ void note_scene(const Scene& scene, const store::Listener& listener) {
     }
 }
 
-void note_lasting_forces(const Scene& scene, const store::Listener& listener) {
+void note_windows(const Scene& scene, const store::Listener& listener) {
     for (std::size_t i = 0; i < scene.strings.size(); ++i) {
         const auto& p = scene.strings[i].pluck;
-        const auto from = p ? steady_from(*p, scene.duration) : std::nullopt;
-        if (from && force(*p, *from) != 0)
+        if (!p) continue;
+        const auto from = steady_from(*p, scene.duration);
+        if (p->kind == PluckKind::blow)
+            listener.note(
+                fmt::format("string {}: its pluck is a blow, and errors are measured from "
+                            "its start on, {:g} s",
+                            i, p->start));
+        else if (p->file.empty() && p->skew == 0 && p->duration < 1 / lowest_pitch(scene))
+            listener.note(
+                fmt::format("string {}: errors are measured from {:g} s on, where its pluck "
+                            "ends; kind = \"blow\" there measures from its start",
+                            i, p->start + p->duration));
+        else if (from && force(*p, *from) != 0)
             listener.note(
                 fmt::format("string {}: the force of {} stays to the end of the run and is steady "
                             "from {:g} s on: errors are of the motion under it",

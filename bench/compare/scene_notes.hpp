@@ -32,8 +32,8 @@ std::string grid_text(const Descriptor&, const std::string& modes);
 // Notes before a run: modes that the scheme leaves out, or modes in the start beyond the scheme's.
 void note_modes(const Descriptor&, const Scene&, const Settings&, const store::Listener&);
 
-// Says from when on a force that lasts is steady, where the windows of errors begin.
-void note_lasting_forces(const Scene&, const store::Listener&);
+// Says where the windows of errors begin under a force that lasts and after a blow.
+void note_windows(const Scene&, const store::Listener&);
 
 // Throws UsageError if this sample rate [Hz] does not carry the lowest string's first mode.
 void refuse_slow_rate(const Scene&, double rate);

@@ -15,6 +15,8 @@
 #include "bench/store/system/listener.hpp"
 #include "bench/store/trace_file.hpp"
 #include "bench/study/record.hpp"
+#include "bench/suite/maps.hpp"
+#include "bench/suite/suite.hpp"
 
 namespace jvari::bench::report {
 
@@ -121,5 +123,10 @@ struct Written {
 };
 // Writes a comparison into the folder named in the request.
 Written written(const compare::Comparison&, const compare::CompareRequest&, const store::Listener&);
+// Writes a suite into the folder, with its maps, sounds and page; "": nothing.
+Written written(const std::filesystem::path& folder, const suite::Suite&, const study::Plan&,
+                const study::Study&, const suite::MapRun&, const std::vector<suite::Failure>&,
+                const store::Listener&);
+nlohmann::ordered_json manifest_of(const suite::Suite&, const study::Plan&);
 
 }  // namespace jvari::bench::report

@@ -197,6 +197,20 @@ TEST(CommandLine, ListDescribesOneThingByItsName) {
     EXPECT_TRUE(says(jvari(scratch, "list scheme").out, "`jvari list schemes` has all of them"));
 }
 
+TEST(CommandLine, CompareSaysWhereWindowsOfErrorsBegin) {
+    const Scratch scratch;
+    const std::string compare =
+        "$J new bass b >/dev/null; printf 'time_s,force_N\\n0,0\\n0.002,-0.1\\n9,-0.1\\n' "
+        ">load.csv; "
+        "$J compare b.toml --duration 0.012 --schemes modal_two_point --rates 44100 --modes 20 "
+        "--reference-modes 20 --set string.0.pluck.";
+    for (const auto& [set, words] :
+         {std::pair{"kind=pull", "measured from 0.004 s on, where its pluck ends"},
+          {"kind=blow", "is a blow, and errors are measured from its start on, 0 s"},
+          {"file=load.csv", "stays to the end of the run and is steady from 0.002 s on"}})
+        EXPECT_TRUE(says(shell(scratch, compare + set).err, words)) << set;
+}
+
 TEST(CommandLine, AWordOfAnotherKindIsMetWithWhatWasMeant) {
     const Scratch scratch;
     const std::string run = "run tanpura_c3 --scheme modal_two_point ";
@@ -281,6 +295,9 @@ TEST(CommandLine, WhereNoSettingIsWithinTheToleranceNothingIsRunAndTheNearestIsN
     EXPECT_TRUE(says(o.err, "nothing is known to be within 1e-09 %"));
     EXPECT_TRUE(says(o.err, "nearest: modal_two_"));
     EXPECT_TRUE(says(o.err, "try --within 0.0"));
+    const std::string bands =
+        jvari(scratch, "run tanpura_c3 --of third_octave_db --within 1e-9dB").err;
+    EXPECT_TRUE(says(bands, "dB --of third_octave_db")) << bands;
     EXPECT_EQ(scratch.files(), 0);
     EXPECT_EQ(jvari(scratch, "run tanpura_c3 --within 1% --scheme finite_difference_theta").code,
               3);

@@ -215,6 +215,22 @@ const in_page = {
       };
     })()`,
   width: "document.documentElement.scrollWidth",
+  // On a phone: lines and names of the first chart, and its texts that are cut.
+  phone: `(() => {
+      const section = document.getElementById("work-precision"),
+        svg = section.querySelector(".chart svg.marks"),
+        {left, right} = svg.getBoundingClientRect();
+      return {
+        lines: svg.querySelectorAll(".mark-line.role-mark path").length,
+        names: section.querySelectorAll(".legend button").length,
+        cut: [...svg.querySelectorAll("text")]
+          .filter(t => {
+            const box = t.getBoundingClientRect();
+            return box.width && (box.left < left - 1 || box.right > right + 1);
+          })
+          .map(t => t.textContent),
+      };
+    })()`,
   // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that
   // failed, and whether the error is one that the scene has.
   scenes: `(async () => {
@@ -830,6 +846,12 @@ async function read_in(browser, name) {
   );
   const wide = await browser.evaluate(in_page.width);
   expect(wide <= width, `${name}: nothing overflows: ${wide}`);
+  if (width > 390) return;
+  const phone = await browser.evaluate(in_page.phone);
+  expect(
+    (phone.lines < 2 || phone.names >= phone.lines) && phone.cut.length === 0,
+    `${name}: every line has a name, and no text is cut: ${JSON.stringify(phone)}`,
+  );
 }
 
 // The reference differs from nothing; of each other panel as much is painted as its tiles cover,

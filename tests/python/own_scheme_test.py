@@ -184,6 +184,22 @@ class OwnScheme(unittest.TestCase):
                         self.assertRaises(error, call)
         self.assertEqual(jvari.run("free_string", "modal_two_point", duration=0.01).status, "ok")
 
+    def test_its_map_has_a_page(self):
+        registered("mapped")
+        with tempfile.TemporaryDirectory() as folder:
+            with open(folder + "/a.toml", "w") as f:
+                f.write('[[cells]]\nname = "tension"\nscenes = ["tanpura_c3"]\n'
+                        'measure = "outcome"\nschemes = ["mapped"]\nmodes = 20\n'
+                        'duration = 0.01\nreference = "none"\n'
+                        'sweep = { "string.0.tension" = [30, 40] }\n')
+            tables = jvari.suite_tables(folder + "/a.toml", out=folder + "/m")
+            self.assertEqual([row["scheme"] for row in tables["maps"]], ["mapped"] * 2)
+            for written in (os.listdir(folder + "/m"),
+                            [os.path.basename(f) for f in jvari.report(folder + "/m")]):
+                self.assertIn("report.html", written)
+            with open(folder + "/m/report.html", encoding="utf-8") as page:
+                self.assertIn("mapped", page.read())
+
     def test_a_scheme_cannot_run_itself(self):
         class Runs(TwoPoint):
             def advance(self, rows):

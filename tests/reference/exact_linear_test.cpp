@@ -117,6 +117,31 @@ TEST(ExactLinear, AStringAtRestUnderASideLoadStaysUntilTheLoadChanges) {
     EXPECT_GT(std::abs(r.trace.column(1)[600]), 0.1 * y * m.omega0[0]);
 }
 
+// A riser of 1 km, kL = 141, pushed by F at a: y(x) = F/T ((L - a) x/L - sinh k(L - a) sinh kx
+// / (k sinh kL)) for x <= a, with k^2 = T/EI.
+TEST(ExactLinear, ARiserAtRestUnderASideLoadIsATensionedBeam) {
+    Scene scene = one_string(PolynomialDamping{0.01, 0, 0});
+    String& s = scene.strings[0];
+    s.length = 1000, s.linear_density = 700, s.tension = 1e6, s.bending_stiffness = 5e7;
+    s.start = RestStart{};
+    Pluck load{};
+    load.position = 300, load.file = "side.csv", load.time = {0, 1000}, load.share = {1, 1};
+    load.amplitude = load.peak = 1000, load.duration = 1000;
+    s.pluck = load;
+    scene.duration = 2;
+    scene.taps = {{"load", Quantity::displacement, 0, 300},
+                  {"near", Quantity::displacement, 0, 20}};
+    const jvari::Run r = run(exact_linear, scene, linear_settings(200, 10));
+    const double k = std::sqrt(s.tension / s.bending_stiffness), L = s.length, a = load.position;
+    for (int tap = 0; tap < 2; ++tap) {
+        const double x = scene.taps[tap].position,
+                     bend = std::exp(k * (x - a)) * std::expm1(-2 * k * (L - a)) *
+                            std::expm1(-2 * k * x) / (-2 * k * std::expm1(-2 * k * L)),
+                     y = 1000 / s.tension * ((L - a) * x / L - bend);
+        for (const double row : r.trace.column(tap)) EXPECT_NEAR(row, y, 1e-4 * y) << tap;
+    }
+}
+
 TEST(ExactLinear, TheTraceDoesNotDependOnHowDenselyItIsTapped) {
     for (double skew : {0.0, 30.0, -30.0, 300.0}) {
         Scene scene = one_string(PolynomialDamping{0.6, 6.5e-3, 5.0e-6});

@@ -113,5 +113,21 @@ TEST(FreeFrom, ALoadThatLastsIsWhereItBecomesSteady) {
     EXPECT_EQ(from({0, 0.01, 5}, {0, 0, 1}), 5);      // it changes to the end: nothing to measure
 }
 
+TEST(FreeFrom, ABlowIsMeasuredFromItsStart) {
+    Scene scene;
+    scene.duration = 1;
+    scene.strings.resize(2);
+    scene.strings[0].pluck = Pluck{-15, 4e-3, 0, 0.1, 0.6, 0.02};
+    EXPECT_DOUBLE_EQ(free_from(scene), 0.104);
+    scene.strings[0].pluck->kind = PluckKind::blow;
+    EXPECT_EQ(free_from(scene), 0.1);
+    Pluck& file = *scene.strings[0].pluck;
+    file.file = "blow.csv", file.time = {0, 0.01, 0.02, 5}, file.share = {0, 1, 0, 0};
+    file.start = 0, file.duration = 5;
+    EXPECT_EQ(free_from(scene), 0);
+    scene.strings[1].pluck = Pluck{-15, 0.5, 0, 0, 0.6, 0.02};
+    EXPECT_EQ(free_from(scene), 0.5);  // a finger still pulls the other string
+}
+
 }  // namespace
 }  // namespace jvari

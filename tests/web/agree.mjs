@@ -2,7 +2,7 @@
 // against the program: the same taps and energies to 1e-9 of their largest value, the same outcome,
 // and the same sentence where one refuses.
 import {spawnSync} from "node:child_process";
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join, resolve} from "node:path";
 import {core} from "./module.mjs";
@@ -268,8 +268,18 @@ for (const [what, holds] of [
   ["bands", Math.abs(level_at(400)) < 0.1 && level_at(5000) < -3],
 ])
   if (!holds) console.log(`FAILED: ${what}: ${JSON.stringify({tuned, damped, dull})}`, ++failures);
+// A solution that the page holds is of the library's scene of that name.
+let solved = 0;
+for (const file of readdirSync(join(sources, "results/problems"))) {
+  const name = file.replace(/\.json$/, "");
+  if (!existsSync(join(sources, "scenes", `${name}.toml`))) continue;
+  const {scene} = JSON.parse(readFileSync(join(sources, "results/problems", file), "utf8")),
+    [kept, own] = [scene, text(name)].map(t => JSON.stringify(jvari.scene(t, ["duration=1"])));
+  ++solved;
+  if (kept !== own) console.log(`FAILED: results/problems/${file} has another scene`, ++failures);
+}
 rmSync(scratch, {recursive: true});
 console.log(
   `${ran} runs agree to ${largest.toExponential(1)}, ${refused} refusals, ${failures} failures`,
 );
-process.exit(failures || ran < 80 || refused < 30 ? 1 : 0);
+process.exit(failures || ran < 80 || refused < 30 || solved < 7 ? 1 : 0);

@@ -15,9 +15,9 @@ const files = (path, kinds) =>
     : kinds.test(path)
       ? [path]
       : [];
-const core = /\.(cpp|hpp|def|toml|js|mjs|html|css|csv)$/,
+const core = /\.(cpp|hpp|def|toml|js|mjs|html|css|csv|json)$/,
   pages = {
-    "play.html": ["scenes", "schemes", "reference", "analysis", "web"],
+    "play.html": ["scenes", "schemes", "reference", "analysis", "web", "results/problems"],
     "work-precision.html": ["bench/report", "results/work-precision"],
   };
 const hash = (list, of) => list.reduce((h, path) => h.update(of(path)), createHash("sha256"));

@@ -257,7 +257,10 @@ function work_precision_spec(choice, print) {
       print,
     ),
     names,
-    labels: view => line_labels(names, [...sound, ...unpriced], view),
+    // a phone's plot is narrower than most names
+    ...(choice.narrow
+      ? {legend: names}
+      : {labels: view => line_labels(names, [...sound, ...unpriced], view)}),
     few,
   };
 }
