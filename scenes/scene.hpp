@@ -173,10 +173,10 @@ struct RestStart {
 };
 using Start = std::variant<ModeShape, TriangleShape, TableStart, RestStart>;
 
-// Force: from a file, with straight lines between its rows, or by van Walstijn et al. 2016, eqs
-// 14-15.
 // A pull lets go at its end, a blow sounds from its start.
 enum class PluckKind { pull, blow };
+// Force: from a file, with straight lines between its rows, or by van Walstijn et al. 2016, eqs
+// 14-15.
 struct Pluck {
     double amplitude = 0;   // a_e; for a file the largest force [N]
     double duration = 0;    // tau_e [s]
