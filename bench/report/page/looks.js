@@ -266,9 +266,17 @@ const once = mark => ({
   mark: {tooltip: null, clip: false, ...mark},
   encoding: {x: null, y: null},
 });
-// Name of an axis, upright.
+// Name of an axis, upright; over a narrow plot it begins above the axis's labels.
 const above = text =>
-  once({type: "text", x: 0, y: -10, align: "left", fontSize: 12, fontWeight: "bold", text});
+  once({
+    type: "text",
+    x: {expr: "width < 400 ? -24 : 0"},
+    y: -10,
+    align: "left",
+    fontSize: 12,
+    fontWeight: "bold",
+    text,
+  });
 const quantity = (field, axis = {}, scale = {}) => ({
   field,
   type: "quantitative",

@@ -249,7 +249,7 @@ function work_precision_spec(choice, print) {
         : 350,
     padding = print
       ? {}
-      : {padding: {left: 12, top: 12, bottom: 12, right: choice.narrow ? 12 : 120}};
+      : {padding: {left: 12, top: 12, bottom: 12, right: choice.narrow ? 18 : 120}};
   return {
     spec: framed(
       {height, encoding, layer, params, ...padding},
