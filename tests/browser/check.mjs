@@ -228,7 +228,10 @@ const in_page = {
             const box = t.getBoundingClientRect();
             return box.width && (box.left < left - 1 || box.right > right + 1);
           })
-          .map(t => t.textContent),
+          .map(t => {
+            const box = t.getBoundingClientRect();
+            return [t.textContent, box.left - left, right - box.right];
+          }),
       };
     })()`,
   // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that

@@ -217,10 +217,10 @@ function work_precision_spec(choice, print) {
     above(title),
     once({
       type: "text",
-      x: {expr: "width"},
+      x: {expr: "width < 400 ? width + 14 : width"},
       y: {expr: "height + 36"},
       align: "right",
-      fontSize: 12,
+      fontSize: {expr: "width < 400 ? 11 : 12"},
       fontWeight: "bold",
       text: {expr: `'${cost_title}' + (width < 400 ? '' : '${where}')`},
     }),
