@@ -224,14 +224,9 @@ const in_page = {
         lines: svg.querySelectorAll(".mark-line.role-mark path").length,
         names: section.querySelectorAll(".legend button").length,
         cut: [...svg.querySelectorAll("text")]
-          .filter(t => {
-            const box = t.getBoundingClientRect();
-            return box.width && (box.left < left - 1 || box.right > right + 1);
-          })
-          .map(t => {
-            const box = t.getBoundingClientRect();
-            return [t.textContent, box.left - left, right - box.right];
-          }),
+          .map(t => ({text: t.textContent, box: t.getBoundingClientRect()}))
+          .filter(({box}) => box.width && (box.left < left - 1 || box.right > right + 1))
+          .map(({text, box}) => [text, box.left - left, right - box.right]),
       };
     })()`,
   // Every scene in turn: what each chart shows, and of the first chart its crosses, the runs that
@@ -850,15 +845,9 @@ async function read_in(browser, name) {
   const wide = await browser.evaluate(in_page.width);
   expect(wide <= width, `${name}: nothing overflows: ${wide}`);
   if (width > 390) return;
-  const holds = ({lines, names, cut}) => (lines < 2 || names >= lines) && cut.length === 0;
-  let phone = await browser.evaluate(in_page.phone);
-  for (let tries = 0; tries < 20 && !holds(phone); ++tries) {
-    // the chart is drawn again
-    await new Promise(done => setTimeout(done, 100));
-    phone = await browser.evaluate(in_page.phone);
-  }
+  const phone = await browser.evaluate(in_page.phone);
   expect(
-    holds(phone),
+    (phone.lines < 2 || phone.names >= phone.lines) && phone.cut.length === 0,
     `${name}: every line has a name, and no text is cut: ${JSON.stringify(phone)}`,
   );
 }
