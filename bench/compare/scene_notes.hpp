@@ -32,7 +32,8 @@ std::string grid_text(const Descriptor&, const std::string& modes);
 // Notes before a run: modes that the scheme leaves out, or modes in the start beyond the scheme's.
 void note_modes(const Descriptor&, const Scene&, const Settings&, const store::Listener&);
 
-// Says where the windows of errors begin under a force that lasts and after a blow.
+// Says where the windows of errors begin: under a force that lasts, after a blow, and after a pluck
+// shorter than a period, which may be meant as one.
 void note_windows(const Scene&, const store::Listener&);
 
 // Throws UsageError if this sample rate [Hz] does not carry the lowest string's first mode.
