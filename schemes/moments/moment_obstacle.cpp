@@ -302,10 +302,11 @@ void MomentObstacle::keep(std::uint64_t set, Kept& s) noexcept {
 
 // Solves a step in which contacts change: those that misfit by their own equations, together; the
 // others in full contact and eliminated, or out. Others that misfit then join them.
-bool MomentObstacle::with_change(std::uint64_t misfits, const double* b, const double* ends,
-                                 const double* phi, double* force) noexcept {
+template <int few>
+bool MomentObstacle::with_change(const InFull& before, std::uint64_t misfits, const double* b,
+                                 const double* ends, double* force) noexcept {
     for (std::uint64_t own = misfits, more = 0;; own |= more) {
-        more = together(own, b, ends, phi, force);
+        more = together<few>(before, own, b, ends, force);
         if (more == 0) return true;
         if ((more & ~own) == 0) return by_constant_forces(b, force);
     }
@@ -336,37 +337,43 @@ void MomentObstacle::reduce(std::uint64_t own, std::uint64_t full) noexcept {
         }
 }
 
-// Solves a step with the contacts `own` by their own equations, the others that touched in full
+// Solves a step with the contacts `own` by their own equations, the others of the set in full
 // contact. Returns the others that misfit, 0 for a solution, or all contacts if there is none.
-std::uint64_t MomentObstacle::together(std::uint64_t own, const double* b, const double* ends,
-                                       const double* phi, double* force) noexcept {
-    const int n = n_, D = 2 * n;
-    const std::uint64_t full = set_ & ~own;
+template <int few>
+std::uint64_t MomentObstacle::together(const InFull& before, std::uint64_t own, const double* b,
+                                       const double* ends, double* force) noexcept {
+    const int n = few > 0 ? few : n_, D = 2 * n;
+    const std::uint64_t full = before.set & ~own;
     active_.clear();
     for (int a = 0; a < n; ++a)
         if (own >> a & 1) active_.push_back(a);
     const int m = static_cast<int>(active_.size());
     reduce(own, full);
     double *others = trial_.data(), *r = pairs_.data() + 3 * D;  // first without forces of own
-    std::fill_n(others, D, 0.0);
-    std::fill_n(r, D, 0.0);
-    if (full) {
-        product_of_pairs<0>(kept(full).inverse.data(), ends, others);
-        product_of_pairs<0>(T_.data(), others, r);
+    if (full != 0 && full == before.set) {
+        std::copy_n(before.phi, D, others);
+        std::copy_n(before.r, D, r);
+    } else {
+        std::fill_n(others, D, 0.0);
+        std::fill_n(r, D, 0.0);
+        if (full) {
+            product_of_pairs<few>(kept(full).inverse.data(), ends, others);
+            product_of_pairs<few>(T_.data(), others, r);
+        }
+        for (int c = 0; c < n; ++c) r[c] += b[c], r[n + c] += b[points_ + c];
     }
-    for (int c = 0; c < n; ++c) r[c] += b[c], r[n + c] += b[points_ + c];
     for (int i = 0; i < m; ++i) {  // a first guess: the pushing forces of full contact
         const int a = active_[i];
         own_b_[2 * i] = r[a], own_b_[2 * i + 1] = r[n + a];
-        const double F = x_own_[2 * i] = std::max(phi[a], 0.0);
-        x_own_[2 * i + 1] = std::clamp(phi[n + a], -F, F);
+        const double F = x_own_[2 * i] = std::max(before.phi[a], 0.0);
+        x_own_[2 * i + 1] = std::clamp(before.phi[n + a], -F, F);
     }
     const int iterations = newton();
     if (iterations < 0) return ~std::uint64_t{0} >> (most_contacts - n);
     for (int i = 0; i < m; ++i)
         x_own_[2 * i] = found_[i].phi_0, x_own_[2 * i + 1] = found_[i].phi_1;
-    if (full) add_product<0>(reduced_now_->by.data(), x_own_.data(), 2 * m, others, D);
-    add_product<0>(reduced_now_->moved.data(), x_own_.data(), 2 * m, r, D);
+    if (full) add_product<2 * few>(reduced_now_->by.data(), x_own_.data(), 2 * m, others, D);
+    add_product<2 * few>(reduced_now_->moved.data(), x_own_.data(), 2 * m, r, D);
     std::uint64_t misfits = 0;
     for (int c = 0; c < n; ++c)
         misfits |= std::uint64_t{!(own >> c & 1) && !fits(c, full >> c & 1, others, r)} << c;
@@ -383,6 +390,17 @@ std::uint64_t MomentObstacle::together(std::uint64_t own, const double* b, const
     else tally_.note(std::max(iterations, 1), 0);
     return 0;
 }
+
+#define JVARI_CHANGE(few)                                                                       \
+    template bool MomentObstacle::with_change<few>(const InFull&, std::uint64_t, const double*, \
+                                                   const double*, double*) noexcept;
+JVARI_CHANGE(0)
+JVARI_CHANGE(1)
+JVARI_CHANGE(2)
+JVARI_CHANGE(3)
+JVARI_CHANGE(4)
+JVARI_CHANGE(5)
+#undef JVARI_CHANGE
 
 // Solves an active contact for itself under the forces x_own_ of the others, into found_.
 void MomentObstacle::solve_own(int i) noexcept {

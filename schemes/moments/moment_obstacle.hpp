@@ -90,6 +90,10 @@ private:
         // zeros in rows and columns of the others
         std::vector<double> inverse;
     };
+    struct InFull {  // forces and r of all contacts with a set in full contact, the others out
+        std::uint64_t set;
+        const double *phi, *r;
+    };
     struct Reduced {  // m contacts by their own equations, those in full contact eliminated
         std::uint64_t own = 0, full = 0;
         std::vector<double> by, moved;   // phi and r of all, by forces of those m: 2n x 2m
@@ -119,7 +123,8 @@ private:
     }
     void keep(std::uint64_t set, Kept&) noexcept;
     template <int few, bool thread>
-    [[gnu::always_inline]] bool only(int a, const double* b, const double* ends, double* r,
+    [[gnu::always_inline]] bool only(int a, std::uint64_t touch, const double* b,
+                                     const double* ends, double* phi, double* r,
                                      double* force) noexcept;
     // to = M x, with two numbers for each contact
     template <int few>
@@ -137,14 +142,16 @@ private:
         const double c = rules_[a].c();
         take_linear(a, phi[a], c * (phi[a] - phi[n_ + a]), c * (phi[a] + phi[n_ + a]));
     }
-    bool with_change(std::uint64_t misfits, const double* b, const double* ends, const double* phi,
+    template <int few>
+    bool with_change(const InFull&, std::uint64_t misfits, const double* b, const double* ends,
                      double* force) noexcept;
     void reduce(std::uint64_t own, std::uint64_t full) noexcept;
     const MomentMatrix& less(int i, int j) const {
         return reduced_now_->less[i * static_cast<int>(active_.size()) + j];
     }
-    std::uint64_t together(std::uint64_t own, const double* b, const double* ends,
-                           const double* phi, double* force) noexcept;
+    template <int few>
+    std::uint64_t together(const InFull&, std::uint64_t own, const double* b, const double* ends,
+                           double* force) noexcept;
     struct Rest {
         double squares = 0, relative = 0;
     };
@@ -295,53 +302,55 @@ template <int few, bool thread>
         set_ = 0;
         return true;
     }
-    if (const int one = tried_alone(touch, set_, ends, n);
-        one >= 0 && only<few, thread>(one, b, ends, r, force))
-        return true;
-    const std::uint64_t set = set_;
-    product_of_pairs<few>(kept(set).inverse.data(), ends, phi);
+    if (const int one = tried_alone(touch, set_, ends, n); one >= 0)
+        return only<few, thread>(one, touch, b, ends, phi, r, force);
+    product_of_pairs<few>(kept(set_).inverse.data(), ends, phi);
     product_of_pairs<few>(T_.data(), phi, r);
     for (int a = 0; a < n; ++a) r[a] += b[a], r[n + a] += b[P + a];
     std::uint64_t misfits = 0;
-    for (int a = 0; a < n; ++a) misfits |= std::uint64_t{!fits(a, set >> a & 1, phi, r)} << a;
-    if (misfits != 0) return with_change(misfits, b, ends, phi, force);
-    for (int a = 0; a < n; ++a) take_as(a, set >> a & 1, phi, r, force);
+    for (int a = 0; a < n; ++a) misfits |= std::uint64_t{!fits(a, set_ >> a & 1, phi, r)} << a;
+    if (misfits != 0) return with_change<std::max(few, 0)>({set_, phi, r}, misfits, b, ends, force);
+    for (int a = 0; a < n; ++a) take_as(a, set_ >> a & 1, phi, r, force);
     tally_.note(0, 0);
     return true;
 }
 
-// Solves contact a by its own equation, the others out. False if they do not stay out.
+// Solves contact a by its own equation, the others out, or with those that do not stay out.
 template <int few, bool thread>
-[[gnu::always_inline]] inline bool MomentObstacle::only(int a, const double* b, const double* ends,
-                                                        double* r, double* force) noexcept {
+[[gnu::always_inline]] inline bool MomentObstacle::only(int a, std::uint64_t touch, const double* b,
+                                                        const double* ends, double* phi, double* r,
+                                                        double* force) noexcept {
     const int n = few > 0 ? few : n_, P = few > 0 ? few + thread : points_;
     const double* I = inverses_.data() + 4 * a;
     MomentContact& own_step = found_[a];
     double phi_0 = I[0] * ends[a] + I[2] * ends[n + a], phi_1 = I[1] * ends[a] + I[3] * ends[n + a];
     const bool full = phi_0 > std::abs(phi_1);
+    const std::uint64_t one = std::uint64_t{1} << a;
     if (!full) {
         rules_[a].solve(own(a), at_[a].eta, b[a], b[P + a], own_step);
-        if (!own_step.converged) return false;
         phi_0 = own_step.phi_0, phi_1 = own_step.phi_1;
     }
     const double *by_0 = T_.data() + a * 2 * n, *by_1 = T_.data() + (n + a) * 2 * n;
-    bool out = true;
+    std::uint64_t misfits = 0;
     for (int c = 0; c < n; ++c) {  // stores to places known when compiled
-        const double r_0 = b[c] + (by_0[c] * phi_0 + by_1[c] * phi_1),
-                     r_1 = b[P + c] + (by_0[n + c] * phi_0 + by_1[n + c] * phi_1);
-        r[c] = r_0;
-        out = out && (c == a || (at_[c].eta - r_0 <= 0 && at_[c].eta + r_1 <= 0));
-        force[c] = c == a ? phi_0 : 0;
-        force[P + c] = c == a ? phi_1 : 0;
+        r[c] = b[c] + (by_0[c] * phi_0 + by_1[c] * phi_1);
+        r[n + c] = b[P + c] + (by_0[n + c] * phi_0 + by_1[n + c] * phi_1);
+        phi[c] = c == a ? phi_0 : 0;
+        phi[n + c] = c == a ? phi_1 : 0;
+        misfits |= std::uint64_t{c != a && !fits(c, false, phi, r)} << c;
+        force[c] = phi[c], force[P + c] = phi[n + c];
     }
-    if (!out) return false;
+    if (!full && !own_step.converged) misfits = touch;
+    if (misfits != 0)
+        return with_change<std::max(few, 0)>({full ? one : 0, phi, r},
+                                             full ? misfits : misfits | one, b, ends, force);
     for (int c = 0; c < n; ++c)
         if (c != a) take_out(c, r[c]);
     set_ = 0;
     if (full) {
         const double c = rules_[a].c();
         take_linear(a, phi_0, c * (phi_0 - phi_1), c * (phi_0 + phi_1));
-        set_ = std::uint64_t{1} << a;
+        set_ = one;
         tally_.note(0, 0);
     } else {
         take(a, own_step);
