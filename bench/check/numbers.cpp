@@ -171,11 +171,12 @@ std::vector<Scene> make_scenes_of_numbers() {
     // hard for the string as bridges of the library are: k L/T = 1e4, 1e6
     add("hard_bridge", over({LumpedBarrier{0.08, 0.08, -3e-4, {1e6}, 1, 0}}));
     add("harder_bridge", over({LumpedBarrier{0.08, 0.08, -3e-4, {1e8}, 1, 0}}));
+    add("flat", over({ProfileBarrier{FlatCurve{}, 0.04, 0.12, {3e4}, 1, 0}}));
     add("line", over({ProfileBarrier{LineCurve{-0.002}, 0.04, 0.12, {3e4}, 1, 0}}));
     add("parabola", over({ProfileBarrier{ParabolaCurve{0.02}, 0.04, 0.12, {1e6}, 1.4, 0.4}}));
     const TableCurve table{"table", {0, 0.1, 0.3}, {-2e-4, -1e-4, -4e-4}};
     add("table_curve", over({ProfileBarrier{table, 0.05, 0.15, {3e4}, 1, 0}}));
-    for (auto one = all.end() - 3; one != all.end(); ++one) one->duration = 2e-3;
+    for (auto one = all.end() - 4; one != all.end(); ++one) one->duration = 2e-3;
     add("rigid_profile", [&](String& s) {
         limp(s);
         s.barriers = {ProfileBarrier{ParabolaCurve{0.05}, 0, 0.1, {rigid}, 1, 0}};
