@@ -139,8 +139,9 @@ bool MomentRule::by_lines(const MomentMatrix& T, double E_0, double E_1,
 }
 
 // Both ends by the law's tangent at the present penetration, in full contact.
-MomentRule::Ends MomentRule::first_guess(const MomentMatrix& T, double eta, double E_0,
-                                         double E_1) const noexcept {
+[[gnu::always_inline]] inline MomentRule::Ends MomentRule::first_guess(const MomentMatrix& T,
+                                                                       double eta, double E_0,
+                                                                       double E_1) const noexcept {
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, low = std::min(E_0, 0.0);
     const double at = eta > 0 ? eta : 0.5 * std::max(E_0, E_1);
     const Powers l = powers(at);
@@ -161,8 +162,10 @@ MomentRule::Ends MomentRule::first_guess(const MomentMatrix& T, double eta, doub
 // Newton's steps for (9) in full contact, 2 alpha a small whole number. In the roots u, w of both
 // ends (in the ends, for a whole alpha) both equations are polynomials: p h_j = k/(alpha + 1)
 // h_(m+j) and w^j = E_1 - A_0 p + T_01 k u^m, with p = (u^j + T_11 k u^m - E_0)/A_1.
-bool MomentRule::by_polynomials(const MomentMatrix& T, const Ends& guess, double E_0, double E_1,
-                                MomentContact& s) const noexcept {
+[[gnu::always_inline]] inline bool MomentRule::by_polynomials(const MomentMatrix& T,
+                                                              const Ends& guess, double E_0,
+                                                              double E_1,
+                                                              MomentContact& s) const noexcept {
     if (halves_ <= 0 || !(guess.from > 0 && guess.to > 0)) return false;
     constexpr int most = 6;
     constexpr double close = 1e-8;  // relative: the next error is about its square
@@ -208,18 +211,12 @@ void MomentRule::end_from_energy(double p, double x, MomentContact& s) const noe
     }
 }
 
-// Solves one scalar equation in x = e_0: p = (x + T_11 V'(x) - E_0)/A_1, e_1 = E_1 - A_0 p + T_01
-// V'(x), g = p - DV(x, e_1) = 0.   (9)
-void MomentRule::by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
+// Solves one scalar equation in x = e_0, from a guess: p = (x + T_11 V'(x) - E_0)/A_1, e_1 = E_1 -
+// A_0 p + T_01 V'(x), g = p - DV(x, e_1) = 0.   (9)
+void MomentRule::by_newton(const MomentMatrix& T, double guess, double E_0, double E_1,
                            MomentContact& s) const noexcept {
-    if (E_0 <= 0 && E_1 <= 0) {
-        s.phi_0 = s.phi_1 = 0, s.from = E_0, s.to = E_1;
-        return;
-    }
     const double A_0 = T.m00 + T.m01, A_1 = T.m10 + T.m11, by_A_1 = 1 / A_1;
-    const Ends guess = first_guess(T, eta, E_0, E_1);
-    if (eta > 0 && by_polynomials(T, guess, E_0, E_1, s)) return;
-    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(), x = guess.from;
+    double low = std::min(E_0, 0.0), high = std::numeric_limits<double>::infinity(), x = guess;
     double p = 0, to = 0;
     Powers a{}, b{};
     Quotient v{};
@@ -301,12 +298,21 @@ void MomentRule::by_bracket(const MomentMatrix& T, double E_0, double E_1,
     }
 }
 
-void MomentRule::without_loss(const MomentMatrix& T, double eta, double E_0, double E_1,
-                              MomentContact& s) const noexcept {
+[[gnu::always_inline]] inline void MomentRule::without_loss(const MomentMatrix& T, double eta,
+                                                            double E_0, double E_1,
+                                                            MomentContact& s) const noexcept {
+    if (E_0 <= 0 && E_1 <= 0) {
+        s.phi_0 = s.phi_1 = 0, s.from = E_0, s.to = E_1, s.converged = true;
+        return;
+    }
     s.converged = law_.alpha == 1 && by_lines(T, E_0, E_1, s);
     if (s.converged) return;
     const double A_1 = T.m10 + T.m11;
-    if (A_1 > 1e-6 * T.m00) by_newton(T, eta, E_0, E_1, s);
+    if (A_1 > 1e-6 * T.m00) {
+        const Ends guess = first_guess(T, eta, E_0, E_1);
+        if (!(eta > 0 && by_polynomials(T, guess, E_0, E_1, s)))
+            by_newton(T, guess.from, E_0, E_1, s);
+    }
     // if forces hardly move the contact, p is the small difference between two penetrations
     const bool small = A_1 * std::abs(s.phi_0) < 1e-3 * (std::abs(s.from) + std::abs(E_0));
     if (!s.converged || (s.phi_0 != 0 && small)) by_bracket(T, E_0, E_1, s);

@@ -94,7 +94,7 @@ private:
     Quotient quotient(double from, double to, const Powers& a, const Powers& b) const noexcept;
 
     bool by_lines(const MomentMatrix& T, double E_0, double E_1, MomentContact&) const noexcept;
-    void by_newton(const MomentMatrix& T, double eta, double E_0, double E_1,
+    void by_newton(const MomentMatrix& T, double guess, double E_0, double E_1,
                    MomentContact&) const noexcept;
     struct Ends {
         double from, to;

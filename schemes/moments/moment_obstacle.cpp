@@ -479,12 +479,16 @@ bool MomentObstacle::newton_step_of_two() noexcept {
 int MomentObstacle::newton() noexcept {
     constexpr double enough = 1e-13;
     const int m = static_cast<int>(active_.size()), D = 2 * m;
+    if (m == 1) {
+        solve_own(0);
+        return found_[0].converged ? 0 : -1;
+    }
     int iterations = 0, halved = 0;
     double squares = std::numeric_limits<double>::infinity();
     bool solved = false;
     for (; iterations < most_blocks; ++iterations) {
         const Rest rest = look();
-        solved = m == 1 || rest.relative <= enough;
+        solved = rest.relative <= enough;
         if (solved) break;
         if (rest.squares >= squares && halved < 6) {
             ++halved;
