@@ -83,18 +83,13 @@ async function send_state(exact = "quick") {
   client.worker.postMessage({
     id: ++client.id,
     state: {
-      text: scene_text(),
+      ...run_of(),
       files: state.files,
       known: state.text === null && overrides_of(state.set).length === 0 && solution(),
-      overrides: overrides_of(state.set),
-      scheme: state.scheme,
-      rate: state.rate,
-      modes: state.modes,
-      options: options_of(state.scheme, state.compliance),
       exact,
       window: window_seconds,
       heard: heard_seconds,
-      shape: shape_points,
+      places: shape_points,
       compliance: state.compliance,
       lines: chart_schemes,
       rates: chart_rates,
@@ -126,3 +121,7 @@ const run_of = more => ({
   duration: run_seconds(),
   ...more,
 });
+const run_at = (stiffness, rate) => {
+  const set = {...state.set, "string.0.barrier.0.stiffness": stiffness.toPrecision(8)};
+  return run_of({overrides: overrides_of(set), rate, tap_rate: rate, duration: 0.02});
+};
