@@ -17,20 +17,14 @@ const patience = 1500, // [ms]
 
 const gunzipped = base64 => through(bytes_of(base64), new DecompressionStream("gzip"));
 
-const script_of = (...ids) =>
-  URL.createObjectURL(
-    new Blob(
-      ids.map(id => document.getElementById(id).textContent + "\n"),
-      {type: "text/javascript"},
-    ),
-  );
+const script_of = texts => URL.createObjectURL(new Blob(texts, {type: "text/javascript"}));
 
 function start_worker() {
   client.worker?.terminate();
   for (const {reject} of client.waiting.values()) reject(new Stale_question());
   client.waiting.clear();
   client.busy = false;
-  const url = script_of("glue", "core", "worker"),
+  const url = script_of(["glue", "core", "worker"].map(id => by_id(id).textContent + "\n")),
     worker = (client.worker = new Worker(url));
   client.ready = new Promise((resolve, reject) => {
     worker.onerror = e => {

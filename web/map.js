@@ -88,22 +88,18 @@ function draw_map(note = "") {
   const summary =
       note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs. `,
     counted = found.map(kind => [kind, `${kind.replace("_", " ")}: ${count(kind)}; `]);
-  document
-    .getElementById("map_said")
-    .replaceChildren(
-      summary,
-      ...counted.flatMap(([kind, text]) => [
-        element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
-        text,
-      ]),
-    );
-  document
-    .getElementById("map")
-    .setAttribute(
-      "aria-label",
-      "map of outcomes over stiffness and sample rate. " +
-        [summary, ...counted.map(([, text]) => text)].join(""),
-    );
+  by_id("map_said").replaceChildren(
+    summary,
+    ...counted.flatMap(([kind, text]) => [
+      element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
+      text,
+    ]),
+  );
+  const words = [summary, ...counted.map(([, text]) => text)].join("");
+  by_id("map").setAttribute(
+    "aria-label",
+    `map of outcomes over stiffness and sample rate. ${words}`,
+  );
 }
 
 function watch_map() {
