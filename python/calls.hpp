@@ -106,7 +106,7 @@ inline std::shared_ptr<TakenRun> run_one(const py::object& of, const std::string
         const compare::Catalogue catalogue(plugins());
         const compare::Advice a = unlocked(
             [&] { return compare::advise(scene, request, catalogue, PythonListener()).back(); });
-        if (!a.within) throw Refusal(compare::text_of(a));
+        if (!compare::is_to_run(a, within)) throw Refusal(compare::text_of(a));
         job = {a.scheme, a.settings};
         advice = store::indented(compare::json_of(a));
     }

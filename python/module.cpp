@@ -157,18 +157,10 @@ void add_outcome(RunClass& taken) {
             "Processor time of making the scheme and stepping it [s]; None of a reference, which "
             "may have been read back.")
         .def_property_readonly(
-            "advice",
-            [](const TakenRun& r) -> py::object {
-                if (r.advice.empty()) return py::none();
-                return python::parsed(r.advice);
-            },
+            "advice", [](const TakenRun& r) { return python::parsed(r.advice); },
             "How scheme, rate and modes were chosen, a dict; None where they were named.")
         .def_property_readonly(
-            "uncertainty",
-            [](const TakenRun& r) -> py::object {
-                if (r.uncertainty.empty()) return py::none();
-                return python::parsed(r.uncertainty);
-            },
+            "uncertainty", [](const TakenRun& r) { return python::parsed(r.uncertainty); },
             "Of a reference, a dict: taps {tap: {window: relative L2, None where unknown}}, and "
             "`against` and `doubled`, which tell it. None of other runs.")
         .def("to_xarray", &python::to_xarray,

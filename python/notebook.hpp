@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/store/encoding.hpp"
+#include "bench/store/trace_file.hpp"
 #include "python/values.hpp"
 
 namespace jvari::python {
@@ -32,25 +33,16 @@ inline std::string envelope(std::span<const double> x, double least, double most
     return path;
 }
 
-// WAV of 16 bits in base64, without the mean and as loud as possible; "" at a rate that browsers do
-// not play.
+// WAV of 16 bits in base64, without the mean and as loud as possible; "" for silence, and at a rate
+// that browsers do not play.
 inline std::string sound_of(std::span<const double> x, double rate) {
-    if (x.empty() || rate < 3000 || rate > 192000) return "";
-    double mean = 0, loudest = 0;
-    for (const double v : x) mean += v / static_cast<double>(x.size());
-    for (const double v : x) loudest = std::max(loudest, std::abs(v - mean));
-    std::string samples;
-    for (const double v : x) {
-        const auto s =
-            static_cast<std::int16_t>(loudest > 0 ? std::lround(32767 * (v - mean) / loudest) : 0);
-        samples += {static_cast<char>(s & 0xff), static_cast<char>(s >> 8)};
-    }
-    const py::object file = py::module_::import("io").attr("BytesIO")(),
-                     wav = py::module_::import("wave").attr("open")(file, "wb");
-    wav.attr("setparams")(py::make_tuple(1, 2, std::lround(rate), 0, "NONE", "not compressed"));
-    wav.attr("writeframes")(py::bytes(samples));
-    wav.attr("close")();
-    return bench::store::base64(file.attr("getvalue")().cast<std::string>());
+    const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+    std::vector<double> centred(x.begin(), x.end());
+    for (double& v : centred) v -= mean;
+    const bench::store::Sound sound = bench::store::sound_of(centred, rate);
+    return sound.samples.empty() || rate > 192000
+               ? ""
+               : bench::store::base64(bench::store::wav_of(sound));
 }
 
 inline std::string html_of(const TakenRun& r) {

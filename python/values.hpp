@@ -104,7 +104,8 @@ struct NamedScene {  // a scene with its name and overrides
     }
 };
 
-inline py::object parsed(const std::string& json) {
+inline py::object parsed(const std::string& json) {  // of nothing None
+    if (json.empty()) return py::none();
     return py::module_::import("json").attr("loads")(json);
 }
 inline py::object rows_of(const bench::store::Table& t) {

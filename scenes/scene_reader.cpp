@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <tuple>
 
 #include "scenes/barrier.hpp"
 #include "scenes/columns.hpp"
@@ -113,6 +112,16 @@ public:
             x = static_cast<double>(*i);
         else fail(*v, at(key), v->found(), expected);
     }
+    // A number that is out of range is refused at once: others follow from it.
+    double within(const char* key, const Range& range, const char* unit,
+                  std::optional<double> absent = {}) {
+        double x = 0;
+        number(key, x, range, unit, absent);
+        if (!range.holds(x))
+            fail(*table_.find(key), at(key), table_.find(key)->found(),
+                 range.says + (*unit ? " [" + std::string(unit) + "]" : ""));
+        return x;
+    }
     void stiffness(const char* key, double& k, const char* unit) {
         const Value* v = table_.find(key);
         const auto* word = v ? std::get_if<std::string>(&v->content) : nullptr;
@@ -128,10 +137,7 @@ public:
         const Value *name = table_.find("material"), *width = table_.find("diameter");
         if (!name && !width) return;
         const Material& m = materials[index_of("material", material_names)];
-        double diameter = 0;
-        number("diameter", diameter, positive, "m");
-        if (!positive.holds(diameter))
-            fail(*width, at("diameter"), width->found(), std::string(positive.says) + " [m]");
+        const double diameter = within("diameter", positive, "m");
         const bool overridden = name->place < 0 || width->place < 0;
         for (const auto& [key, value] :
              {std::pair{"linear_density", linear_density_of(m, diameter)},
@@ -150,13 +156,8 @@ public:
         const Value* first = table_.find(rebound_keys[0]);
         if (!first) first = table_.find(rebound_keys[1]);
         if (!first || (loss && loss->place < 0 && first->place > 0)) return;
-        double e = 1, v = 0;
-        number(rebound_keys[0], e, fraction, "");
-        number(rebound_keys[1], v, positive, "m/s");
-        for (const auto& [key, x, range] :
-             {std::tuple{rebound_keys[0], e, fraction}, {rebound_keys[1], v, positive}})
-            if (!range.holds(x))
-                fail(*table_.find(key), at(key), table_.find(key)->found(), range.says);
+        const double e = within(rebound_keys[0], fraction, ""),
+                     v = within(rebound_keys[1], positive, "m/s");
         if (loss && (loss->place < 0) == (first->place < 0))
             fail(*loss, at("contact_loss"), loss->found(),
                  "nothing beside restitution and impact_speed, which say as much");
@@ -180,7 +181,7 @@ public:
             return number(tension_keys[0], s.tension, not_negative, "N");
         const Value& v = *table_.find(chosen);
         double hertz = 0;
-        if (chosen == tension_keys[1]) number(chosen, hertz, positive, "Hz");
+        if (chosen == tension_keys[1]) hertz = within(chosen, positive, "Hz");
         else {
             std::string note;
             text(chosen, note);
@@ -192,8 +193,6 @@ public:
                     "a note from \"C-1\" to \"B9\", as in \"C3\", \"F#2\", \"Bb4\" or \"A2 -14c\"");
             hertz = *frequency;
         }
-        if (!positive.holds(hertz))
-            fail(v, at(chosen), v.found(), std::string(positive.says) + " [Hz]");
         number("bending_stiffness", s.bending_stiffness, not_negative, "N m^2", 0.0);
         s.tension = 1;  // placeholder: validate() reports the quantities that are out of range
         if (!positive.holds(s.length) || !positive.holds(s.linear_density) ||
@@ -205,14 +204,7 @@ public:
                  "a pitch that a tension gives: the bending stiffness alone gives " +
                      number_text(slack_pitch(s)) + " Hz");
     }
-    double concert_pitch() {
-        double a4 = 440;
-        number("A4", a4, positive, "Hz", a4);
-        if (!positive.holds(a4))
-            fail(*table_.find("A4"), at("A4"), number_text(a4),
-                 std::string(positive.says) + " [Hz]");
-        return a4;
-    }
+    double concert_pitch() { return within("A4", positive, "Hz", 440); }
     void count(const char* key, int& n) {
         n = integer(*required(key, "a whole number >= 1"), key, 1);
     }

@@ -166,15 +166,18 @@ void fields(auto& pass, Is<TableCurve> auto& c) {
     pass.columns("file", c.file, Column{"x_m", "x_m", any, x_spellings}, c.x,
                  Column{"height_m", "height_m", any, height_spellings}, c.height);
 }
+void law_of_contact(auto& pass, auto& contact) {
+    pass.number("exponent", contact.exponent, one_or_more, "", 1.0);
+    pass.rebound();
+    pass.number("contact_loss", contact.contact_loss, not_negative, "s/m", 0.0);
+    pass.choice("loss_law", contact.loss_law, loss_law_names, LossLaw::hunt_crossley);
+}
 void fields(auto& pass, Is<LumpedBarrier> auto& b) {
     pass.number("position", b.position, any, "m");
     pass.number("width", b.width, not_negative, "m", 0.0);
     pass.number("height", b.height, any, "m", 0.0);
     pass.stiffness("stiffness", b.stiffness.k, "N/m^exponent");
-    pass.number("exponent", b.exponent, one_or_more, "", 1.0);
-    pass.rebound();
-    pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
-    pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
+    law_of_contact(pass, b);
     pass.choice("side", b.side, side_names, Side::below);
 }
 void fields(auto& pass, Is<ProfileBarrier> auto& b) {
@@ -182,10 +185,7 @@ void fields(auto& pass, Is<ProfileBarrier> auto& b) {
     pass.number("from", b.from, any, "m");
     pass.number("to", b.to, any, "m");
     pass.stiffness("stiffness_density", b.stiffness.K, "N/m^(exponent+1)");
-    pass.number("exponent", b.exponent, one_or_more, "", 1.0);
-    pass.rebound();
-    pass.number("contact_loss", b.contact_loss, not_negative, "s/m", 0.0);
-    pass.choice("loss_law", b.loss_law, loss_law_names, LossLaw::hunt_crossley);
+    law_of_contact(pass, b);
 }
 void fields(auto& pass, Is<Barrier> auto& b) { pass.one_of("shape", b, barrier_names); }
 
@@ -204,10 +204,7 @@ void fields(auto& pass, Is<Mass> auto& m) {
     pass.number("velocity", m.velocity, any, "m/s", 0.0);
     pass.number("gap", m.gap, any, "m", 0.0);
     pass.number("stiffness", m.stiffness, positive, "N/m^exponent");
-    pass.number("exponent", m.exponent, one_or_more, "", 1.0);
-    pass.rebound();
-    pass.number("contact_loss", m.contact_loss, not_negative, "s/m", 0.0);
-    pass.choice("loss_law", m.loss_law, loss_law_names, LossLaw::hunt_crossley);
+    law_of_contact(pass, m);
     pass.number("spring", m.spring, not_negative, "N/m", 0.0);
     pass.number("damping", m.damping, not_negative, "kg/s", 0.0);
     pass.number("weight", m.weight, not_negative, "N", 0.0);

@@ -179,7 +179,7 @@ struct Descriptor {
     const char* source;   // "van Walstijn et al. 2016, eqs 38-49"
     Features represents;  // all features that it takes, including the approximated ones
     Balance balance;
-    Clock clock;
+    Clock clock = Clock::stepped;
     // Called only by make_scheme, for one string or for all on a moving body; throws Refusal or
     // BadScene.
     std::unique_ptr<Scheme> (*make)(const Descriptor&, const Scene&, const Settings&);

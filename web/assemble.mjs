@@ -5,12 +5,13 @@ import {join, resolve} from "node:path";
 import {gzipSync} from "node:zlib";
 
 const [build, sources] = process.argv.slice(2).map(p => resolve(p)),
-  web = name => readFileSync(join(sources, "web", name), "utf8");
+  text = name => readFileSync(join(sources, name), "utf8"),
+  web = name => text(join("web", name));
 const library = Object.fromEntries(
   readdirSync(join(sources, "scenes"))
     .filter(name => name.endsWith(".toml"))
     .sort()
-    .map(name => [name.slice(0, -5), readFileSync(join(sources, "scenes", name), "utf8")]),
+    .map(name => [name.slice(0, -5), text(join("scenes", name))]),
 );
 // Solutions of strings as they stand in the library, from the set of problems: the headline's tap
 // over 50 ms after the pluck, 16 bits a sample, as differences, which pack well.
@@ -35,7 +36,7 @@ const wasm = readFileSync(join(build, "jvari.wasm"));
 
 const safe = text => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 const parts = {
-  STYLE: web("play.css"),
+  STYLE: text("bench/report/page/base.css") + web("play.css"),
   GLUE: safe(readFileSync(join(build, "jvari.js"), "utf8")),
   CORE: safe(web("core.js")),
   WORKER: safe(web("worker.js")),

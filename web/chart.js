@@ -96,7 +96,7 @@ async function draw_answers() {
           });
   // Returns if the worker was replaced, or if newer points came.
   if (!verdicts || request !== draw_answers.count) return;
-  document.getElementById("answers").replaceChildren(
+  by_id("answers").replaceChildren(
     ...(chart.why ? [] : verdicts).map((v, k) => {
       const [found, ...more] = answer_of(v),
         card = element("div", {className: "card"});
@@ -118,6 +118,17 @@ function svg(name, attributes, ...inside) {
   node.append(...inside);
   return node;
 }
+
+// Looks of a scheme's line and points: dashed and hollow as published.
+const line_of = p => ({
+    stroke: colour_of(p.scheme),
+    "stroke-width": 1.6,
+    "stroke-dasharray": p.compliance === "own" ? "5 4" : "none",
+  }),
+  dot_of = p => ({
+    stroke: colour_of(p.scheme),
+    fill: p.compliance === "own" ? "var(--paper)" : colour_of(p.scheme),
+  });
 
 function draw_chart() {
   draw_answers();
@@ -178,18 +189,9 @@ function draw_chart() {
   const lines = new Map();
   for (const p of points) lines.set(label_of(p), [...(lines.get(label_of(p)) ?? []), p]);
   for (const [label, line] of lines) {
-    const stroke = colour_of(line[0].scheme),
-      dash = line[0].compliance === "own" ? "5 4" : "none";
     line.sort((a, b) => a.rate - b.rate);
-    art.append(
-      svg("polyline", {
-        points: line.map(p => `${X(p.cost)},${Y(p.error)}`).join(" "),
-        fill: "none",
-        stroke,
-        "stroke-dasharray": dash,
-        "stroke-width": 1.6,
-      }),
-    );
+    const places = line.map(p => `${X(p.cost)},${Y(p.error)}`).join(" ");
+    art.append(svg("polyline", {points: places, fill: "none", ...line_of(line[0])}));
     for (const p of line) {
       const chosen =
         p.scheme === state.scheme &&
@@ -201,8 +203,7 @@ function draw_chart() {
           cx: X(p.cost),
           cy: Y(p.error),
           r: chosen ? 7 : 4.5,
-          fill: p.compliance === "own" ? "var(--paper)" : stroke,
-          stroke,
+          ...dot_of(p),
           "stroke-width": chosen ? 3 : 1.5,
           class: "point",
         },
@@ -224,29 +225,13 @@ function draw_chart() {
   box.replaceChildren(art, legend, table_of_points());
 }
 
-function swatch(p) {
-  const stroke = colour_of(p.scheme);
-  return svg(
+const swatch = p =>
+  svg(
     "svg",
     {width: 26, height: 10, "aria-hidden": "true"},
-    svg("line", {
-      x1: 0,
-      x2: 26,
-      y1: 5,
-      y2: 5,
-      stroke,
-      "stroke-width": 1.6,
-      "stroke-dasharray": p.compliance === "own" ? "5 4" : "none",
-    }),
-    svg("circle", {
-      cx: 13,
-      cy: 5,
-      r: 4,
-      stroke,
-      fill: p.compliance === "own" ? "var(--paper)" : stroke,
-    }),
+    svg("line", {x1: 0, x2: 26, y1: 5, y2: 5, ...line_of(p)}),
+    svg("circle", {cx: 13, cy: 5, r: 4, ...dot_of(p)}),
   );
-}
 
 function table_of_points() {
   const rows = [...chart.points, ...chart.own].map(p => [
@@ -268,18 +253,9 @@ function table_of_points() {
     scroll = element("div", {className: "scroll", tabIndex: 0}, table);
   (scroll.setAttribute("role", "region"),
     scroll.setAttribute("aria-label", "table of the chart's points"));
-  const folded = element(
-    "details",
-    {},
-    element(
-      "summary",
-      {},
-      chart.whole
-        ? `${chart.points.length} points as a table`
-        : `computing … ${chart.points.length} of ${chart.cells || "the"} points`,
-    ),
-    scroll,
-  );
-  folded.open = Boolean(was_open);
-  return folded;
+  const count = chart.points.length,
+    title = chart.whole
+      ? `${count} points as a table`
+      : `computing … ${count} of ${chart.cells || "the"} points`;
+  return element("details", {open: Boolean(was_open)}, element("summary", {}, title), scroll);
 }

@@ -17,20 +17,14 @@ const patience = 1500, // [ms]
 
 const gunzipped = base64 => through(bytes_of(base64), new DecompressionStream("gzip"));
 
-const script_of = (...ids) =>
-  URL.createObjectURL(
-    new Blob(
-      ids.map(id => document.getElementById(id).textContent + "\n"),
-      {type: "text/javascript"},
-    ),
-  );
+const script_of = texts => URL.createObjectURL(new Blob(texts, {type: "text/javascript"}));
 
 function start_worker() {
   client.worker?.terminate();
   for (const {reject} of client.waiting.values()) reject(new Stale_question());
   client.waiting.clear();
   client.busy = false;
-  const url = script_of("glue", "core", "worker"),
+  const url = script_of(["glue", "core", "worker"].map(id => by_id(id).textContent + "\n")),
     worker = (client.worker = new Worker(url));
   client.ready = new Promise((resolve, reject) => {
     worker.onerror = e => {
@@ -83,18 +77,13 @@ async function send_state(exact = "quick") {
   client.worker.postMessage({
     id: ++client.id,
     state: {
-      text: scene_text(),
+      ...run_of(),
       files: state.files,
       known: state.text === null && overrides_of(state.set).length === 0 && solution(),
-      overrides: overrides_of(state.set),
-      scheme: state.scheme,
-      rate: state.rate,
-      modes: state.modes,
-      options: options_of(state.scheme, state.compliance),
       exact,
       window: window_seconds,
       heard: heard_seconds,
-      shape: shape_points,
+      places: shape_points,
       compliance: state.compliance,
       lines: chart_schemes,
       rates: chart_rates,
@@ -126,3 +115,7 @@ const run_of = more => ({
   duration: run_seconds(),
   ...more,
 });
+const run_at = (stiffness, rate) => {
+  const set = {...state.set, "string.0.barrier.0.stiffness": stiffness.toPrecision(8)};
+  return run_of({overrides: overrides_of(set), rate, tap_rate: rate, duration: 0.02});
+};

@@ -1,8 +1,7 @@
 // Map of a scheme's failures: the outcome over the stiffness of the obstacle and the sample rate,
 // filled column by column while you watch.
 const map = {number: 0, columns: [], stiffness: [], rates: [], running: false};
-const map_size = {columns: 28, rows: 13},
-  map_seconds = 0.02;
+const map_size = {columns: 28, rows: 13};
 
 async function fill_map() {
   const number = ++map.number,
@@ -17,15 +16,9 @@ async function fill_map() {
   map.rates = Array.from({length: map_size.rows}, (_, k) => Math.round(22050 * 2 ** (k / 3)));
   map.running = true;
   for (const stiffness of map.stiffness) {
-    const overrides = overrides_of({
-      ...state.set,
-      "string.0.barrier.0.stiffness": stiffness.toPrecision(6),
-    });
     try {
-      const runs = map.rates.map(rate =>
-        run_of({overrides, rate, tap_rate: rate, duration: map_seconds}),
-      );
-      const column = await ask("outcomes", {runs});
+      const runs = map.rates.map(rate => run_at(stiffness, rate)),
+        column = await ask("outcomes", {runs});
       if (number !== map.number) return;
       map.columns.push(column);
       draw_map();
@@ -95,22 +88,18 @@ function draw_map(note = "") {
   const summary =
       note || `${state.scheme}: ${cells.length} of ${map_size.columns * map_size.rows} runs. `,
     counted = found.map(kind => [kind, `${kind.replace("_", " ")}: ${count(kind)}; `]);
-  document
-    .getElementById("map_said")
-    .replaceChildren(
-      summary,
-      ...counted.flatMap(([kind, text]) => [
-        element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
-        text,
-      ]),
-    );
-  document
-    .getElementById("map")
-    .setAttribute(
-      "aria-label",
-      "map of outcomes over stiffness and sample rate. " +
-        [summary, ...counted.map(([, text]) => text)].join(""),
-    );
+  by_id("map_said").replaceChildren(
+    summary,
+    ...counted.flatMap(([kind, text]) => [
+      element("span", {className: "key", style: `background: var(--${kinds[kind]})`}),
+      text,
+    ]),
+  );
+  const words = [summary, ...counted.map(([, text]) => text)].join("");
+  by_id("map").setAttribute(
+    "aria-label",
+    `map of outcomes over stiffness and sample rate. ${words}`,
+  );
 }
 
 function watch_map() {

@@ -50,8 +50,7 @@ return taps;
 // Wraps the text into a worker's script. The script sends the result as a message and throws
 // errors.
 const own_prelude = 10; // lines of the script above the text
-function own_worker(text) {
-  const script = `"use strict"; onmessage = ({data: p}) => {
+const own_script = text => `"use strict"; onmessage = ({data: p}) => {
         const began = performance.now(), taps = scheme(p), took = (performance.now() - began) / 1e3;
         const fail = text => { throw new Error(text); };
         if (!Array.isArray(taps) || taps.length !== p.taps)
@@ -60,41 +59,25 @@ function own_worker(text) {
           fail("tap " + p.tap_names[k] + " has " + t?.length + " rows, expected " + p.rows);
         postMessage({taps: taps.map(rows), took});
     };\nfunction scheme(p) {\n${text}\n}`;
-  const url = URL.createObjectURL(new Blob([script], {type: "text/javascript"})),
-    worker = new Worker(url);
-  return {
-    worker,
-    free: () => {
-      worker.terminate();
-      URL.revokeObjectURL(url);
-    },
-  };
-}
 
 function run_own(text, problem) {
-  const {worker, free} = own_worker(text);
+  const url = script_of([own_script(text)]),
+    worker = new Worker(url),
+    late =
+      `it was stopped after ${own_limit / 1e3} s. Make it faster, or write it as a plugin of the ` +
+      "program";
   return new Promise((resolve, reject) => {
-    const late = setTimeout(
-      () =>
-        reject(
-          new Error(
-            `it was stopped after ${own_limit / 1e3} s. Make it faster, or write it as a ` +
-              "plugin of the program",
-          ),
-        ),
-      own_limit,
-    );
-    worker.onmessage = ({data}) => {
-      clearTimeout(late);
-      resolve(data);
-    };
+    setTimeout(() => reject(new Error(late)), own_limit);
+    worker.onmessage = ({data}) => resolve(data);
     worker.onerror = e => {
       e.preventDefault();
-      clearTimeout(late);
       reject(new Error(`line ${Math.max(1, e.lineno - own_prelude)}: ${e.message}`));
     };
     worker.postMessage(problem);
-  }).finally(free);
+  }).finally(() => {
+    worker.terminate();
+    URL.revokeObjectURL(url);
+  });
 }
 
 async function judge_own() {

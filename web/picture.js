@@ -19,6 +19,14 @@ function canvas_of(id) {
   return {pen, width, height};
 }
 
+// A path through places, and a disc.
+function path_of(pen, [from, ...places]) {
+  pen.beginPath();
+  pen.moveTo(...from);
+  for (const place of places) pen.lineTo(...place);
+}
+const disc_of = (pen, x, y, radius) => (pen.beginPath(), pen.arc(x, y, radius, 0, 7));
+
 // ---- The view: metres to pixels. The deflection is exaggerated by a factor, which the picture
 // names.
 
@@ -63,36 +71,33 @@ function draw_obstacles(pen, v) {
     floor = v.height - 2;
   pen.fillStyle = colour("wood");
   for (const b of s.barrier) {
-    pen.beginPath();
-    if (b.shape === "lumped") {
-      const half = Math.max(4, v.x(b.width / 2) - v.x(0)),
-        x = v.x(b.position),
-        y = Math.min(floor, v.y(b.height));
-      (pen.moveTo(x - half, y),
-        pen.lineTo(x + half, y),
-        pen.lineTo(x + half + 7, floor),
-        pen.lineTo(x - half - 7, floor));
-    } else {
-      pen.moveTo(v.x(b.x[0]), floor);
-      b.x.forEach((x, k) => pen.lineTo(v.x(x), Math.min(floor, v.y(b.height[k]))));
-      pen.lineTo(v.x(b.x.at(-1)), floor);
-    }
+    const lumped = b.shape === "lumped",
+      half = lumped && Math.max(4, v.x(b.width / 2) - v.x(0)),
+      top = lumped
+        ? [-half, half].map(dx => [v.x(b.position) + dx, v.y(b.height)])
+        : b.x.map((x, k) => [v.x(x), v.y(b.height[k])]),
+      wider = lumped ? 7 : 0;
+    path_of(pen, [
+      [top[0][0] - wider, floor],
+      ...top.map(([x, y]) => [x, Math.min(floor, y)]),
+      [top.at(-1)[0] + wider, floor],
+    ]);
     pen.fill();
   }
   if (s.thread) {
+    const x = v.x(s.thread.position);
     pen.strokeStyle = colour("thread");
     pen.lineWidth = 3;
-    pen.beginPath();
-    (pen.moveTo(v.x(s.thread.position), v.y(s.thread.height)),
-      pen.lineTo(v.x(s.thread.position), floor));
-    pen.stroke();
+    (path_of(pen, [
+      [x, v.y(s.thread.height)],
+      [x, floor],
+    ]),
+      pen.stroke());
   }
   pen.fillStyle = colour("ink");
   // Masses at t = 0.
-  for (const m of s.mass)
-    (pen.beginPath(), pen.arc(v.x(m.position), v.y(m.height) + 7, 7, 0, 7), pen.fill());
-  for (const x of [0, s.length])
-    if (x <= v.length) (pen.beginPath(), pen.arc(v.x(x), v.y(0), 4, 0, 7), pen.fill());
+  for (const m of s.mass) (disc_of(pen, v.x(m.position), v.y(m.height) + 7, 7), pen.fill());
+  for (const x of [0, s.length]) if (x <= v.length) (disc_of(pen, v.x(x), v.y(0), 4), pen.fill());
 }
 
 // Draws the motion at row `row`; a fraction interpolates between two rows.

@@ -18,13 +18,12 @@ const wrapped = (text, mark, width = 96) =>
     .map(line => `${mark} ${line.trim()}`)
     .join("\n");
 
-// `about`: the sentence with the error; `text`, `overrides`, `files`: the scene, its changes, the
-// names of its tables; `tap`: the column that is heard.
+// `about`: the sentence with the error and the names of the tables; `text`, `overrides`: the scene
+// and its changes; `tap`: the column that is heard.
 const taken = {
-  "C++"({about, text, overrides, files, scheme, rate, modes, options, tap}) {
-    const pairs = options.map(o => `{${o.split("=").map(cpp_word).join(", ")}}`).join(", "),
-      tables = files.length ? ` It reads ${files.join(", ")} from the working directory.` : "";
-    return `${wrapped(about + tables, "//")}
+  "C++"({about, text, overrides, scheme, rate, modes, options, tap}) {
+    const pairs = options.map(o => `{${o.split("=").map(cpp_word).join(", ")}}`).join(", ");
+    return `${wrapped(about, "//")}
 //
 // cmake_minimum_required(VERSION 3.25)
 // project(string LANGUAGES C CXX)
@@ -121,14 +120,13 @@ int main() {  // 0.5 s, plucked again, and 0.5 s a semitone higher
 }
 `;
   },
-  Python({about, text, overrides, files, scheme, rate, modes, options}) {
-    const tables = files.length ? ` It reads ${files.join(", ")} from the working directory.` : "",
-      pairs = options.map(o => o.split("=").map(cpp_word).join(": ")).join(", "),
+  Python({about, text, overrides, scheme, rate, modes, options}) {
+    const pairs = options.map(o => o.split("=").map(cpp_word).join(": ")).join(", "),
       sets = overrides.map(o => {
         const [key, value] = o.split(/=(.*)/s);
         return `    scene = scene.set(${cpp_word(key)}, ${Number.isFinite(Number(value)) ? value : cpp_word(value)})`;
       });
-    return `${wrapped(about + tables, "#")}
+    return `${wrapped(about, "#")}
 import pathlib
 
 import jvari
@@ -165,19 +163,14 @@ if __name__ == "__main__":
 function show_take() {
   if (!by_id("take_part").open || !shown.scene || !shown.motion) return;
   const {motion, words, scene} = shown,
+    files = Object.keys(state.files).join(", "),
+    about = [by_id("title").textContent, words && heard_words(words)].filter(Boolean).join(". "),
+    tap = scene.tap.findIndex(t => t.quantity === "nut_force"),
     string = {
-      about: `${scene.name}: ${[by_id("title").textContent, words && heard_words(words)].filter(Boolean).join(". ")}`,
+      ...run_of({modes: motion.modes}),
+      about: `${scene.name}: ${about}${files && ` It reads ${files} from the working directory.`}`,
       text: scene_text(),
-      overrides: overrides_of(state.set),
-      files: Object.keys(state.files),
-      scheme: state.scheme,
-      rate: state.rate,
-      modes: motion.modes,
-      options: options_of(state.scheme, state.compliance),
-      tap: Math.max(
-        0,
-        scene.tap.findIndex(t => t.quantity === "nut_force"),
-      ),
+      tap: Math.max(0, tap),
     },
     chosen = by_id("take_choice").value;
   by_id("take_text").textContent = taken[chosen](string);

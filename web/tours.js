@@ -32,19 +32,7 @@ const energy_and_error = () =>
 // Whether a scheme runs at a stiffness; `boundary` bisects for the largest stiffness without a
 // failure.
 const runs_at = async (stiffness, rate) => {
-  const [verdict] = await ask("outcomes", {
-    runs: [
-      run_of({
-        overrides: overrides_of({
-          ...state.set,
-          "string.0.barrier.0.stiffness": stiffness.toPrecision(8),
-        }),
-        rate,
-        tap_rate: rate,
-        duration: 0.02,
-      }),
-    ],
-  });
+  const [verdict] = await ask("outcomes", {runs: [run_at(stiffness, rate)]});
   return !["diverged", "not_converged", "refused"].includes(verdict);
 };
 async function boundary(rate) {

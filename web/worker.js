@@ -17,15 +17,7 @@ const turn = () =>
   });
 class Stale extends Error {}
 
-const asked_of = (state, more) => ({
-  scene: state.text,
-  overrides: state.overrides,
-  scheme: state.scheme,
-  rate: state.rate,
-  modes: state.modes,
-  options: state.options,
-  ...more,
-});
+// The page's state is a run's request: {...state, rate: 88200} asks for another run of the string.
 const options_of = (name, compliance) => {
   // Only some schemes know the option.
   const knows = jvari.known[name]?.options.some(o => o.name === "compliance");
@@ -39,37 +31,40 @@ function headline_of(scene) {
   return {nut, force: first("bridge_force")};
 }
 
-// Energy of a run: the stored energy as a curve, and the energy gained or lost without account,
-// relative to the largest stored energy.
-const balance_of = run => {
+// The stored energy of a run as a curve.
+const stored_of = run => {
   const ledger = run.ledger();
-  return ledger ? {stored: Float64Array.from(ledger[0]), residual: run.residual ?? NaN} : {};
+  return ledger && Float64Array.from(ledger[0]);
 };
-
+// What the page needs of a run: what the core says about it, and the headline's taps.
+function summary_of({handle, tap, ledger, free, ...about}, scene) {
+  const {nut, force} = headline_of(scene);
+  return {
+    ...about,
+    nut: Float64Array.from(tap(nut)),
+    force: force < 0 ? null : Float64Array.from(tap(force)),
+    stored: stored_of({ledger}),
+  };
+}
+// The same with the shape of the string, for the picture.
 function pictured(run, scene, points) {
-  // Data of a run for the picture.
-  const {nut, force} = headline_of(scene),
-    count = scene.tap.length,
-    shape = new Float32Array(run.rows * points);
+  const shape = new Float32Array(run.rows * points);
   for (let k = 0; k < points; ++k) {
-    const column = run.tap(count + k);
+    const column = run.tap(scene.tap.length + k);
     for (let n = 0; n < run.rows; ++n) shape[n * points + k] = column[n];
   }
-  return {
-    shape,
-    points,
-    rows: run.rows,
-    rate: run.rate,
-    outcome: run.outcome,
-    step: run.step,
-    facts: run.facts,
-    dofs: run.dofs,
-    modes: run.modes,
-    steps: run.steps,
-    nut: Float64Array.from(run.tap(nut)),
-    force: force < 0 ? null : Float64Array.from(run.tap(force)),
-    ...balance_of(run),
-  };
+  return {...summary_of(run, scene), shape, points};
+}
+// The first of a list of settings that the core does not refuse, by `act`.
+function first_taken(list, act) {
+  let why;
+  for (const one of list)
+    try {
+      return act(one);
+    } catch (error) {
+      why = error;
+    }
+  throw why;
 }
 
 // ---- What a run is judged by, kept until the string changes: first an estimate by two runs, then
@@ -107,36 +102,21 @@ async function estimate_of(state, scene, go_on) {
         ...{scheme, rate: 44100 * times, modes: Math.round(modes)},
         options: profile && knows_points ? [...options, `points=${points}`] : options,
       },
-      found = jvari.run({...asked_of(state, request), duration: state.window, shape: state.shape});
+      found = jvari.run({...state, ...request, shape: state.places});
     runs.push(found);
     return Object.assign(found, {request, times, choice: options, points});
   };
   // Twice the rate, the points of a profile and the modes of a run; a table has no more modes.
-  const finer = (run_, factors) => {
-    let why;
-    for (const by of factors)
-      try {
-        return run(2 * run_.times, by * run_.modes, run_.choice, 2 * run_.points);
-      } catch (error) {
-        why = error;
-      }
-    throw why;
-  };
-  // Matched where the finer run can be too.
-  const first_pair = () => {
-    let why;
-    for (const factors of [[2, 1.5], [1]])
-      for (const compliance of ["matched", "own"])
-        try {
-          const coarse = run(2, 0, options_of(scheme, compliance), 16);
-          return [coarse, finer(coarse, factors)];
-        } catch (error) {
-          why = error;
-        }
-    throw why;
-  };
+  const finer = ({times, modes, choice, points}, factors) =>
+    first_taken(factors, by => run(2 * times, by * modes, choice, 2 * points));
   try {
-    let [coarse, fine] = first_pair();
+    // Matched where the finer run can be too.
+    let [coarse, fine] = first_taken([[2, 1.5], [1]], factors =>
+      first_taken(["matched", "own"], compliance => {
+        const first = run(2, 0, options_of(scheme, compliance), 16);
+        return [first, finer(first, factors)];
+      }),
+    );
     const heard = [coarse.request, fine.request];
     // A difference counts as a third of the one before at least.
     const counted = before =>
@@ -157,8 +137,8 @@ async function estimate_of(state, scene, go_on) {
       ...{runs, run: fine, estimated: true, recorded: estimators.includes(scheme), heard},
       ...{...fine.request, modes: fine.modes, ...known_over(difference.map(d => 1.5 * d))},
       horizon: jvari.horizon(coarse, fine, nut),
-      cost: fine.wall / state.window / (fine.times / 4) ** 2, // of the first finer run
-      picture: pictured(fine, scene, state.shape.length),
+      cost: fine.wall / state.duration / (fine.times / 4) ** 2, // of the first finer run
+      picture: pictured(fine, scene, state.places.length),
     };
   } catch (error) {
     runs.forEach(r => r.free());
@@ -181,32 +161,21 @@ async function exact_of(state, scene, go_on) {
     profile = scene.string.some(s => s.barrier.some(b => b.shape === "profile")),
     runs = [];
   // Matched compliance if the program uses it here and the reference does not refuse.
-  let options = options_of(scene.reference, scene.matched ? "matched" : "");
+  let options;
   // Only the run with half the modes probes the energy: energy costs eight times as much as motion,
   // and half the modes hold all but 0.2 %.
   const run = (modes, more = {}, points = []) => {
-    const solution = jvari.run({
-      scene: state.text,
-      overrides: state.overrides,
-      scheme: scene.reference,
-      modes,
-      options: [...options, ...points],
-      duration: state.window,
-      ...more,
-    });
+    const request = {scheme: scene.reference, modes, options: [...options, ...points]},
+      solution = jvari.run({...state, ...request, ...more});
     runs.push(solution);
     return solution;
   };
   try {
-    const change = (fine, coarse) => differences(fine, coarse, nut);
-    let base;
-    try {
-      base = run(0, {shape: state.shape});
-    } catch (error) {
-      if (options.length === 0) throw error;
-      options = [];
-      base = run(0, {shape: state.shape});
-    }
+    const change = (fine, coarse) => differences(fine, coarse, nut),
+      base = first_taken(scene.matched ? ["matched", ""] : [""], compliance => {
+        options = options_of(scene.reference, compliance);
+        return run(0, {shape: state.places});
+      });
     // Rigid barriers are matched without the option.
     const rigid = scene.string.some(s => s.barrier.some(b => b.stiffness === Infinity)),
       matched = rigid || options.length > 0,
@@ -219,13 +188,13 @@ async function exact_of(state, scene, go_on) {
       changed = change(base, half),
       left = changed.map(c => jvari.left_after(c, NaN, matched));
     for (let more = 2; more <= 4 && !dear(scene) && !(left[0] < 1e-3); more *= 2) {
-      const finer = run(more * modes, {shape: state.shape}),
+      const finer = run(more * modes, {shape: state.places}),
         by = change(finer, best);
       left = by.map((b, k) => jvari.left_after(b, changed[k], matched));
       [best, changed] = [finer, by];
       await go_on();
     }
-    const picture = {...pictured(best, scene, state.shape.length), stored: balance_of(half).stored};
+    const picture = {...pictured(best, scene, state.places.length), stored: stored_of(half)};
     return {
       ...{runs, run: best, scheme: scene.reference, options, picture},
       ...{modes: (best.dofs / 2) | 0, ...known_over(left)},
@@ -239,7 +208,7 @@ async function exact_of(state, scene, go_on) {
 // differences of its samples. It takes the column of a run of the same rows.
 function known_of({known, ...state}, scene) {
   const {scheme, rate, modes, options} = kept.estimate.heard[0],
-    run = jvari.run({...asked_of(state, {scheme, rate, modes, options}), duration: state.window}),
+    run = jvari.run({...state, scheme, rate, modes, options}),
     column = run.tap(headline_of(scene).nut),
     first = run.rows - known.differences.length;
   let sum = 0;
@@ -284,7 +253,7 @@ async function words_of(state, scene, go_on) {
     runs = [];
   try {
     for (const request of [{}, fine, coarse]) {
-      runs.push(jvari.run({...asked_of(state, request), duration: scene.free_from + seconds}));
+      runs.push(jvari.run({...state, ...request, duration: scene.free_from + seconds}));
       await go_on();
     }
     const [a, b, c] = runs,
@@ -365,14 +334,7 @@ async function chart(state, scene, chosen, post, go_on) {
     const options = options_of(scheme, compliance),
       label = {scheme, compliance: options.length ? compliance : "", rate};
     try {
-      const request = {
-        scene: state.text,
-        overrides: state.overrides,
-        scheme,
-        rate,
-        options,
-        duration: state.window,
-      };
+      const request = {...state, scheme, rate, options, modes: 0};
       const point = sampled(request, run => ({
         ...label,
         ...judged(run, scene),
@@ -403,20 +365,19 @@ async function chart(state, scene, chosen, post, go_on) {
 const first_heard = 1; // [s], at once; the rest of the sound follows
 async function show(request, post, go_on) {
   for (const [name, text] of Object.entries(request.files)) jvari.write(name, text);
-  const scene = jvari.scene(request.text, [
+  const scene = jvari.scene(request.scene, [
     ...request.overrides.filter(o => !o.startsWith("duration=")),
     `duration=${request.window}`,
   ]);
   // Errors count after the pluck.
-  const state = {...request, window: scene.free_from + request.window};
+  const state = {...request, duration: scene.free_from + request.window};
   const cells = cells_of(state, scene),
-    key = JSON.stringify([state.text, state.overrides, state.files, cells, state.exact]),
+    key = JSON.stringify([state.scene, state.overrides, state.files, cells, state.exact]),
     same = key === charted;
   post({kind: "scene", scene, cells: cells.length, kept: same});
-  const points = state.shape.length,
-    run = jvari.run(asked_of(state, {duration: state.window, shape: state.shape, energy: true}));
+  const run = jvari.run({...state, shape: state.places, energy: true});
   const sounds = seconds => {
-    const sound = jvari.run(asked_of(state, {duration: seconds}));
+    const sound = jvari.run({...state, duration: seconds});
     post({
       kind: "sound",
       whole: seconds === state.heard,
@@ -427,11 +388,11 @@ async function show(request, post, go_on) {
     sound.free();
   };
   try {
-    post({kind: "motion", picture: pictured(run, scene, points)});
+    post({kind: "motion", picture: pictured(run, scene, state.places.length)});
     await go_on();
     sounds(first_heard);
     await go_on();
-    const string = JSON.stringify([state.text, state.overrides, state.files, state.window]);
+    const string = JSON.stringify([state.scene, state.overrides, state.files, state.duration]);
     if (kept.key !== string) (forget(), (kept.key = string));
     const tries_exact =
       scene.reference && (state.exact === "on" || (state.exact === "quick" && !dear(scene)));
@@ -471,24 +432,12 @@ const questions = {
   pair({run: first, beside}) {
     const a = jvari.run(first),
       scene = jvari.scene(first.scene, first.overrides),
-      {nut, force} = headline_of(scene);
-    const summary_of = r => ({
-      outcome: r.outcome,
-      step: r.step,
-      rate: r.rate,
-      rows: r.rows,
-      dofs: r.dofs,
-      cost: r.wall / first.duration,
-      facts: r.facts,
-      nut: Float64Array.from(r.tap(nut)),
-      force: force < 0 ? null : Float64Array.from(r.tap(force)),
-      ...balance_of(r),
-    });
-    const answer = {run: summary_of(a)};
+      {nut} = headline_of(scene),
+      answer = {run: summary_of(a, scene)};
     if (beside) {
       const b = jvari.run({...first, options: [], ...beside});
       Object.assign(answer, {
-        beside: summary_of(b),
+        beside: summary_of(b, scene),
         error: jvari.error(a, b, nut),
         horizon: jvari.horizon(a, b, nut),
         octaves: jvari.third_octaves(a, b, nut, 60),

@@ -213,16 +213,19 @@ void draw(const std::string& file, const Descriptor& d, const Scene& scene, cons
 }
 
 // Chooses scheme, rate and modes if the request asks for advice; the last advice counts.
-std::vector<compare::Advice> advised(const RunRequest& r, const Scene& scene,
-                                     const compare::Catalogue& catalogue, const Console& console) {
+std::optional<compare::Advice> advised(const RunRequest& r, const Scene& scene,
+                                       const compare::Catalogue& catalogue,
+                                       const Console& console) {
     const compare::AdviceRequest request{r.within, r.measure,  r.tap,
                                          r.scheme, r.tap_rate, scheme_options(r.options)};
-    if (!compare::asks_for_advice(request, r.rate.has_value(), r.modes)) return {};
+    if (!compare::asks_for_advice(request, r.rate.has_value(), r.modes)) return std::nullopt;
     const auto all = compare::advise(scene, request, catalogue, console);
     for (const compare::Advice& advice : all)
         if (advice.within) console.print(compare::text_of(advice));
         else console.note(compare::text_of(advice));
-    return all;
+    if (!all.back().within && compare::is_to_run(all.back(), r.within))
+        console.note("no tolerance was asked for, so these settings run");
+    return all.back();
 }
 
 // Tests the outputs and the size of a run before it begins.
@@ -317,16 +320,16 @@ int run_command(RunRequest r) {
                       own.taps.begin() + static_cast<long>(drawn));
     compare::note_scene(scene, console);
     const auto advice = advised(r, own, catalogue, console);
-    if (!advice.empty() && !advice.back().within) {
+    if (advice && !compare::is_to_run(*advice, r.within)) {
         console.print_json(
-            store::indented({{"status", "none"}, {"advice", compare::json_of(advice.back())}}));
+            store::indented({{"status", "none"}, {"advice", compare::json_of(*advice)}}));
         return exit_code::run_failed;
     }
-    const Descriptor& d = advice.empty() ? catalogue.find(r.scheme) : *advice.back().scheme;
-    const Settings settings = advice.empty()
-                                  ? compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
-                                                             r.modes, scheme_options(r.options))
-                                  : advice.back().settings;
+    const Descriptor& d = advice ? *advice->scheme : catalogue.find(r.scheme);
+    const Settings settings = advice
+                                  ? advice->settings
+                                  : compare::settings_of_run(d, r.rate.value_or(44100), r.tap_rate,
+                                                             r.modes, scheme_options(r.options));
     compare::note_force_files(scene, settings.sample_rate, console);
     compare::note_modes(d, scene, settings, console);
     const std::optional<report::Vega> vega = vega_for(r);
@@ -340,7 +343,7 @@ int run_command(RunRequest r) {
     const Run result = run_with_progress(r, d, scene, settings, r.energy || vega, impacts, console);
     const study::Summary summary = study::summary_of(d, scene, settings, result);
     Json json = json_of(summary);
-    if (!advice.empty()) json["advice"] = compare::json_of(advice.back());
+    if (advice) json["advice"] = compare::json_of(*advice);
     std::string text = text_for(r, d, scene, summary);
     if (!r.out.empty()) write_out(r, player, drawn, sounding, result.trace, json, text);
     if (!r.state.empty() && result.status.outcome == Outcome::ok)

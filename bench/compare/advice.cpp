@@ -245,10 +245,14 @@ const Descriptor& scheme_for(const Scene& scene, const AdviceRequest& r,
     }
     for (const char* name : with_a_record)
         if (const Descriptor& d = catalogue.find(name); represents(d, scene)) return d;
+    std::vector<std::string> others;
+    for (const auto* list : {&catalogue.schemes, &catalogue.references})
+        for (const Descriptor* d : *list)
+            if (represents(*d, scene)) others.emplace_back(d->name);
     throw Refusal(
         fmt::format("scene {} needs {}: no scheme whose error two runs tell represents "
-                    "it. Name a scheme: --scheme NAME",
-                    scene.name, names_of(needed_by(scene))));
+                    "it. Name a scheme by --scheme: {}",
+                    scene.name, names_of(needed_by(scene)), fmt::join(others, ", ")));
 }
 
 Advice advice_of(const Scene& whole, const AdviceRequest& r, const Catalogue& catalogue,
@@ -317,6 +321,10 @@ std::vector<Advice> advise(const Scene& scene, const AdviceRequest& request,
     all.push_back(advice_of(scene, r, catalogue, listener));
     all.back().known_for = all.front().known_for;
     return all;
+}
+
+bool is_to_run(const Advice& a, const std::string& within) {
+    return a.scheme && (a.within || within.empty());
 }
 
 namespace {

@@ -60,6 +60,9 @@ bool asks_for_advice(const AdviceRequest&, bool names_rate, int modes);
 // and Refusal if no scheme with a record represents the scene.
 std::vector<Advice> advise(const Scene&, const AdviceRequest&, const Catalogue&,
                            const store::Listener&);
+// True if the settings are to be run: they are within the tolerance, or the nearest where the
+// request's `within` names none.
+bool is_to_run(const Advice&, const std::string& within);
 // Settings with the reason, in a line: "modal_two_point compliance=matched, 80 modes, 88200 Hz:
 // ..."
 std::string text_of(const Advice&);

@@ -45,7 +45,7 @@ static std::string page_program() {
 std::string page_of(const nlohmann::ordered_json& data, const std::string& scripts) {
     const std::pair<const char*, std::string> parts[] = {
         {"@TITLE@", store::escaped(data.at("title"))},
-        {"@STYLE@", page_text("page.css")},
+        {"@STYLE@", joined({"base.css", "page.css"})},
         {"@SCRIPTS@", scripts},
         {"@DATA@", island(data)},
         {"@PROGRAM@", page_program()}};

@@ -33,6 +33,7 @@
 #include "scenes/start.hpp"
 #include "schemes/impacts.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_string.hpp"
 
 namespace jvari {
 
@@ -673,12 +674,7 @@ const Descriptor exact_contact = {
     .source =
         "van Walstijn et al. 2016, eqs 1-22, and Issanchou et al. 2016, eq 24, exact between "
         "events",
-    .represents = Feature::bending_stiffness | Feature::damping |
-                  Feature::frequency_dependent_damping | Feature::measured_modes |
-                  Feature::lumped_barrier | Feature::profile_barrier | Feature::several_barriers |
-                  Feature::power_law_contact | Feature::contact_loss | Feature::thread |
-                  Feature::initial_shape | Feature::pluck | Feature::rigid_barrier |
-                  Feature::initial_velocity | Feature::equilibrium | Feature::clipped_loss |
+    .represents = modal_features_of_points | Feature::rigid_barrier | Feature::clipped_loss |
                   any_mass | Feature::barrier_above,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,

@@ -25,6 +25,7 @@
 #include "reference/string_equations.hpp"
 #include "scenes/start.hpp"
 #include "schemes/making.hpp"
+#include "schemes/modal/modal_string.hpp"
 
 namespace jvari {
 
@@ -285,13 +286,9 @@ const Descriptor sundials = {
     .name = "sundials",
     .source =
         "modal equations of van Walstijn et al. 2016, eqs 5-22, by SUNDIALS with event location",
-    .represents =
-        Feature::bending_stiffness | Feature::damping | Feature::frequency_dependent_damping |
-        Feature::measured_modes | Feature::lumped_barrier | Feature::profile_barrier |
-        Feature::several_barriers | Feature::power_law_contact | Feature::contact_loss |
-        Feature::thread | Feature::initial_shape | Feature::pluck | Feature::moving_body |
-        Feature::tension_modulation | Feature::initial_velocity | Feature::equilibrium |
-        Feature::clipped_loss | Feature::free_mass | Feature::weighed_mass | Feature::barrier_above,
+    .represents = modal_features_of_points | Feature::moving_body | Feature::tension_modulation |
+                  Feature::clipped_loss | Feature::free_mass | Feature::weighed_mass |
+                  Feature::barrier_above,
     .balance = Balance::to_tolerance,
     .clock = Clock::continuous,
     .make = make,

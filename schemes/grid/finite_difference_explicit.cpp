@@ -68,7 +68,6 @@ extern const Descriptor finite_difference_explicit = {
     .source = "Bilbao, Torin & Chatziioannou 2015",
     .represents = grid_features | Feature::moving_body,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = make<GradientRule>,
     .options = options,
     .approximates = grid_approximates,

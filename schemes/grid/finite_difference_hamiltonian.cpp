@@ -56,7 +56,6 @@ extern const Descriptor finite_difference_hamiltonian = {
     .source = "Chatziioannou & van Walstijn 2015",
     .represents = grid_features,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = make<GradientRule>,
     .options = options,
     .approximates = grid_approximates};

@@ -87,7 +87,6 @@ extern const Descriptor finite_difference_theta = {
     .source = "Bilbao 2009, chapter 7",
     .represents = grid_features | Feature::moving_body,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = make<GradientRule>,
     .options = options,
     .approximates = grid_approximates,

@@ -199,7 +199,6 @@ extern const Descriptor modal_generalised_alpha = {
         "programs do",
     .represents = modal_features_of_points,
     .balance = Balance::none,
-    .clock = Clock::stepped,
     .make = make,
     .options = options,
     .approximates = modal_approximates_elastic,

@@ -94,7 +94,6 @@ extern const Descriptor modal_explicit_penalty = {
     .source = "exact modes, contact force of the last step (conditionally stable control)",
     .represents = modal_features_of_points,
     .balance = Balance::none,
-    .clock = Clock::stepped,
     .make = make,
     .options = options,
     .approximates = modal_approximates_elastic,

@@ -33,7 +33,6 @@ extern const Descriptor modal_moreau_jean = {
     .source = "Issanchou, Acary et al. 2018: rigid contact with a coefficient of restitution",
     .represents = (modal_features_of_points - MoreauJeanRule::leaves_out) | any_rigid,
     .balance = Balance::none,
-    .clock = Clock::stepped,
     .make = make,
     .options = options,
     .approximates = MoreauJeanRule::approximates,

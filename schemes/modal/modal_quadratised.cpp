@@ -44,7 +44,6 @@ extern const Descriptor modal_quadratised = {
     .source = "Ducceschi et al. 2021, psi released in full where it would pull",
     .represents = modal_features_of_points | any_mass | Feature::barrier_above,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = quadratised_modes,
     .options = options,
     .approximates = modal_approximates_elastic};

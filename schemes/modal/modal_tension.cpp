@@ -202,7 +202,6 @@ extern const Descriptor modal_tension = {
     .represents = (modal_features - (Feature::thread | Feature::equilibrium)) |
                   Feature::several_barriers | Feature::tension_modulation,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = make,
     .stand_in_rank = 0};
 

@@ -26,7 +26,6 @@ const Descriptor modal_three_point = {
     .source = "Issanchou et al. 2016, eqs 14-16, with contacts by their footprints",
     .represents = modal_features_of_points | any_rigid | any_mass | Feature::barrier_above,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = make<GradientRule>,
     .options = matched_options,
     .approximates = modal_approximates,

@@ -173,7 +173,6 @@ extern const Descriptor sitar_fdm = {
     .represents = Feature::damping | Feature::bending_stiffness | Feature::profile_barrier |
                   Feature::power_law_contact | Feature::initial_shape | Feature::rigid_profile,
     .balance = Balance::to_tolerance,
-    .clock = Clock::stepped,
     .make = make<BridgeRule::clamping>,
     .options = options,
     .approximates = approximates,

@@ -385,7 +385,6 @@ extern const Descriptor sitar_waveguide = {
                   Feature::power_law_contact | Feature::initial_shape | Feature::polarisation |
                   Feature::rigid_profile,
     .balance = Balance::to_tolerance,
-    .clock = Clock::stepped,
     .make = make,
     .options = options,
     .approximates = approximates,

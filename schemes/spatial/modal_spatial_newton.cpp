@@ -73,7 +73,6 @@ extern const Descriptor modal_spatial_newton = {
     .represents = (modal_features_of_points - Feature::equilibrium) | Feature::moving_body |
                   any_rigid | Feature::free_mass,
     .balance = Balance::exact,
-    .clock = Clock::stepped,
     .make = make<GradientRule>,
     .options = matched_options,
     .stand_in_rank = 3};

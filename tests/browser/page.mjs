@@ -22,7 +22,9 @@ const files = [
   "share",
   "verdict",
 ].map(name => readFileSync(join(sources, `${name}.js`), "utf8"));
-const css = readFileSync(join(sources, "page.css"), "utf8");
+const css = ["base.css", "page.css"]
+  .map(name => readFileSync(join(sources, name), "utf8"))
+  .join("");
 let folders = 0,
   failures = 0;
 
@@ -878,9 +880,10 @@ function contrast(a, b) {
   return Math.max(p, q) / Math.min(p, q);
 }
 function css_colour(name, dark) {
-  const hex = css
-    .slice(dark ? css.indexOf("prefers-color-scheme: dark") : 0)
-    .match(new RegExp(`--${name}: (#[0-9a-f]+);`))[1];
+  const in_dark = /@media \(prefers-color-scheme: dark\) \{[^]*?\n\}/g,
+    hex = (dark ? css.match(in_dark).join("") : css.replace(in_dark, "")).match(
+      new RegExp(`--${name}: (#[0-9a-f]+);`),
+    )[1];
   return hex.length === 4 ? "#" + [...hex.slice(1)].map(x => x + x).join("") : hex;
 }
 const looks = on({schemes: registry, tables: {}});

@@ -17,7 +17,15 @@ const files = (path, kinds) =>
       : [];
 const core = /\.(cpp|hpp|def|toml|js|mjs|html|css|csv|json)$/,
   pages = {
-    "play.html": ["scenes", "schemes", "reference", "analysis", "web", "results/problems"],
+    "play.html": [
+      "scenes",
+      "schemes",
+      "reference",
+      "analysis",
+      "web",
+      "bench/report/page/base.css",
+      "results/problems",
+    ],
     "work-precision.html": ["bench/report", "results/work-precision"],
   };
 const hash = (list, of) => list.reduce((h, path) => h.update(of(path)), createHash("sha256"));

@@ -155,7 +155,6 @@ function map_spec(name, choice, print) {
   if (!print) {
     const rows = map.rows.filter(row => row.series === choice.series_field);
     return {
-      legend: [],
       spec: framed(
         {
           height: 380,
@@ -178,7 +177,6 @@ function map_spec(name, choice, print) {
   };
   const spec = {width: 230, height: 140, encoding, layer: map_layers(map, glyph(230, 140))};
   return {
-    legend: [],
     spec: framed(
       {
         width: undefined,
@@ -296,7 +294,6 @@ function overview_spec(choice, print) {
     },
   ];
   return {
-    legend: [],
     spec: framed(
       {
         ...(print ? {} : {title: {text: "sound runs, per cent", anchor: "start", fontSize: 12}}),
@@ -321,7 +318,6 @@ function overview_section() {
       {
         name: "the share of sound runs of each scheme on each map",
         wide_on_phones: true,
-        menus: () => [],
         spec: overview_spec,
         twins: [{file: "overview.svg", choice: {}}],
       },
@@ -487,7 +483,6 @@ function path_section() {
       {
         name: "cost and error of each step from the whole scene to the trimmed one",
         scrolls: true,
-        menus: () => [],
         spec: path_spec,
         twins: [{file: "trim.svg", choice: {}}],
       },
@@ -498,7 +493,6 @@ function needs_section() {
   return {
     id: "needs",
     heading: "What each part is needed for",
-    charts: [],
     table: without(table("needs"), []),
     notes: [
       "Error and saving of the whole scene without the part alone. A part is needed where " +

@@ -118,7 +118,6 @@ function run_spec(choice, print) {
       ),
     );
   return {
-    legend: [],
     spec: framed(
       {
         width: undefined,
@@ -136,12 +135,10 @@ function run_section() {
     ? {
         id: "run",
         heading: "The run",
-        notes: [],
         charts: [
           {
             name: "waveforms, spectrum, spectrogram, energy and contact of the run",
             scrolls: true,
-            menus: () => [],
             spec: run_spec,
             twins: [{file: "run.svg", choice: {}}],
           },

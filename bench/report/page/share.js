@@ -299,13 +299,10 @@ function share_section() {
     string = {
       name: string_chart,
       scenes: distinct(records("fronts").map(f => f.string)),
-      menus: () => [],
       spec: string_spec,
-      twins: [],
     },
     advice = {
       name: "estimated against true error of each advice",
-      menus: () => [],
       spec: advice_spec,
       twins: [{file: "advice.svg", choice: {}}],
     };

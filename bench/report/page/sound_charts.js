@@ -110,10 +110,7 @@ function wave_spec(choice, print) {
       },
       head,
     ];
-    return {
-      legend: [],
-      spec: framed({height: print ? 300 : 200, encoding: {x}, layer}, title, print),
-    };
+    return {spec: framed({height: print ? 300 : 200, encoding: {x}, layer}, title, print)};
   }
   const first = Math.round(from * wave.rate),
     count = Math.min(wave.samples.length - first, Math.floor(choice.until_field * wave.rate) + 1);
@@ -135,10 +132,7 @@ function wave_spec(choice, print) {
     },
     head,
   ];
-  return {
-    legend: [],
-    spec: framed({height: print ? 300 : 200, encoding: {x}, layer}, title, print),
-  };
+  return {spec: framed({height: print ? 300 : 200, encoding: {x}, layer}, title, print)};
 }
 function waveform_section() {
   const drawn = drawn_sounds(),
@@ -165,7 +159,6 @@ function waveform_section() {
     heading: "Traces, to look at and to listen to",
     charts: drawn.length ? [chart] : [],
     left_out: page.left_out.sounds,
-    notes: [],
   };
 }
 
@@ -393,7 +386,6 @@ function spectrogram_spec(choice, print) {
     }),
   );
   return {
-    legend: [],
     spec: framed({width: undefined, columns: spectrograms_across, spacing: 12, concat}, {}, false),
   };
 }

@@ -239,7 +239,6 @@ function cell_section() {
   return {
     id: "cells",
     heading: "Cells",
-    charts: [],
     left_out: page.left_out.cells,
     notes: ["Each run, failures and refusals too." + front],
     table: {
@@ -267,7 +266,9 @@ function sections_of() {
     waveform_section(),
   ].filter(Boolean);
   if (page.missing) for (const s of drawn) s.charts = [];
-  const all = [...drawn, cell_section()];
-  for (const s of all) s.left_out = s.left_out ?? [];
+  const all = [...drawn, cell_section()].map(s => ({
+    ...{notes: [], left_out: [], ...s},
+    charts: (s.charts ?? []).map(chart => ({menus: () => [], twins: [], ...chart})),
+  }));
   return all.filter(s => s.charts.length || s.left_out.length || s.table?.rows.length);
 }

@@ -348,11 +348,9 @@ function work_precision_section() {
   return {
     id: "work-precision",
     heading: "Error against cost",
-    notes: [],
     charts: [
       {
         name: "error against cost of each scheme at each rate",
-        menus: () => [],
         scenes,
         spec: work_precision_spec,
         twins,
