@@ -225,16 +225,18 @@ template <int few, bool thread, bool series>
               states = few > 0 ? S : static_cast<int>(x_.size());
     const bool has_thread = few > 0 ? thread : thread_.has_value();
     double local[D > 0 ? 2 * D : 1], state[S > 0 ? S : 1];
-    double *b = few > 0 ? local : b_.data(), *by_free = b + 2 * P,
+    double *b = few > 0 ? local : b_.data(), *by_state = b + 2 * P,
            *next = few > 0 ? state : next_.data();
     const double* x = x_.data();
     if (states == 0) {
         for (int i = 0; i < 2 * P; ++i) b[i] = free[i];
-    } else {
-        if (has_thread)  // otherwise the matrix is the identity
-            product<D>(points_by_.data() + states * 2 * P, free, 2 * P, by_free, 2 * P);
-        product<D, true>(points_by_.data(), x, states, b, 2 * P, has_thread ? by_free : free);
+    } else {  // first all that can be computed before the sums of the modes
         product<S>(state_by_.data(), x, states, next, states);
+        product<D>(points_by_.data(), x, states, by_state, 2 * P);
+        if (has_thread)
+            product<D, true>(points_by_.data() + states * 2 * P, free, 2 * P, b, 2 * P, by_state);
+        else  // the matrix is the identity
+            for (int i = 0; i < 2 * P; ++i) b[i] = by_state[i] + free[i];
     }
     bool converged = true;
     if (n == 1) converged = one<few>(b, force);
