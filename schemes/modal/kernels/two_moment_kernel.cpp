@@ -70,8 +70,8 @@ HWY_INLINE void few_points(Stream& m, const double* HWY_RESTRICT phi, const int*
     // Weights for both uses stay in registers. With more of them sums would move to memory, where
     // each addition waits: these weights are read twice.
     constexpr int pulls = std::popcount(static_cast<unsigned>(pull));
-    constexpr bool stay = points <= 2 || pulls <= 1 ||
-                          (HWY_TARGET <= HWY_AVX3 && 2 * points + 4 * pulls <= 24);
+    constexpr bool stay =
+        points <= 2 || pulls <= 1 || (HWY_TARGET <= HWY_AVX3 && 2 * points + 4 * pulls <= 24);
     V force_0[some], force_1[some], sum[2 * some], by_0[placed + 1], by_1[placed + 1];
     std::ptrdiff_t from[placed + 1];
     for (int k = 0; k < placed; ++k) {
