@@ -147,8 +147,8 @@ void Arguments::schemes(std::vector<std::string>& schemes, const char* help) {
 
 void Arguments::comparison_folder(std::string& out) {
     option("--out", out, {"DIR"},
-           "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, "
-           "report.html");
+           "folder for cells.csv, errors.csv, cost.csv, manifest.json, results.json, "
+           "work_precision.svg, report.html");
 }
 
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts) {
