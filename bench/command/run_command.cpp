@@ -377,7 +377,7 @@ Act run_verb(CLI::App& program) {
     v.option("--tap", v.r.tap, {"NAME"},
              "of --within: what is listened to; absent: the first nut force, else the first tap");
     v.option("--rate", v.r.rate, hertz, "sample rate; 44100 where absent");
-    v.duration(v.r.duration);
+    v.option(compare::fields::duration, v.r.duration, seconds);
     v.option("--tap-rate", v.r.tap_rate, hertz,
              "rows per second; 44100 where absent, or the rate where that is no multiple of it");
     v.flag("--energy", v.r.energy,
