@@ -78,8 +78,8 @@ void shorten_errors(store::Table& t, Json& left_out) {
     if (size <= table_limit) return;
     const auto tap = t.column("tap"), measure = t.column("measure");
     std::erase_if(t.rows, [&](const auto& row) {
-        return !row[tap].empty() && !row[measure].text().starts_with("error_l2") &&
-               row[measure] != "third_octave_db";
+        return !row[tap].empty() && row[measure] != "third_octave_db" &&
+               !study::is_waveform(study::measure(row[measure].text()));
     });
     left_out.push_back(
         "Charts of single taps have waveforms and third octaves; all errors are in "
@@ -89,7 +89,7 @@ void shorten_errors(store::Table& t, Json& left_out) {
 Json measures() {
     Json all = Json::array();
     for (const study::Measure& m : study::measures())
-        if (m.less_is_better) all.push_back({m.column, m.axis(), m.title, m.unit});
+        if (m.less_is_better) all.push_back({m.column, m.axis(), m.title, m.unit, name_of(m.kind)});
     return all;
 }
 
