@@ -115,8 +115,8 @@ def suite_tables(  # "cells", "maps", "boundaries"; SI units
 ) -> dict[str, list[_Row]]: ...
 def trim(
     scene: Scene | _Path, within: str, of: str = "l2_50ms", tap: str = "", scheme: str = "any",
-    duration: float = 0.05, tap_rate: float = 44100, reference: str = "", reference_modes: int = 0,
-    out: _Path = "", jobs: int = 0,
+    duration: float | None = None, tap_rate: float = 44100, reference: str = "",
+    reference_modes: int = 0, out: _Path = "", jobs: int = 0,
 ) -> Trimmed: ...
 def problem(
     scene: Scene | _Path, rate: float = 44100, modes: int = 0, duration: float | None = None,

@@ -173,43 +173,33 @@ int compare_command(CompareCall r) {
 }  // namespace
 
 Act compare_verb(CLI::App& program) {
+    namespace fields = compare::fields;
     Verb<CompareCall> v(program, "compare",
                         "schemes at several rates against a reference: error and cost of each");
     v.scene(v.r.scene);
     v.set(v.r.set);
-    v.option("--modes", v.r.modes, {"N,...", counting.check},
-             "modes of each string; absent: those below 20 kHz, and 1.5, 2, 3 and 4 times as many "
-             "where they lie below rate/2. Where schemes, rates and compliance are all named, "
-             "those below 20 kHz alone")
-        ->delimiter(',');
+    v.option(fields::modes, v.r.modes, {"N,...", counting.check})->delimiter(',');
     v.options(v.r.option_lists);
-    v.schemes(v.r.schemes, "absent: every scheme that represents the scene, but for controls");
+    v.option(fields::schemes, v.r.schemes, {"A,B,..."})->delimiter(',');
     v.flag("--controls", v.r.controls,
            "controls, known to be wrong somewhere, can be the cheapest; with no --schemes they run "
            "as well");
-    v.option("--rates", v.r.rates, {"HZ,...", hertz.check},
-             "absent: 44100 x 1, 2, 4, 8, 16, 32, 64")
-        ->delimiter(',');
-    v.option("--reference-modes", v.r.modes_of_reference,
+    v.option(fields::rates, v.r.rates, {"HZ,...", hertz.check})->delimiter(',');
+    v.option(fields::reference_modes, v.r.modes_of_reference,
              {"N|cell", CLI::Validator(
                             [](std::string& text) {
                                 const std::string wrong =
                                     text == "cell" ? "" : counting_or_0.check(text);
                                 return wrong.empty() ? wrong : wrong + ", or cell";
                             },
-                            "")},
-             "modes of the reference; 0, or absent: doubled until nothing moves, and the points of "
-             "a profile with them; cell: those of the schemes");
-    v.duration(v.r.duration);
-    v.option("--tap-rate", v.r.tap_rate, hertz,
-             "rows per second that are compared; absent: 44100 for its multiples, the lowest rate "
-             "for others. 44100 and 48000 have each their own");
+                            "")});
+    v.option(fields::duration, v.r.duration, seconds);
+    v.option(fields::tap_rate, v.r.tap_rate, hertz);
     v.option("--cost", v.r.costs, {"NAME=S,..."},
              "of a scheme that is not timed (--external): its computing time per second of sound, "
              "one for each of --rates; shown as reported (repeatable)")
         ->allow_extra_args(false);
-    v.option("--repeats", v.r.repeats, counting,
-             "timed runs of each cell; a slow cell gets fewer, two at least; 5 where absent");
+    v.option(fields::repeats, v.r.repeats, counting);
     v.jobs(v.r.jobs);
     v.flag("--resume", v.r.resume,
            "reads back the errors of the cells that DIR holds and runs the others; all are timed "
@@ -217,7 +207,9 @@ Act compare_verb(CLI::App& program) {
     v.comparison_folder(v.r.out);
     return v.does(compare_command,
                   "Example: jvari compare tanpura_c3_release --schemes modal_two_point --rates "
-                  "44100,176400 --out report");
+                  "44100,176400 --out report\n"
+                  "\n"
+                  "It searches settings unless schemes, rates and compliance are all named.");
 }
 
 }  // namespace jvari::bench::command

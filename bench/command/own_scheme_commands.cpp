@@ -56,9 +56,8 @@ Act export_verb(CLI::App& program) {
     v.set(v.r.set);
     v.modes(v.r.modes_of_each);
     v.option("--rate", v.r.rate, hertz, "steps per second of the scheme; 44100 where absent");
-    v.option("--tap-rate", v.r.tap_rate, hertz,
-             "rows per second; 44100 where the rate is a multiple of it, else the rate");
-    v.duration(v.r.duration);
+    v.option(compare::fields::tap_rate, v.r.tap_rate, hertz);
+    v.option(compare::fields::duration, v.r.duration, seconds);
     v.option("--tap", v.r.tap, {"NAME"}, "of the scene's taps this one alone");
     v.flag("--without-reference", v.r.without_reference, "the problem alone: no reference is run");
     v.option("--out", v.r.out, {"FILE"}, "the file, JSON")->required();
@@ -163,15 +162,14 @@ Act judge_verb(CLI::App& program) {
     v.option("--cost", v.r.costs, {"S,...", positive.check},
              "its computing time per second of sound, one for each trace; shown as reported")
         ->delimiter(',');
-    v.schemes(v.r.schemes,
-              "run and timed beside it, at its rates: it is said how far the traces differ; "
-              "absent: none");
+    v.option("--schemes", v.r.schemes, {"A,B,..."},
+             "run and timed beside it, at its rates: it is said how far the traces differ; "
+             "absent: none")
+        ->delimiter(',');
     v.option("--tap", v.r.tap, {"NAME"}, "judged alone; absent: all taps of the scene");
     v.modes(v.r.modes_of_each);
-    v.duration(v.r.duration);
-    v.option("--tap-rate", v.r.tap_rate, hertz,
-             "rows per second of the traces; 44100 where all rates are multiples of it, else the "
-             "lowest");
+    v.option(compare::fields::duration, v.r.duration, seconds);
+    v.option(compare::fields::tap_rate, v.r.tap_rate, hertz);
     v.jobs(v.r.jobs);
     v.comparison_folder(v.r.out);
     return v.does(judge_command,

@@ -9,38 +9,30 @@
 #include <optional>
 
 #include "bench/command/console.hpp"
-#include "bench/command/player.hpp"
+#include "bench/command/run_outputs.hpp"
 #include "bench/command/verbs.hpp"
 #include "bench/compare/advice.hpp"
 #include "bench/compare/catalogue.hpp"
 #include "bench/compare/scene_notes.hpp"
-#include "bench/report/report.hpp"
-#include "bench/report/vega.hpp"
 #include "bench/store/fresh_file.hpp"
 #include "bench/store/json.hpp"
-#include "bench/store/records.hpp"
-#include "bench/store/trace_file.hpp"
-#include "bench/store/usage.hpp"
 #include "bench/study/cell.hpp"
 #include "bench/study/judgement.hpp"
-#include "schemes/impacts.hpp"
-#include "schemes/making.hpp"
 
 namespace jvari::bench::command {
 
 namespace {
 using Json = nlohmann::ordered_json;
 
-struct RunRequest : Running {
+struct RunRequest : Running, RunFiles {
     std::string scene, scheme, within, measure, tap;
     std::optional<double> rate;  // [Hz]
     int modes = 0;
     std::optional<double> duration;  // [s]
     std::optional<double> tap_rate;  // [Hz]
-    bool energy = false, facts = false;
+    bool facts = false;
     std::vector<std::string> set;
     std::vector<std::string> options;
-    std::string out, impacts, plot, width, state;
 };
 
 // Names the most expensive part of a run besides its modes or nodes and its steps, according to its
@@ -70,8 +62,8 @@ std::string facts_text(const Descriptor& d, const Scene& scene, const study::Sum
     return text;
 }
 
-std::string text_for(const RunRequest& r, const Descriptor& d, const Scene& scene,
-                     const study::Summary& s) {
+std::string text_for(const Descriptor& d, const Scene& scene, const study::Summary& s,
+                     bool all_facts) {
     std::string text = fmt::format("{} on {}", s.scheme, s.scene);
     const auto line = [&text](const char* name, const std::string& value) {
         text += fmt::format("\n  {:<27} {}", name, value);
@@ -99,7 +91,7 @@ std::string text_for(const RunRequest& r, const Descriptor& d, const Scene& scen
         line("largest contact force", fmt::format("{:.6g} N", s.largest_contact_force));
     if (!std::isnan(s.deepest_penetration))
         line("deepest penetration", fmt::format("{:.6g} m", s.deepest_penetration));
-    text += facts_text(d, scene, s, r.facts);
+    text += facts_text(d, scene, s, all_facts);
     for (const study::Flag& f : study::flags_of(s)) text += "\n! " + f.sentence;
     if (const std::string untouched = compare::untouched_text(scene, s); !untouched.empty())
         text += "\n! " + untouched;
@@ -120,98 +112,6 @@ Json json_of(const study::Summary& s) {
     return j;
 }
 
-// Tests before a long run that its output can be written. Returns the player if --out names a sound
-// file.
-std::optional<Player> checked_output(const RunRequest& r, const Scene& scene, double tap_rate) {
-    if (is_audio(r.out)) return Player(r.out, scene, tap_rate);
-    if (!r.out.empty()) store::check_trace_file(r.out);
-    return std::nullopt;
-}
-
-// Tests before a long run that its final state can be written.
-void check_state(const RunRequest& r, const Descriptor& d, const Scene& scene, Settings settings) {
-    if (r.state.empty()) return;
-    store::must_be_writable(r.state);
-    if (d.clock == Clock::continuous) settings.sample_rate = 0;
-    if (make_scheme(d, scene, settings)->state().displacement.empty())
-        throw store::UsageError(
-            fmt::format("--state: {} keeps more than displacement and velocity of each mode here, "
-                        "and a run from these alone would be another. Expected one string without "
-                        "masses and rigid barriers, by modal_two_point without compliance=matched "
-                        "or by a reference",
-                        d.name));
-}
-
-// Table with a row per contact, in the order of their starts. A contact lasting beyond the run has
-// no end, no speed out and no loss; a contact that began earlier has no speed in.
-store::Table impacts_table(const std::vector<Impacts>& of_strings, const Scene& scene,
-                           double until) {
-    std::vector<std::pair<int, Impact>> all;  // string number, impact
-    for (const Impacts& of : of_strings)
-        for (Impact i : of.all()) {
-            if (i.end >= until) i.end = i.speed_out = i.energy_lost = nan;
-            if (i.start <= 0) i.speed_in = nan;
-            if (i.start < until) all.emplace_back(&of - of_strings.data(), i);
-        }
-    std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second.start; });
-    store::Table t{{"string", "barrier", "start_s", "end_s", "largest_force_N", "impulse_N_s",
-                    "speed_in_m_per_s", "speed_out_m_per_s", "energy_lost_J"},
-                   {}};
-    for (const auto& [string, i] : all) {
-        const int mass = i.barrier - static_cast<int>(scene.strings[string].barriers.size());
-        t.rows.push_back({string, mass < 0 ? store::Field(i.barrier) : fmt::format("mass.{}", mass),
-                          i.start, i.end, i.largest_force, i.impulse, i.speed_in, i.speed_out,
-                          i.energy_lost});
-    }
-    return t;
-}
-
-// Extracts the taps for a scene from the trace for a scene with more taps.
-Trace part_of(const Trace& all, std::size_t first, const Scene& of) {
-    Trace part = all;
-    part.names.clear();
-    for (const Tap& tap : of.taps) part.names.push_back(tap.name);
-    const auto begin = all.tap.begin() + static_cast<long>(first) * all.stride;
-    part.tap.assign(begin, begin + static_cast<long>(of.taps.size()) * all.stride);
-    return part;
-}
-
-// Tests before a long run that its picture can be drawn.
-std::optional<report::Vega> vega_for(const RunRequest& r) {
-    if (r.plot.empty() && !r.width.empty())
-        throw store::UsageError("--width goes with --plot FILE");
-    if (r.plot.empty()) return std::nullopt;
-    if (!r.width.empty()) report::width_of(r.width);  // throws UsageError before the run
-    const std::string extension = std::filesystem::path(r.plot).extension();
-    if (extension != ".svg" && extension != ".html")
-        throw store::UsageError("--plot " + r.plot +
-                                ": expected a name that ends in .svg or .html");
-    store::must_be_writable(r.plot);
-    report::Vega vega = report::find_vega();
-    if (!vega.missing.empty()) throw store::UsageError("--plot " + r.plot + ": " + vega.missing);
-    return vega;
-}
-
-void draw(const std::string& file, const Descriptor& d, const Scene& scene, const study::Summary& s,
-          const Trace& trace, const report::Vega& vega, const std::string& width) {
-    const std::string rate =
-        std::isnan(s.rate) ? "continuous time" : fmt::format("{:g} kHz", s.rate / 1000);
-    const std::string flags = names_of(study::flags_of(s));
-    const std::string subtitle = fmt::format("{}, {}{}", rate, scene.source,
-                                             flags.empty() ? "" : "; not to be trusted: " + flags);
-    Json data = report::run_data(
-        {fmt::format("{} on {}", d.name, scene.name), subtitle, d.name, scene, trace});
-    if (file.ends_with(".html"))
-        return store::write_fresh(file,
-                                  report::page_of(data, report::vega_scripts(vega).value_or("")));
-    if (!width.empty()) data["width"] = report::width_of(width) * report::pixels_per_mm;
-    const report::Drawn drawn = report::draw(vega, data);
-    if (drawn.svgs.empty())
-        throw store::Unwritable(file + ": " +
-                                (drawn.notes.empty() ? "nothing was drawn" : drawn.notes.front()));
-    store::write_fresh(file, drawn.svgs.front().second);
-}
-
 // Chooses scheme, rate and modes if the request asks for advice; the last advice counts.
 std::optional<compare::Advice> advised(const RunRequest& r, const Scene& scene,
                                        const compare::Catalogue& catalogue,
@@ -228,32 +128,13 @@ std::optional<compare::Advice> advised(const RunRequest& r, const Scene& scene,
     return all.back();
 }
 
-// Tests the outputs and the size of a run before it begins.
-void check_outputs(const RunRequest& r, const Scene& scene, double tap_rate, bool energy) {
-    if (!r.impacts.empty()) {
-        if (std::ranges::all_of(scene.strings, [](const String& s) { return !s.has_contacts(); }))
-            throw store::UsageError("--impacts: no string of the scene has a barrier or a mass");
-        store::must_be_writable(r.impacts);
-    }
-    if (scene.duration * tap_rate * (scene.taps.size() + 3.0 * energy) > 2e9)
-        throw store::UsageError(
-            fmt::format("{} s at {} rows a second do not fit in memory", scene.duration, tap_rate));
-}
-
-Run run_with_progress(const RunRequest& r, const Descriptor& d, const Scene& scene,
-                      const Settings& settings, bool energy, std::vector<Impacts>& impacts,
+Run run_with_progress(const Descriptor& d, const Settings& settings, RunOutputs& outputs,
                       const Console& console) {
+    const Scene& scene = outputs.scene();
     const auto progress = console.begin(fmt::format("{} on {}", d.name, scene.name));
-    RunOptions options;
-    options.energy = energy;
-    options.state = !r.state.empty();
-    if (!r.impacts.empty()) options.impacts = impacts.data();
+    RunOptions options = outputs.options();
     options.progress = [&](long done, long rows) {
-        if (options.impacts && done > 0 && std::ranges::none_of(impacts, &Impacts::reported))
-            throw store::UsageError(
-                fmt::format("--impacts: {} does not tell what its contacts do; exact_contact, "
-                            "modal schemes and those of grids do",
-                            d.name));
+        if (done > 0) outputs.check_reports();
         progress->show(static_cast<double>(done) / static_cast<double>(rows));
     };
     options.slow = [&](long done, long rows, const std::vector<Fact>& facts) {
@@ -263,38 +144,6 @@ Run run_with_progress(const RunRequest& r, const Descriptor& d, const Scene& sce
     return run(d, scene, settings, options);
 }
 
-void write_state(const RunRequest& r, const Scene& scene, const ModalState& state, Json& json,
-                 std::string& text) {
-    std::string rows =
-        fmt::format("# state of {}\nmode,displacement_m,velocity_m_per_s\n", scene.name);
-    for (std::size_t i = 0; i < state.displacement.size(); ++i)
-        rows += fmt::format("{},{},{}\n", i + 1, state.displacement[i], state.velocity[i]);
-    store::write_fresh(r.state, rows);
-    json["state"] = r.state;
-    text += fmt::format("\n  {:<28}{}", "state of the last row", r.state);
-}
-
-// Writes the trace or the sound. The picture's taps come before the sound's in a run for both.
-void write_out(const RunRequest& r, const std::optional<Player>& player, std::size_t drawn,
-               const Scene& sounding, const Trace& trace, Json& json, std::string& text) {
-    std::string level;
-    if (player && drawn > 0) level = player->write(part_of(trace, drawn, sounding));
-    else if (player) level = player->write(trace);
-    else store::write_trace(r.out, trace);
-    json["out"] = r.out;
-    if (!level.empty()) json["level"] = level;
-    text +=
-        fmt::format("\n  {:<28}{}{}", "written", r.out, level.empty() ? "" : "  (" + level + ")");
-}
-
-void write_impacts(const RunRequest& r, const std::vector<Impacts>& impacts, const Scene& scene,
-                   double seconds, Json& json, std::string& text) {
-    const store::Table table = impacts_table(impacts, scene, seconds);
-    store::write_fresh(r.impacts, store::csv(table));
-    json["impacts"] = store::rows_json(table);
-    text += fmt::format("\n  {:<28}{}  ({} contacts)", "written", r.impacts, table.rows.size());
-}
-
 int end_of(const Run& result, const Console& console) {
     if (result.status.outcome == Outcome::ok) return exit_code::done;
     console.note(fmt::format("{} at step {}: {} rows are valid", name_of(result.status.outcome),
@@ -302,24 +151,16 @@ int end_of(const Run& result, const Console& console) {
     return exit_code::run_failed;
 }
 
-int run_command(RunRequest r) {
+int run_command(const RunRequest& r) {
     const Console console(r.json, r.quiet);
     const compare::Catalogue catalogue(r.plugins);
     compare::note_slow_plugins(console);
-    // Picture and sound need different taps: the picture shows the scene's own taps, the sound uses
-    // others. A run for both has the scene's own taps first.
-    const bool played = is_audio(r.out);
-    const Scene own = compare::load_scene(r.scene, r.set, r.duration),
-                sounding = played ? audible(own) : own;
+    const Scene scene = compare::load_scene(r.scene, r.set, r.duration);
     store::must_not_replace(
         {{"--out", r.out}, {"--state", r.state}, {"--impacts", r.impacts}, {"--plot", r.plot}},
-        files_read(own, r.scene, r.plugins));
-    const std::size_t drawn = played && !r.plot.empty() ? own.taps.size() : 0;
-    Scene scene = sounding;
-    scene.taps.insert(scene.taps.begin(), own.taps.begin(),
-                      own.taps.begin() + static_cast<long>(drawn));
+        files_read(scene, r.scene, r.plugins));
     compare::note_scene(scene, console);
-    const auto advice = advised(r, own, catalogue, console);
+    const auto advice = advised(r, scene, catalogue, console);
     if (advice && !compare::is_to_run(*advice, r.within)) {
         console.print_json(
             store::indented({{"status", "none"}, {"advice", compare::json_of(*advice)}}));
@@ -332,31 +173,15 @@ int run_command(RunRequest r) {
                                                              r.modes, scheme_options(r.options));
     compare::note_force_files(scene, settings.sample_rate, console);
     compare::note_modes(d, scene, settings, console);
-    const std::optional<report::Vega> vega = vega_for(r);
-    check_state(r, d, scene, settings);
-    const std::optional<Player> player = checked_output(r, sounding, settings.tap_rate);
-    std::vector<Impacts> impacts(scene.strings.begin(), scene.strings.end());
-    check_outputs(r, scene, settings.tap_rate, r.energy || vega);
+    RunOutputs outputs(r, d, scene, settings);
     if (r.rate && d.clock == Clock::continuous)
         console.note(fmt::format("{} has no sample rate: --rate is left aside", d.name));
-
-    const Run result = run_with_progress(r, d, scene, settings, r.energy || vega, impacts, console);
-    const study::Summary summary = study::summary_of(d, scene, settings, result);
+    const Run result = run_with_progress(d, settings, outputs, console);
+    const study::Summary summary = study::summary_of(d, outputs.scene(), settings, result);
     Json json = json_of(summary);
     if (advice) json["advice"] = compare::json_of(*advice);
-    std::string text = text_for(r, d, scene, summary);
-    if (!r.out.empty()) write_out(r, player, drawn, sounding, result.trace, json, text);
-    if (!r.state.empty() && result.status.outcome == Outcome::ok)
-        write_state(r, scene, result.state, json, text);
-    if (!r.impacts.empty())
-        write_impacts(r, impacts, scene,
-                      static_cast<double>(result.trace.rows - 1) / settings.tap_rate, json, text);
-    if (vega) {
-        if (drawn > 0) draw(r.plot, d, own, summary, part_of(result.trace, 0, own), *vega, r.width);
-        else draw(r.plot, d, own, summary, result.trace, *vega, r.width);
-        json["plot"] = r.plot;
-        text += fmt::format("\n  {:<28}{}", "drawn", r.plot);
-    }
+    std::string text = text_for(d, scene, summary, r.facts);
+    outputs.write(result, summary, json, text);
     console.print(text);
     console.print_json(store::indented(json));
     return end_of(result, console);
@@ -380,7 +205,7 @@ Act run_verb(CLI::App& program) {
     v.option("--tap", v.r.tap, {"NAME"},
              "of --within: what is listened to; absent: the first nut force, else the first tap");
     v.option("--rate", v.r.rate, hertz, "sample rate; 44100 where absent");
-    v.duration(v.r.duration);
+    v.option(compare::fields::duration, v.r.duration, seconds);
     v.option("--tap-rate", v.r.tap_rate, hertz,
              "rows per second; 44100 where absent, or the rate where that is no multiple of it");
     v.flag("--energy", v.r.energy,

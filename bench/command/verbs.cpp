@@ -137,18 +137,10 @@ void Arguments::jobs(int& jobs) {
            "at a time");
 }
 
-void Arguments::duration(std::optional<double>& duration) {
-    option("--duration", duration, seconds, "in place of the scene's");
-}
-
-void Arguments::schemes(std::vector<std::string>& schemes, const char* help) {
-    option("--schemes", schemes, {"A,B,..."}, help)->delimiter(',');
-}
-
 void Arguments::comparison_folder(std::string& out) {
     option("--out", out, {"DIR"},
-           "folder for cells.csv, errors.csv, cost.csv, manifest.json, work_precision.svg, "
-           "report.html");
+           "folder for cells.csv, errors.csv, cost.csv, manifest.json, results.json, "
+           "work_precision.svg, report.html");
 }
 
 std::vector<compare::SchemeOption> scheme_options(const std::vector<std::string>& texts) {

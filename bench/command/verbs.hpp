@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,13 @@ public:
     CLI::Option* option(const char* name, T& to, const Value& value, const std::string& help) {
         return verb_.add_option(name, to, help)->type_name(value.type)->transform(value.check);
     }
+    template <class T>
+    CLI::Option* option(const compare::FieldWords& field, T& to, const Value& value) {
+        std::string flag = std::string("--") + field.name;
+        std::ranges::replace(flag, '_', '-');
+        return option(flag.c_str(), to, value,
+                      std::string(field.meaning) + "; absent: " + field.absent);
+    }
     void flag(const char* name, bool& to, const char* help) { verb_.add_flag(name, to, help); }
 
     void common(Common&);
@@ -55,8 +63,6 @@ public:
     void modes(int&);
     void options(std::vector<std::string>&);
     void jobs(int&);
-    void duration(std::optional<double>&);
-    void schemes(std::vector<std::string>&, const char* help);
     void comparison_folder(std::string&);
 
     void group();  // groups options under headings

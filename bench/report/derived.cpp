@@ -129,14 +129,15 @@ Table orders_of(const Results& r) {
 }
 }  // namespace
 
-std::map<std::string, Table> derived_tables(const Results& r) {
-    if (r.cells.empty()) return {};
-    const auto lines = lines_of(r);
-    return {{"cells", cells_table(r, lines)},
-            {"errors", figures_table(r.cells)},
-            {"scenes", scenes_table(r.cells)},
-            {"cheapest", cheapest_table(r)},
-            {"orders", orders_of(r)}};
+std::map<std::string, Table> tables_of(const Results& r) {
+    std::map<std::string, Table> tables = r.tables;
+    if (r.cells.empty()) return tables;
+    tables["cells"] = cells_table(r, lines_of(r));
+    tables["errors"] = figures_table(r.cells);
+    tables["scenes"] = scenes_table(r.cells);
+    tables["cheapest"] = cheapest_table(r);
+    tables["orders"] = orders_of(r);
+    return tables;
 }
 
 }  // namespace jvari::bench::report

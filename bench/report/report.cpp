@@ -78,8 +78,8 @@ void shorten_errors(store::Table& t, Json& left_out) {
     if (size <= table_limit) return;
     const auto tap = t.column("tap"), measure = t.column("measure");
     std::erase_if(t.rows, [&](const auto& row) {
-        return !row[tap].empty() && !row[measure].text().starts_with("error_l2") &&
-               row[measure] != "third_octave_db";
+        return !row[tap].empty() && row[measure] != "third_octave_db" &&
+               !study::is_waveform(study::measure(row[measure].text()));
     });
     left_out.push_back(
         "Charts of single taps have waveforms and third octaves; all errors are in "
@@ -89,7 +89,7 @@ void shorten_errors(store::Table& t, Json& left_out) {
 Json measures() {
     Json all = Json::array();
     for (const study::Measure& m : study::measures())
-        if (m.less_is_better) all.push_back({m.column, m.axis(), m.title, m.unit});
+        if (m.less_is_better) all.push_back({m.column, m.axis(), m.title, m.unit, name_of(m.kind)});
     return all;
 }
 
@@ -134,32 +134,37 @@ Json kept_levels(const Results& r) {
 
 }  // namespace
 
-Json data_of(const Results& r) {
+Json values_of(const Results& r, const std::map<std::string, store::Table>& tables) {
+    Json values{{"source", r.source}, {"command", r.command}, {"measures", measures()}};
+    values["units"] = units();
+    values["manifest"] = store::parsed(r.manifest);
+    values["quantities"] = quantities_in(values["manifest"]);
+    values["trimmed"] = trimmed_scene(values["manifest"]);
+    values["options"] = values["tables"] = Json::object();
+    for (const auto& [name, table] : tables) {
+        if (table.columns.empty()) continue;
+        for (std::size_t i = 0; table.column("options") >= 0 && i < table.rows.size(); ++i)
+            values["options"][table.text(i, "options")] =
+                store::options_in(table.text(i, "options"));
+        values["tables"][name] = store::table_json(table);
+    }
+    values["answers"] = answers(r);
+    values["warnings"] = compare::warnings_of(r.cells);
+    return values;
+}
+
+Json data_of(const Results& r, std::map<std::string, store::Table> tables) {
     const auto behind = [&r](const std::string& text) {
         return r.source + (r.source.empty() || text.empty() ? "" : " \u2014 ") + text;
     };
     Json data = empty_data(r.name, behind(r.about + (r.about.empty() ? "" : "; ") + r.date));
     data["undated"] = behind(r.about);
-    data["source"] = r.source;
-    data["command"] = r.command;
-    data["measures"] = measures();
-    data["units"] = units();
-    data["manifest"] = store::parsed(r.manifest);
-    data["quantities"] = quantities_in(data["manifest"]);
-    data["trimmed"] = trimmed_scene(data["manifest"]);
-    auto tables = derived_tables(r);
-    const store::Table cheapest = tables["cheapest"];
-    shorten_errors(tables["errors"], data["left_out"]["cells"]);
-    tables.insert(r.tables.begin(), r.tables.end());
-    for (const auto& [name, table] : tables)
-        for (std::size_t i = 0; table.column("options") >= 0 && i < table.rows.size(); ++i)
-            data["options"][table.text(i, "options")] = store::options_in(table.text(i, "options"));
-    for (const auto& [name, table] : tables)
-        if (!table.columns.empty())
-            data["tables"][name] = store::table_json(fitting(table, data["left_out"]["cells"]));
-    data["sounds"] = heard(r, cheapest, longest_heard, sounds_limit, data["left_out"]["sounds"]);
+    data["sounds"] =
+        heard(r, tables["cheapest"], longest_heard, sounds_limit, data["left_out"]["sounds"]);
     data["levels"] = kept_levels(r);
-    data["answers"] = answers(r);
+    shorten_errors(tables["errors"], data["left_out"]["cells"]);
+    for (auto& [name, table] : tables) table = fitting(std::move(table), data["left_out"]["cells"]);
+    data.update(values_of(r, tables));
     return data;
 }
 
@@ -238,7 +243,8 @@ std::string fitting_page_of(const Results& r, Json data, const std::string& scri
         const double share = 0.8 * static_cast<double>(limit) / static_cast<double>(html.size());
         kept =
             std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(kept)));
-        data = data_of(best_of(r, kept));
+        const Results best = best_of(r, kept);
+        data = data_of(best, tables_of(best));
         data["missing"] = missing;
         data["left_out"]["cells"].push_back(
             fmt::format("{} of {} cells are in this page: those that answer, and the best of each "
@@ -264,9 +270,11 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
                                       double width) {
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
-    Json data = data_of(results);
+    const auto tables = tables_of(results);
+    store::write_fresh(folder / "results.json", store::compact(values_of(results, tables)) + "\n");
+    Json data = data_of(results, tables);
     const Vega vega = find_vega();
-    std::vector<std::string> written;
+    std::vector<std::string> written{"results.json"};
     std::string scripts;
     if (vega.missing.empty()) {
         scripts = vega_scripts(vega).value_or("");

@@ -1,4 +1,5 @@
-// Makes report.html from a folder of compare, suite or trim, and a picture for each of its charts.
+// Makes report.html, results.json and a picture for each chart from a folder of compare, suite or
+// trim.
 #pragma once
 
 #include <filesystem>
@@ -33,11 +34,15 @@ std::string fitting_page_of(nlohmann::ordered_json data, const std::string& scri
 // Selects `cells` cells: answers to a question and cells on a front, the best for each scheme, then
 // the others in order.
 Results best_of(const Results&, std::size_t cells);
-// Makes the page for `data_of(results)` with less than `limit` bytes: besides sounds, cells are
+// Makes the page for the results' data with less than `limit` bytes: besides sounds, cells are
 // left out, and finally whole tables, the largest first.
 std::string fitting_page_of(const Results&, nlohmann::ordered_json data, const std::string& scripts,
                             std::size_t limit);
-nlohmann::ordered_json data_of(const Results&);
+// Data for a page: the values of the results as far as they fit, sounds and spectrograms.
+nlohmann::ordered_json data_of(const Results&, std::map<std::string, store::Table> tables);
+// Contents of results.json: what a folder of results says, for programs. Manifest, tables, answers
+// from each tolerance at which they change, and warnings, with types and nothing left out.
+nlohmann::ordered_json values_of(const Results&, const std::map<std::string, store::Table>&);
 
 // Data for an empty page: a title, a description, all schemes and references (name, whether a
 // control; in the order of their registry), and empty tables, sounds and levels.

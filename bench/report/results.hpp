@@ -45,7 +45,7 @@ Results read_results(const std::filesystem::path&);
 // Series: a scheme with its options, and with its modes if the table has several numbers of modes
 // at the same rate.
 
-// ---- Derived tables, which the page joins with the folder's tables: statements about each cell,
+// ---- Tables of a report: the folder's own, and derived ones, which say something about each cell,
 // each scene and each line. Judgements and statistics are computed once, here; the page's
 // JavaScript looks them up and draws them.
 
@@ -57,7 +57,7 @@ Results read_results(const std::filesystem::path&);
 // scenes:   problem, headline, certificate (from the first cell), busy (from the clock).
 // cheapest: problem, then the columns in compare::cheapest_of.
 // orders:   problem, series, tap, measure, order, half_width, points: observed over the rates.
-std::map<std::string, store::Table> derived_tables(const Results&);
+std::map<std::string, store::Table> tables_of(const Results&);
 
 // ---- Sounds and spectrograms in the page: 16 bit samples, base64.
 

@@ -79,33 +79,42 @@ Scene heard_too(const Descriptor& d, const Scene& scene) {
     return twice;
 }
 
+const char* name_of(Kind k) {
+    return k == Kind::waveform ? "waveform" : k == Kind::bands ? "bands" : "other";
+}
+
 const std::vector<Measure>& measures() {
     static const std::vector<Measure> all = {
-        {"error_l2_10ms", "1", "relative L2 error, 0\u201310 ms", "", false, true, 10e-3,
+        {"error_l2_10ms", Kind::waveform, "1", "relative L2 error, 0\u201310 ms", "", false, true,
+         10e-3,
          [](Pair& p) {
              return relative_l2(p.run, p.reference, p.rate, {0, 10e-3});
          }},
-        {"error_l2_50ms", "1", "relative L2 error, 0\u201350 ms", "", false, true, 50e-3,
-         over_50_ms},
-        {"error_l2_whole", "1", "relative L2 error, whole run", "", false, true, HUGE_VAL,
-         [](Pair& p) { return relative_l2(p.run, p.reference, p.rate); }},
-        {"error_l2_heard", "1", "heard: relative L2 error, 0\u201350 ms, modes below 20 kHz", "",
-         false, true, 50e-3, over_50_ms, true},
-        {"horizon_s", "s", "predictability horizon", "s", false, false, HUGE_VAL,
+        {"error_l2_50ms", Kind::waveform, "1", "relative L2 error, 0\u201350 ms", "", false, true,
+         50e-3, over_50_ms},
+        {"error_l2_whole", Kind::waveform, "1", "relative L2 error, whole run", "", false, true,
+         HUGE_VAL, [](Pair& p) { return relative_l2(p.run, p.reference, p.rate); }},
+        {"error_l2_heard", Kind::waveform, "1",
+         "heard: relative L2 error, 0\u201350 ms, modes below 20 kHz", "", false, true, 50e-3,
+         over_50_ms, true},
+        {"horizon_s", Kind::other, "s", "predictability horizon", "s", false, false, HUGE_VAL,
          [](Pair& p) { return horizon(p.run, p.reference, p.rate); }},
-        {"third_octave_db", "dB", "third-octave difference", "dB rms", true, true, HUGE_VAL,
-         [](Pair& p) { return third_octave_difference(p.run, p.reference, p.rate); }},
-        {"stft_db", "dB", "multi-resolution STFT difference", "dB", false, true, HUGE_VAL,
-         [](Pair& p) { return p.stft().level; }},
-        {"stft_convergence", "1", "multi-resolution spectral convergence", "", false, true,
-         HUGE_VAL, [](Pair& p) { return p.stft().convergence; }},
-        {"centroid_hz", "Hz", "centroid track difference", "Hz rms", false, true, HUGE_VAL,
+        {"third_octave_db", Kind::bands, "dB", "third-octave difference", "dB rms", true, true,
+         HUGE_VAL, [](Pair& p) { return third_octave_difference(p.run, p.reference, p.rate); }},
+        {"stft_db", Kind::bands, "dB", "multi-resolution STFT difference", "dB", false, true,
+         HUGE_VAL, [](Pair& p) { return p.stft().level; }},
+        {"stft_convergence", Kind::bands, "1", "multi-resolution spectral convergence", "", false,
+         true, HUGE_VAL, [](Pair& p) { return p.stft().convergence; }},
+        {"centroid_hz", Kind::other, "Hz", "centroid track difference", "Hz rms", false, true,
+         HUGE_VAL,
          [](Pair& p) { return centroid_difference(p.run, p.reference, p.rate, 2048, 512).rms; }},
-        {"centroid_relative", "1", "centroid track, relative difference", "", false, true, HUGE_VAL,
+        {"centroid_relative", Kind::other, "1", "centroid track, relative difference", "", false,
+         true, HUGE_VAL,
          [](Pair& p) {
              return centroid_difference(p.run, p.reference, p.rate, 1024, 256).relative();
          }},
-        {"decay_db", "dB", "decay of the energy, difference", "dB", false, true, HUGE_VAL, decay},
+        {"decay_db", Kind::other, "dB", "decay of the energy, difference", "dB", false, true,
+         HUGE_VAL, decay},
     };
     return all;
 }
@@ -113,10 +122,6 @@ const std::vector<Measure>& measures() {
 std::size_t measure(const std::string& column) {
     return static_cast<std::size_t>(std::ranges::find(measures(), column, &Measure::column) -
                                     measures().begin());
-}
-
-bool is_waveform(std::size_t measure) {
-    return measures()[measure].column.starts_with("error_l2_");
 }
 
 std::span<const double> rows_for(std::size_t measure, const Trace& reference, int tap) {

@@ -13,12 +13,17 @@ namespace jvari::bench::study {
 
 class Pair;  // signals of a tap, in the run and in the reference
 
+// waveform: a relative L2 error, which may have a certificate; bands: levels in bands
+enum class Kind { waveform, bands, other };
+const char* name_of(Kind);
+
 struct Measure {
     std::string column;  // "error_l2_50ms"
-    std::string unit;    // "1", "s", "dB", "Hz"
-    std::string title;   // "relative L2 error, 0-50 ms"
-    std::string scale;   // unit on an axis, "dB rms"; "" for a ratio
-    bool bridge;         // true: the headline takes the bridge tap, false: the nut tap
+    Kind kind;
+    std::string unit;   // "1", "s", "dB", "Hz"
+    std::string title;  // "relative L2 error, 0-50 ms"
+    std::string scale;  // unit on an axis, "dB rms"; "" for a ratio
+    bool bridge;        // true: the headline takes the bridge tap, false: the nut tap
     bool less_is_better;
     double window;  // length [s], after the last excitation; infinite: to the end of the run
     double (*of)(Pair&);
@@ -27,8 +32,7 @@ struct Measure {
 };
 const std::vector<Measure>& measures();
 std::size_t measure(const std::string& column);  // place in measures()
-// true for a relative L2 error, which may have a certificate
-bool is_waveform(std::size_t measure);
+inline bool is_waveform(std::size_t measure) { return measures()[measure].kind == Kind::waveform; }
 // Rows of a tap in a reference, as the measure reads them; empty if the reference has no such rows.
 std::span<const double> rows_for(std::size_t measure, const Trace& reference, int tap);
 double error_of(std::size_t measure, std::span<const double> run, std::span<const double> reference,

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 using store::key;
 using store::needed;
+namespace fields = compare::fields;
 
 // ---- A set of cells
 
@@ -68,27 +69,24 @@ std::vector<store::Key<CellSet>> set_keys() {
         []<class Member>(Member compare::CompareRequest::*member) -> Member Set::* {
         return member;
     };
+    const auto field = [](const compare::FieldWords& words, auto member, const auto& kind) {
+        return key(words.name, member, kind, words.meaning, words.absent);
+    };
     std::vector<store::Key<Set>> keys{
         needed("scenes", &Set::scenes, store::several(store::text()),
                "files, beside the suite or where the program runs, or names of the library"),
-        key("schemes", request(&Set::schemes), store::several(store::text()), "what is compared",
-            "all that represent the scene"),
-        key("rates", request(&Set::rates), store::several(store::positive("Hz")),
-            "at which each runs", "44100 x 1, 2, 4 ... 64"),
-        key("modes", request(&Set::modes), store::several(store::count()), "of each string",
-            "those below 20 kHz, and more of them by `search`"),
+        field(fields::schemes, request(&Set::schemes), store::several(store::text())),
+        field(fields::rates, request(&Set::rates), store::several(store::positive("Hz"))),
+        field(fields::modes, request(&Set::modes), store::several(store::count())),
         key("search", request(&Set::search), store::yes_or_no(),
             "where errors are measured and these are not named, tries more modes, and both forms "
             "of compliance"),
-        key("duration", request(&Set::duration), store::positive("s"), "of each run",
-            "the scene's"),
-        key("tap_rate", request(&Set::tap_rate), store::positive("Hz"),
-            "of the rows that are compared", "as compare"),
-        key("repeats", request(&Set::repeats), store::count(), "timed runs"),
+        field(fields::duration, request(&Set::duration), store::positive("s")),
+        field(fields::tap_rate, request(&Set::tap_rate), store::positive("Hz")),
+        field(fields::repeats, request(&Set::repeats), store::count()),
         key("reference", request(&Set::reference), store::text(), "what errors are against",
             "the highest that represents the scene"),
-        key("reference_modes", request(&Set::reference_modes), reference_modes(),
-            "0: doubled until nothing moves; \"cell\": those of the cell", "0"),
+        field(fields::reference_modes, request(&Set::reference_modes), reference_modes()),
         key("tap", &Set::tap, store::text(), "of the spectrogram and of rows of one tap",
             "the scene's first"),
         key("time_limit_s", request(&Set::time_limit), store::positive("s"),

@@ -136,29 +136,6 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
     }
 }
 
-TEST(CommandLine, AWholeNumberIsReadWholeAndByTens) {
-    const Scratch scratch;
-    for (const auto& [text, modes] : {std::pair{"010", 10}, {"1e1", 10}, {"+12.0", 12}}) {
-        const std::string run =
-            "run free_string --scheme modal_two_point --duration 0.002 --modes ";
-        EXPECT_EQ(json_from(scratch, run + text).at("modes"), modes) << text;
-    }
-    const auto compared =
-        json_from(scratch,
-                  "compare free_string --schemes modal_two_point --rates 44100 "
-                  "--duration 0.002 --repeats 1 --modes 20 --reference-modes 2e1");
-    EXPECT_EQ(compared.at("cells")[0].at("reference_modes"), 20);
-}
-
-TEST(CommandLine, HelpTeachesWithExamplesAndEndsWith0) {
-    const Scratch scratch;
-    for (const char* arguments :
-         {"--help", "run --help", "compare --help", "list --help", "report --help"}) {
-        EXPECT_TRUE(ends(jvari(scratch, arguments), 0, "Example")) << arguments;
-    }
-    EXPECT_EQ(jvari(scratch, "--version").code, 0);
-}
-
 TEST(CommandLine, HelpKeepsWithin100ColumnsAndUnderThreeHeadings) {
     const Scratch scratch;
     for (const char* verb : {"", "new", "list", "run", "compare", "suite", "trim", "certify",
@@ -197,48 +174,6 @@ TEST(CommandLine, ListDescribesOneThingByItsName) {
     EXPECT_TRUE(says(jvari(scratch, "list scheme").out, "`jvari list schemes` has all of them"));
 }
 
-TEST(CommandLine, CompareSaysWhereWindowsOfErrorsBegin) {
-    const Scratch scratch;
-    const std::string compare =
-        "$J new bass b >/dev/null; printf 'time_s,force_N\\n0,0\\n0.002,-0.1\\n9,-0.1\\n' "
-        ">load.csv; "
-        "$J compare b.toml --duration 0.012 --schemes modal_two_point --rates 44100 --modes 20 "
-        "--reference-modes 20 --set string.0.pluck.";
-    for (const auto& [set, words] :
-         {std::pair{"kind=pull", "measured from 0.004 s on, where its pluck ends"},
-          {"kind=blow", "is a blow, and errors are measured from its start on, 0 s"},
-          {"file=load.csv", "stays to the end of the run and is steady from 0.002 s on"}})
-        EXPECT_TRUE(says(shell(scratch, compare + set).err, words)) << set;
-}
-
-TEST(CommandLine, AWordOfAnotherKindIsMetWithWhatWasMeant) {
-    const Scratch scratch;
-    const std::string run = "run tanpura_c3 --scheme modal_two_point ";
-    for (const auto& [arguments, code, words] :
-         {std::tuple{run + "--rate 48", 3, "is the sample rate of 48 Hz meant in kHz?"},
-          {run + "--option compliance=match", 3, "did you mean \"matched\"?"},
-          {run + "--set string.1.tension=3", 2, "are counted from 0"},
-          {run + "--external 'python3 none.py'", 2, "there is no file none.py"},
-          {std::string("trim tanpura_c3_release --within 1dB"), 2, "add --of third_octave_db"},
-          {std::string("compare tanpura_c3 --schemes all"), 2, "without --schemes all of them"},
-          {std::string("compare tanpura_c3 --rates 48"), 2, "Is it in kHz?"}})
-        EXPECT_TRUE(ends(jvari(scratch, arguments), code, words)) << arguments;
-    for (const auto& [value, words] :
-         {std::pair{"height=-0.2", "barrier.height = -0.2 m; expected less than a tenth"},
-          {"stiffness=1e30", "expected at most 1e13, or \"rigid\". Is the unit right?"}})
-        EXPECT_TRUE(says(
-            jvari(scratch, run + "--duration 0.01 --set string.0.barrier.0." + value).err, words))
-            << value;
-}
-
-TEST(CommandLine, ARefusalEndsWith3AndNamesWhatIsMissing) {
-    const Scratch scratch;
-    const Ended o = jvari(scratch, "run sitar_parabola --scheme exact_linear --json");
-    EXPECT_TRUE(ends(o, 3, "profile barrier"));
-    const auto json = nlohmann::json::parse(o.out);
-    EXPECT_EQ(json.at("status"), "refused");
-}
-
 TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
     const Scratch scratch;
     const Ended o =
@@ -255,18 +190,6 @@ TEST(CommandLine, AFailedRunEndsWith4AndWhatWasWrittenSoFarStaysValid) {
     EXPECT_EQ(json.at("smallest_contact_force"), -0.5);
     EXPECT_TRUE(json.at("deepest_penetration").is_null());
     EXPECT_EQ(scratch.files(), 1) << "a file was left half-written";
-}
-
-TEST(CommandLine, RunSaysWhatSpeaksAgainstItAsCompareDoes) {
-    const Scratch scratch;
-    const std::string run =
-        "run tanpura_c3_release --scheme modal_quadratised --option variant=raw --duration 0.02";
-    EXPECT_TRUE(ends(jvari(scratch, run), 0, "\n! the contact pulls with "));
-    const auto flags = json_from(scratch, run).at("flags");
-    EXPECT_TRUE(flags.contains("adhesion")) << flags;
-    const Ended honest =
-        jvari(scratch, "run tanpura_c3_release --scheme modal_two_point --duration 0.02 --energy");
-    EXPECT_FALSE(says(honest.out, "! "));
 }
 
 TEST(CommandLine, RunWithinATolerancePrintsItsChoiceFirstAndRunsIt) {
@@ -286,23 +209,6 @@ TEST(CommandLine, RunWithinATolerancePrintsItsChoiceFirstAndRunsIt) {
     EXPECT_LE(advice["margin"].get<double>() * advice["estimate"].get<double>(), 0.01);
 }
 
-TEST(CommandLine, WhereNoSettingIsWithinTheToleranceNothingIsRunAndTheNearestIsNamed) {
-    const Scratch scratch;
-    const Ended o = jvari(scratch, "run tanpura_c3_release --duration 0.02 --within 1e-9% --out " +
-                                       scratch / "a.csv");
-    EXPECT_EQ(o.code, 4);
-    EXPECT_EQ(o.out, "");
-    EXPECT_TRUE(says(o.err, "nothing is known to be within 1e-09 %"));
-    EXPECT_TRUE(says(o.err, "nearest: modal_two_"));
-    EXPECT_TRUE(says(o.err, "try --within 0.0"));
-    const std::string bands =
-        jvari(scratch, "run tanpura_c3 --of third_octave_db --within 1e-9dB").err;
-    EXPECT_TRUE(says(bands, "dB --of third_octave_db")) << bands;
-    EXPECT_EQ(scratch.files(), 0);
-    EXPECT_EQ(jvari(scratch, "run tanpura_c3 --within 1% --scheme finite_difference_theta").code,
-              3);
-}
-
 TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
     const Scratch scratch;
     const std::string run = "run tanpura_c3_release --scheme modal_two_point --duration 0.01";
@@ -319,16 +225,6 @@ TEST(CommandLine, RunReportsEveryKeyOfTheContract) {
     const auto probed = json_from(scratch, run + " --energy");
     EXPECT_LT(probed.at("energy_residual_accumulated").get<double>(), 1e-11);
     EXPECT_GE(probed.at("energy_residual_accumulated").get<double>(), 0);
-}
-
-TEST(CommandLine, RunShowsSolverCountersWithFactsAloneAndApproximationsAlways) {
-    const Scratch scratch;
-    const std::string run =
-        "run sitar_parabola --scheme modal_two_point --modes 20 --duration 0.002";
-    const Ended plain = jvari(scratch, run), all = jvari(scratch, run + " --facts");
-    EXPECT_FALSE(says(plain.out, "contact_iterations_mean"));
-    EXPECT_TRUE(says(plain.out, "\n  contact_points "));  // of the profile
-    EXPECT_TRUE(says(all.out, "contact_iterations_mean"));
 }
 
 TEST(CommandLine, RunWritesARowPerContactAndSaysWhoKnowsNone) {
@@ -354,20 +250,6 @@ TEST(CommandLine, RunWritesARowPerContactAndSaysWhoKnowsNone) {
     EXPECT_TRUE(ends(
         jvari(scratch, "run free_string --scheme exact_linear --impacts " + (scratch / "i.csv")), 2,
         "--impacts: no string of the scene has a barrier"));
-}
-
-TEST(CommandLine, TapRateIs44100OrTheRateWhereThatIsNoMultiple) {
-    const Scratch scratch;
-    const auto rows = [&scratch](const std::string& arguments) {
-        return json_from(scratch, "run free_string --duration 0.01 --modes 20 " + arguments)
-            .at("rows")
-            .get<long>();
-    };
-    EXPECT_EQ(rows("--scheme modal_two_point"), 442);
-    EXPECT_EQ(rows("--scheme modal_two_point --rate 88200"), 442);
-    EXPECT_EQ(rows("--scheme modal_two_point --rate 48000"), 481);
-    EXPECT_EQ(rows("--scheme modal_two_point --rate 48000 --tap-rate 24000"), 241);
-    EXPECT_EQ(rows("--scheme exact_linear"), 442);
 }
 
 TEST(CommandLine, TheTraceAsCsvHasItsColumnsItsTimesAndReadsBackExactly) {
@@ -462,15 +344,6 @@ TEST(CommandLine, ListShowsOptionsAndFactsAsTextAndAsJson) {
                                   [](const auto& d) { return d.at("name") == "sitar_fdm"; });
     ASSERT_NE(fdm, schemes.end());
     EXPECT_TRUE(says(fdm->at("approximates").dump(), "rigid_barrier"));
-}
-
-TEST(CommandLine, APluginCompiledWithoutOptimisationIsWarnedOf) {
-    const Scratch scratch;
-    const std::string run = "run free_string --scheme stumbling --duration 0.01";
-    const Ended slow = jvari(scratch, run + " --plugin " + JVARI_UNOPTIMISED_PLUGIN);
-    EXPECT_EQ(slow.code, 0) << slow.err;
-    EXPECT_TRUE(says(slow.err, "compiled without optimisation"));
-    EXPECT_FALSE(says(jvari(scratch, run + plugin).err, "compiled without optimisation"));
 }
 
 TEST(CommandLine, CompareWritesEveryFileAndKeepsTheTwoKindsOfNumbersApart) {
@@ -662,21 +535,6 @@ TEST(CommandLine, ComparedSchemesThatFailOrRefuseAreRowsAndDecideTheExitCodeOnly
                   plugin)
             .code,
         3);
-}
-
-TEST(BadPlugin, ATableThatIsNoneIsASentence) {
-    const Scratch scratch;
-    const char* const says[] = {"",
-                                "says that it has 3 schemes and shows none",
-                                "says that it has -1 schemes",
-                                "has no name for its scheme 0",
-                                "has no source for its scheme bad_sourceless",
-                                "has nothing that makes its scheme bad_makeless"};
-    for (int kind = 1; kind <= 5; ++kind) {
-        const Ended o = jvari(scratch, "check --plugin " JVARI_BAD_PLUGIN,
-                              "JVARI_BAD_TABLE=" + std::to_string(kind));
-        EXPECT_TRUE(ends(o, 2, says[kind])) << kind;
-    }
 }
 
 TEST(BadPlugin, ASchemeThatThrowsOrLiesIsASentenceInARunAndARowInAComparison) {
@@ -895,131 +753,6 @@ TEST(NewScene, ATableOfOnesOwnComesBeforeTheMakersAndItsCoreIsTheStiffness) {
     EXPECT_EQ(scratch.files(), 0);
 }
 
-TEST(NewScene, NothingIsWrittenOverAndNamesAreNames) {
-    const Scratch scratch;
-    std::ofstream(scratch / "mine.toml") << "mine";
-    EXPECT_TRUE(ends(shell(scratch, "$J new guitar mine"), 2, "mine.toml is there already"));
-    EXPECT_EQ(content(scratch / "mine.toml"), "mine");
-    for (const char* name : {"a/b", "../a", "''", "'a b'", "-- -rf"})
-        EXPECT_EQ(shell(scratch, std::string("$J new guitar ") + name).code, 2) << name;
-    EXPECT_TRUE(says(shell(scratch, "$J new gitar a").err, "did you mean \"guitar\""));
-    EXPECT_EQ(scratch.files(), 1);
-}
-
-TEST(Help, NoVerbIsWelcomedAndHelpOfAVerbIsItsOwn) {
-    const Scratch scratch;
-    const Ended welcome = jvari(scratch, "");
-    EXPECT_EQ(welcome.code, 2);
-    EXPECT_LE(std::count(welcome.out.begin(), welcome.out.end(), '\n'), 10);
-    EXPECT_TRUE(says(welcome.out, "jvari new guitar"));
-    EXPECT_EQ(jvari(scratch, "help run").out, jvari(scratch, "run --help").out);
-    EXPECT_EQ(jvari(scratch, "help").out, jvari(scratch, "--help").out);
-    EXPECT_EQ(jvari(scratch, "help nothing").code, 2);
-}
-
-TEST(Units, ARateAndADurationMayHaveTheirUnitBehindThem) {
-    const Scratch scratch;
-    const auto of = [&](const std::string& words, const char* key) {
-        return json_from(scratch, "run free_string --scheme modal_two_point " + words)
-            .at(key)
-            .get<double>();
-    };
-    EXPECT_EQ(of("--rate 44.1k --duration 10ms", "rate"), 44100);
-    EXPECT_EQ(of("--rate 44.1kHz --duration 10ms", "duration"),
-              of("--rate 44100 --duration 0.01", "duration"));
-    for (const char* wrong :
-         {"--rate 44.1x", "--rate k", "--rate -1k", "--duration 10min", "--duration ms"})
-        EXPECT_EQ(
-            jvari(scratch, std::string("run free_string --scheme modal_two_point ") + wrong).code,
-            2)
-            << wrong;
-}
-
-TEST(Units, ValuesThatLookLikeAnotherUnitAreNamed) {
-    const Scratch scratch;
-    const auto warning = [&](const std::string& set) {
-        return jvari(scratch,
-                     "run guitar_over_fret --scheme modal_two_point --modes 20 --duration 0.001 " +
-                         set)
-            .err;
-    };
-    EXPECT_TRUE(says(warning("--set string.0.length=62"), "length = 62 m"));
-    EXPECT_TRUE(says(warning("--set string.0.tension=1e9"), "the pitch that"));
-    EXPECT_TRUE(says(warning("--set string.0.start.amplitude=1.9"), "start.amplitude = 1.9 m"));
-    EXPECT_FALSE(says(warning(""), "warning"));
-}
-
-TEST(ForceFile, WhoseRowsAreCloserThanAStepIsSaid) {
-    const Scratch scratch;
-    const std::string run =
-        "run tanpura_c3 --scheme modal_two_point --duration 0.005 --set string.0.pluck.file=" +
-        (scratch / "f.csv") + " --rate ";
-    std::ofstream(scratch / "f.csv") << "time_s,force_N\n0.001,0\n0.00101,100\n0.00102,0\n";
-    EXPECT_TRUE(
-        says(jvari(scratch, run + "44100").err, "f.csv are 1e-05 s apart, less than a step"));
-    EXPECT_FALSE(says(jvari(scratch, run + "176400").err, "apart"));
-    std::ofstream(scratch / "f.csv") << "time_s,force_N\n0.001,0\n0.002,1\n0.003,0\n";
-    EXPECT_FALSE(says(jvari(scratch, run + "44100").err, "apart"));
-}
-
-TEST(Silence, AStringThatNothingSetsInMotionIsNamed) {
-    const Scratch scratch;
-    std::ofstream(scratch / "silent.toml")
-        << "name = \"silent\"\nduration = 0.01\n[[string]]\nlength = 1\nlinear_density = "
-           "1e-3\ntension = 40\n"
-           "[[tap]]\nname = \"nut\"\nquantity = \"nut_force\"\n";
-    const Ended silent =
-        jvari(scratch, "run " + (scratch / "silent.toml") + " --scheme modal_two_point");
-    EXPECT_TRUE(says(silent.err, "string 0 of silent stays silent"));
-    const Ended late =
-        jvari(scratch, "run tanpura_drone --scheme finite_difference_explicit --duration 0.01");
-    EXPECT_TRUE(
-        says(late.err, "string 1 of tanpura_drone stays silent: its pluck begins at 1.2 s"));
-    EXPECT_FALSE(says(late.err, "string 0"));
-    const Ended at_the_end = jvari(
-        scratch,
-        "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.start=0.01");
-    EXPECT_TRUE(
-        says(at_the_end.err, "string 0 of tanpura_c3 stays silent: its pluck begins at 0.01 s"));
-    EXPECT_EQ(jvari(scratch, "run tanpura_c3 --scheme modal_two_point --duration 0.01").err, "");
-    const std::string sympathetic =
-        "run sitar_sympathetic --scheme modal_two_point --duration 0.01";
-    EXPECT_EQ(jvari(scratch, sympathetic).err, "")
-        << "its bridge shakes the strings that nobody plucks";
-    const Ended still = jvari(scratch, sympathetic + " --set string.0.start.amplitude=0");
-    EXPECT_TRUE(says(still.err, "string 2 of sitar_sympathetic stays silent"));
-    const std::string rest =
-        "run tanpura_c3 --scheme modal_two_point --duration 0.01 --set string.0.pluck.amplitude=0 "
-        "--set ";
-    EXPECT_TRUE(says(jvari(scratch, rest + "string.0.barrier.0.height=0").err, "stays silent"));
-    EXPECT_EQ(jvari(scratch, rest + "string.0.barrier.0.height=1e-4").err, "")
-        << "the barrier throws it";
-}
-
-TEST(Untouched, ARunInWhichNoStringTouchesItsBarrierSaysSo) {
-    const Scratch scratch;
-    const std::string
-        settings =
-            " guitar_over_fret --set string.0.barrier.0.height=-0.1 --modes 20 --duration 0.01 ",
-        touch = "touches a barrier or a mass in 0.01 s";
-    EXPECT_TRUE(says(jvari(scratch, "run" + settings + "--scheme modal_two_point").out, touch));
-    EXPECT_TRUE(
-        says(jvari(scratch,
-                   "compare" + settings +
-                       "--schemes modal_two_point --rates 44100 --reference-modes 20 --repeats 1")
-                 .err,
-             touch));
-}
-
-TEST(Quiet, SaysNothingButErrors) {
-    const Scratch scratch;
-    const Ended o =
-        jvari(scratch, "run free_string --scheme modal_two_point --duration 0.01 --quiet");
-    EXPECT_EQ(o.code, 0);
-    EXPECT_EQ(o.out + o.err, "");
-    EXPECT_NE(jvari(scratch, "run free_string --scheme none --quiet").err, "");
-}
-
 TEST(Controls, TakePartWhereTheyAreAskedFor) {
     const Scratch scratch;
     const std::string compare =
@@ -1128,45 +861,6 @@ TEST(Plot, DrawsTheRunOnOnePicture) {
             EXPECT_EQ(text.find(hue) != std::string::npos, family == std::string(scheme))
                 << scheme << " in the hue of " << family;
     }
-}
-
-TEST(ResultsFolder, OfAnotherSceneIsRefusedAndWhatIsForeignIsNamed) {
-    const Scratch scratch;
-    const std::string more =
-        " --schemes modal_two_point --rates 44100 --modes 5 --duration 0.002 --repeats 1 --out r";
-    ASSERT_EQ(shell(scratch, "$J compare free_string" + more).code, 0);
-    const Ended again = shell(scratch, "touch r/notes.txt && $J compare free_string" + more);
-    EXPECT_EQ(again.code, 0);
-    EXPECT_TRUE(says(again.err, "r holds what is not of the comparison of free_string: notes.txt"));
-    EXPECT_TRUE(ends(shell(scratch, "$J compare tanpura_c3_release" + more), 2,
-                     "holds the comparison of free_string"));
-    std::ofstream(scratch / "s.toml")
-        << "name = 's'\n"
-        << suite_of("free_string", "modal_two_point", "44100", "modes = 5\nduration = 0.002");
-    EXPECT_EQ(shell(scratch, "$J suite s.toml --out r").code, 2);
-    EXPECT_EQ(nlohmann::json::parse(content(scratch / "r/manifest.json")).at("scene").at("name"),
-              "free_string");
-}
-
-TEST(ResultsFolder, OfAComparisonIsNotOverwrittenByATrimmedSceneAndTheOtherWayRound) {
-    const Scratch scratch;
-    const std::string compare =
-                          "$J compare free_string --schemes modal_two_point --rates 44100 --modes "
-                          "5 --duration 0.002 --repeats 1 --out ",
-                      trim =
-                          "$J trim free_string --within 10% --scheme modal_two_point --duration "
-                          "0.005 --jobs 1 --out ";
-    ASSERT_EQ(shell(scratch, compare + "compared").code, 0);
-    const std::string manifest = content(scratch / "compared/manifest.json"),
-                      page = content(scratch / "compared/report.html");
-    EXPECT_TRUE(ends(shell(scratch, trim + "compared"), 2, "holds the comparison of free_string"));
-    EXPECT_EQ(content(scratch / "compared/manifest.json"), manifest);
-    EXPECT_EQ(content(scratch / "compared/report.html"), page);
-    ASSERT_EQ(shell(scratch, trim + "trimmed").code, 0);
-    const Ended again = shell(scratch, trim + "trimmed");
-    EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_FALSE(says(again.err, "holds what is not of"));
-    EXPECT_TRUE(ends(shell(scratch, compare + "trimmed"), 2, "holds the trim of free_string"));
 }
 
 TEST(SuiteFiles, ScenesAreLookedForBesideTheSuite) {

@@ -59,6 +59,35 @@ TEST(Report, WithoutThePackagesItHasTheTablesAndSaysWhatIsMissing) {
         EXPECT_NE(entry.path().extension(), ".svg") << entry.path();
 }
 
+TEST(Report, AFolderSaysItsValuesToAProgramInOneDocumentWithTypes) {
+    const Folder folder(every_file);
+    const Ended o =
+        jvari(folder, "report --json " + folder.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    EXPECT_TRUE(says(o.out, "/results.json\"")) << o.err;
+    const Json values = Json::parse(content(folder / "results.json"));
+    EXPECT_EQ(values.at("manifest"), Json::parse(content(folder / "manifest.json")));
+    const Json& cells = values.at("tables").at("cells");
+    const auto types_in = [&cells](const std::string& name) {
+        const auto& columns = cells.at("columns");
+        const auto k = std::find(columns.begin(), columns.end(), name) - columns.begin();
+        std::set<std::string> types;
+        for (const Json& row : cells.at("rows")) types.insert(row.at(k).type_name());
+        return types;
+    };
+    using Types = std::set<std::string>;
+    EXPECT_EQ(types_in("scheme"), Types{"string"});
+    EXPECT_EQ(types_in("headline_nut"), Types{"string"});
+    EXPECT_EQ(types_in("trusted"), Types{"boolean"});
+    EXPECT_EQ(types_in("may_win"), Types{"boolean"});
+    EXPECT_EQ(types_in("cost_s_per_s"), (Types{"number", "null"}));
+    EXPECT_GT(values.at("tables").at("cheapest").at("rows").size(), 0u);
+    EXPECT_GT(values.at("answers").size(), 0u);
+    EXPECT_TRUE(values.at("warnings").is_array());
+    // the page draws these values
+    const Json page = data_of(content(folder / "report.html"));
+    for (const auto& [name, value] : values.items()) EXPECT_EQ(page.at(name), value) << name;
+}
+
 TEST(Report, AFolderWithoutResultsIsRefused) {
     const Scratch empty;
     EXPECT_EQ(jvari(empty, "report " + empty.path.string()).code, 2);
@@ -139,7 +168,7 @@ TEST(Report, AnErrorThatIsBoundedStandsAtItAndItsCertificateTogether) {
          {{"a", "b", "44100", "10", "ok", "1e-2", "6e-4"},
           {"a", "b", "88200", "10", "ok", "1e-3", "6e-4"}}});
     r.series = {"b", "b"};
-    const bench::store::Table errors = bench::report::derived_tables(r).at("errors");
+    const bench::store::Table errors = bench::report::tables_of(r).at("errors");
     ASSERT_EQ(errors.rows.size(), 4u);       // of the headline, and of its tap
     EXPECT_EQ(errors.text(0, "shown"), "");  // 6 % of the first: as measured
     EXPECT_EQ(errors.text(1, "row"), "1");
@@ -269,7 +298,7 @@ TEST(Report, APageOfManyCellsKeepsItsSizeAndTheBestOfEachScheme) {
         overwrite(folder / name, bench::store::csv(all));
     }
     const bench::report::Results results = bench::report::read_results(folder.path);
-    const Json whole = bench::report::data_of(results);
+    const Json whole = bench::report::data_of(results, bench::report::tables_of(results));
     const std::size_t bare = bench::report::page_of(a_page(), "").size(), limit = bare + 200'000;
     ASSERT_GT(bench::report::page_of(whole, "").size(), limit);
     const std::string page = bench::report::fitting_page_of(results, whole, "", limit);

@@ -37,7 +37,8 @@ TEST(Unwritable, AComparisonIsKeptWhereNobodyReadsItsTable) {
     const Scratch scratch;
     const Ended o = shell(scratch, small_comparison + " --out kept | true\nexit ${PIPESTATUS[0]}");
     EXPECT_TRUE(ends(o, 4, "cannot write to standard output: Broken pipe"));
-    for (const char* name : {"cells.csv", "errors.csv", "cost.csv", "manifest.json", "report.html"})
+    for (const char* name :
+         {"cells.csv", "errors.csv", "cost.csv", "manifest.json", "results.json", "report.html"})
         EXPECT_TRUE(fs::exists(scratch.path / "kept" / name)) << name;
 }
 

@@ -10,6 +10,7 @@ import csv
 import gc
 import importlib.util
 import io
+import json
 import os
 import re
 import signal
@@ -27,6 +28,16 @@ import numpy as np
 
 PROGRAM, PLUGIN = sys.argv[1:3]
 SHORT = {"duration": 0.01}
+
+
+def arguments(function):
+    """Name and default of each argument; pybind11 writes its signature into the docstring."""
+    if not isinstance(function, ast.FunctionDef):
+        function, = ast.parse(f"def {function.__doc__.splitlines()[0]}: ...").body
+    own = function.args
+    defaults = [None] * (len(own.args) - len(own.defaults)) + own.defaults + own.kw_defaults
+    return [(a.arg, d and ast.literal_eval(d))
+            for a, d in zip(own.args + own.kwonlyargs, defaults)]
 
 
 def rows_of(file):
@@ -524,10 +535,23 @@ os._exit(1)"""
                 self.assertEqual(stubbed, own, name)
                 for member in own:
                     self.assertTrue(getattr(there, member).__doc__, f"{name}.{member}")
-            else:  # pybind11 writes the signature into the docstring
-                signature = there.__doc__.split("\n")[0]
-                arguments = [a.arg for a in node.args.args + node.args.kwonlyargs]
-                self.assertEqual(arguments, re.findall(r"(\w+): ", signature), name)
+            else:
+                self.assertEqual(arguments(node), arguments(there), name)
+
+    def test_a_field_of_a_comparison_has_one_name_as_argument_flag_and_key_of_suites(self):
+        def printed(*words):
+            return subprocess.run([PROGRAM, *words], capture_output=True, text=True).stdout
+        own = {"scene", "cost", "reference", "time_limit"}  # no flag has the last two
+        shared = {"json", "quiet", "plugin", "external", "set", "resume", "help"}
+        flags = {flag.replace("-", "_") for flag in
+                 re.findall(r"--([a-z-]+) ", printed("compare", "--help").split("Example:")[0])}
+        flags = {{"option": "options"}.get(flag, flag) for flag in flags} - shared
+        self.assertEqual(set(dict(arguments(jvari.compare))) - own, flags - {"cost"})
+        keys = {key["key"].removesuffix("_s")
+                for key in json.loads(printed("list", "keys", "--json"))["keys"]["cells"]}
+        self.assertLessEqual(
+            {"schemes", "rates", "modes", "reference", "reference_modes", "duration", "tap_rate",
+             "options", "repeats", "time_limit"}, keys & set(dict(arguments(jvari.compare))))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // The energy that is stored, supplied and lost balances in every row and in sum: strings, contact
-// rules and options against scenes, rates and bounds. jvari check asks the same of every scheme as
-// it is by default, over few rows and to less.
+// rules and options against scenes, rates and bounds. jvari check asks the same, to 1e-11, of every
+// scheme as it is by default over the first rows of each scene of the library: here stand closer
+// bounds, options, longer runs, losses and scenes that the library lacks.
 #include <numbers>
 
 #include "scenes/modes.hpp"
@@ -235,10 +236,7 @@ std::vector<LedgerClaim> ledger_claims() {
            {{256e3}, 0, 333}, {1e-11, 1e-10}, {.at_most = 0}, true),
         Of("NewtonOnAParabolaThatLoses", newton, {with_loss(lossless(parabola(0.02)), 0.5)},
            {{256e3}, 32e3, 333}, {1e-11}, {.more_than = 1e-3}),
-        Of("Grids", grids,
-           {lossless(lasting(c3_release(), 0.02)), lasting(c3_release(), 0.02),
-            lasting(c3_pluck(), 0.02), lossless(crowded()), crowded()},
-           {{44100}, 0, 0}, {1e-11}, {}, true),
+        Of("Grids", grids, {lossless(crowded()), crowded()}, {{44100}, 0, 0}, {1e-11}, {}, true),
         Of("GridsWithAThreadOfAnyStiffness", grids, {with_stiff_thread()}, {{44100}, 0, 0},
            {1e-11}),
         Of("GridsOfASlowString", {"finite_difference_theta", "finite_difference_hamiltonian"},
@@ -276,8 +274,8 @@ std::vector<LedgerClaim> ledger_claims() {
         Of("ImpactThatTakesAll", with("restitution=0", impact), {struck_rigid()},
            {{8 * x1}, x1, 60}, {1e-11}, {.more_than = 1e-4, .least = -1e-16}),
         Of("StringThatStretches", {"modal_tension"},
-           {gliding(false, false), gliding(false, true), gliding(true, false), gliding(true, true)},
-           {{2 * x1}, x1, 40}, {1e-11}),
+           {gliding(false, true), gliding(true, false), gliding(true, true)}, {{2 * x1}, x1, 40},
+           {1e-11}),
     };
 }
 

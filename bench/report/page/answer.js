@@ -117,7 +117,7 @@ function take_it() {
 // in the last.
 const groups = ["waveform", "loudness in bands", "other"],
   group_of = ({measure, tap}) =>
-    tap ? 2 : measure.startsWith("error_l2") ? 0 : /octave|stft/.test(measure) ? 1 : 2;
+    ["waveform", "bands", "other"].indexOf(tap ? "other" : measure_of(measure)[4]);
 
 // Builds the first screen. `section`: the chart's section, `heard`: cards with sounds.
 function answer_of(section, heard) {

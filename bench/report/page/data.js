@@ -69,9 +69,9 @@ const has_finite = (rows, column) => rows.some(row => Number.isFinite(row[column
 const after_pluck = rows => (rows[0]?.free_from_s > 0 ? " after the last pluck" : "");
 // Errors for the menus of a scene, headline first: {column, title, menu, name, measure, tap}.
 let taps = null;
+const all_taps = () => (taps ??= distinct(["", ...records("errors").map(e => e.tap)]));
 function errors_in(rows) {
-  taps ??= distinct(["", ...records("errors").map(e => e.tap)]);
-  const all = taps
+  const all = all_taps()
     .flatMap(tap =>
       page.measures.map(([measure, axis, name]) => ({
         column: error_name({measure, tap}),

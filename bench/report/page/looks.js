@@ -284,8 +284,15 @@ const quantity = (field, axis = {}, scale = {}) => ({
   axis: {title: null, labelOverlap: true, ...axis},
 });
 const log = padding => ({type: "log", nice: false, padding});
-const is_percent = error => error.startsWith("error_l2_");
-const unit_of_error = error => page.measures.find(([measure]) => error.startsWith(measure))?.[3];
+let measures_by_error = null; // error name: [column, axis, title, unit, kind]
+function measure_of(error) {
+  measures_by_error ??= new Map(
+    page.measures.flatMap(m => all_taps().map(tap => [error_name({measure: m[0], tap}), m])),
+  );
+  return measures_by_error.get(error) ?? [];
+}
+const is_percent = error => measure_of(error)[4] === "waveform";
+const unit_of_error = error => measure_of(error)[3];
 const error_text = (x, error) =>
   unit_of_error(error) === "1" ? percent(x) : `${digits(x, 2)}\u00a0${unit_of_error(error)}`;
 // Labels decades; on an axis below three decades 2 and 5 as well. `text`: expression for a

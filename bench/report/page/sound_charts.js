@@ -22,16 +22,14 @@ function sounds() {
   all_sounds = page.sounds.map(sound => {
     const row = records("sounds")[sound.row] ?? sound,
       reference = row.scheme === "reference";
-    return {
-      ...row,
-      ...sound,
+    return Object.assign(Object.create(row), sound, {
       reference,
       hertz: row.rate,
       detail: reference ? "" : kilohertz(row.rate),
       name:
         row.what ||
         (reference ? `reference ${reference_name(row.problem)}` : (row.series ?? row.name)),
-    };
+    });
   });
   return all_sounds;
 }
