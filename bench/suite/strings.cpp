@@ -193,7 +193,7 @@ using study::TabledCell;
 struct StringOf {
     const CellSet* set = nullptr;
     Rows rows{};  // rows of the string's cells
-    Json examined{};
+    Json examined = Json::object();
 };
 
 double number_in(const Json& j, const char* name) {

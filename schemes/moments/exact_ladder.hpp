@@ -31,7 +31,7 @@ public:
     };
     int points() const { return points_; }
     const Pattern& pattern(int k) const { return patterns_[static_cast<std::size_t>(k)]; }
-    double w(int k, int p) const { return w_[static_cast<std::size_t>(k * points_ + p)]; }
+    double w(int k, int p) const { return w_[static_cast<std::size_t>(k) * points_ + p]; }
 
     // x: d for each pattern, then v for each. force: means for the points, then first moments.
     void rest(const double* force, double* x) const noexcept;  // under steady forces [N]
