@@ -19,12 +19,13 @@ function canvas_of(id) {
   return {pen, width, height};
 }
 
-// A path through places, and a disc.
+// A path through places, a line and a disc.
 function path_of(pen, [from, ...places]) {
   pen.beginPath();
   pen.moveTo(...from);
   for (const place of places) pen.lineTo(...place);
 }
+const line_of = (pen, ...places) => (path_of(pen, places), pen.stroke());
 const disc_of = (pen, x, y, radius) => (pen.beginPath(), pen.arc(x, y, radius, 0, 7));
 
 // ---- The view: metres to pixels. The deflection is exaggerated by a factor, which the picture
@@ -88,11 +89,7 @@ function draw_obstacles(pen, v) {
     const x = v.x(s.thread.position);
     pen.strokeStyle = colour("thread");
     pen.lineWidth = 3;
-    (path_of(pen, [
-      [x, v.y(s.thread.height)],
-      [x, floor],
-    ]),
-      pen.stroke());
+    line_of(pen, [x, v.y(s.thread.height)], [x, floor]);
   }
   pen.fillStyle = colour("ink");
   // Masses at t = 0.
@@ -135,7 +132,7 @@ function draw_force(pen, v, picture, row) {
     length = 12 + 40 * Math.min(1, force / film.most_force);
   pen.strokeStyle = pen.fillStyle = colour("force");
   pen.lineWidth = 3;
-  (pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, y - length), pen.stroke());
+  line_of(pen, [x, y], [x, y - length]);
   pen.fillText(`${digits(force)} N`, x + 8, y - length + 4);
 }
 
@@ -181,7 +178,7 @@ function draw_grips(pen, v) {
     pen.strokeStyle = pen.fillStyle = colour("key");
     pen.lineWidth = 1;
     pen.setLineDash([2, 4]);
-    (pen.beginPath(), pen.moveTo(x, y), pen.lineTo(x, v.y(0)), pen.stroke());
+    line_of(pen, [x, y], [x, v.y(0)]);
     pen.setLineDash([]);
     const right = x < v.width - 90,
       down = y > v.height - 30 ? 4 : y < v.y(0) ? -4 : 18,
@@ -194,7 +191,7 @@ function draw_grips(pen, v) {
     pen.textAlign = "left";
     pen.fillStyle = colour("paper");
     pen.lineWidth = 2;
-    (pen.beginPath(), pen.arc(x, y, 6, 0, 7), pen.fill(), pen.stroke());
+    (disc_of(pen, x, y, 6), pen.fill(), pen.stroke());
   }
 }
 
@@ -248,7 +245,7 @@ function draw_graphs() {
     pen.fillText(`${line.title}${to} ${two_digits(most)} ${line.unit}`, left, 12);
     pen.strokeStyle = colour("line");
     pen.lineWidth = 1;
-    (pen.beginPath(), pen.moveTo(left, bottom), pen.lineTo(right, bottom), pen.stroke());
+    line_of(pen, [left, bottom], [right, bottom]);
     const curve = (series, stroke, dash) => {
       pen.strokeStyle = stroke;
       pen.lineWidth = 1.3;
@@ -271,7 +268,7 @@ function draw_graphs() {
     curve(line.scheme, colour("key"), line.exact ? [4, 3] : []);
     const x = left + ((right - left) * film.at) / (rows - 1);
     pen.strokeStyle = colour("force");
-    (pen.beginPath(), pen.moveTo(x, top), pen.lineTo(x, bottom), pen.stroke());
+    line_of(pen, [x, top], [x, bottom]);
     pen.fillStyle = colour("soft");
     (pen.fillText("0", left, height - 3),
       pen.fillText(`${digits(1e3 * run_seconds())} ms`, right - 34, height - 3));
@@ -297,32 +294,30 @@ function new_pictures() {
   draw_picture();
 }
 
+// Place of the pointer in the picture [px], and the view there.
+function pointed_at({target, clientX, clientY}) {
+  const {left, top, width, height} = target.getBoundingClientRect();
+  return {v: view_of(width, height), x: clientX - left, y: clientY - top};
+}
 function grip_near(event) {
-  const canvas = document.getElementById("string"),
-    box = canvas.getBoundingClientRect(),
-    v = view_of(box.width, box.height);
-  const x = event.clientX - box.left,
-    y = event.clientY - box.top;
+  const {v, x, y} = pointed_at(event);
   return grips(v).find(g => Math.hypot(g.x - x, g.y - y) < 18);
 }
-function drag(event) {
-  const box = event.target.getBoundingClientRect(),
-    v = view_of(box.width, box.height),
-    {grip} = film.dragged;
-  if (grip.across) move_handle(grip.across, v.back_x(event.clientX - box.left));
-  if (grip.up) move_handle(grip.up, grip.of(v.back_y(event.clientY - box.top)));
+function drag(event, {across, up, of}) {
+  const {v, x, y} = pointed_at(event);
+  if (across) move_handle(across, v.back_x(x));
+  if (up) move_handle(up, of(v.back_y(y)));
 }
 function watch_grips() {
   const canvas = document.getElementById("string");
   canvas.onpointerdown = e => {
-    const grip = shown.scene && grip_near(e);
-    if (!grip) return;
-    film.dragged = {grip};
+    film.dragged = shown.scene && grip_near(e);
+    if (!film.dragged) return;
     canvas.setPointerCapture(e.pointerId);
     e.preventDefault();
   };
   canvas.onpointermove = e => {
-    if (film.dragged) drag(e);
+    if (film.dragged) drag(e, film.dragged);
     else canvas.style.cursor = shown.scene && grip_near(e) ? "grab" : "";
   };
   canvas.onpointerup = canvas.onpointercancel = () => {
