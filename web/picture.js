@@ -25,7 +25,7 @@ function path_of(pen, [from, ...places]) {
   pen.moveTo(...from);
   for (const place of places) pen.lineTo(...place);
 }
-const line_of = (pen, ...places) => (path_of(pen, places), pen.stroke());
+const stroke_of = (pen, ...places) => (path_of(pen, places), pen.stroke());
 const disc_of = (pen, x, y, radius) => (pen.beginPath(), pen.arc(x, y, radius, 0, 7));
 
 // ---- The view: metres to pixels. The deflection is exaggerated by a factor, which the picture
@@ -89,7 +89,7 @@ function draw_obstacles(pen, v) {
     const x = v.x(s.thread.position);
     pen.strokeStyle = colour("thread");
     pen.lineWidth = 3;
-    line_of(pen, [x, v.y(s.thread.height)], [x, floor]);
+    stroke_of(pen, [x, v.y(s.thread.height)], [x, floor]);
   }
   pen.fillStyle = colour("ink");
   // Masses at t = 0.
@@ -132,7 +132,7 @@ function draw_force(pen, v, picture, row) {
     length = 12 + 40 * Math.min(1, force / film.most_force);
   pen.strokeStyle = pen.fillStyle = colour("force");
   pen.lineWidth = 3;
-  line_of(pen, [x, y], [x, y - length]);
+  stroke_of(pen, [x, y], [x, y - length]);
   pen.fillText(`${digits(force)} N`, x + 8, y - length + 4);
 }
 
@@ -178,7 +178,7 @@ function draw_grips(pen, v) {
     pen.strokeStyle = pen.fillStyle = colour("key");
     pen.lineWidth = 1;
     pen.setLineDash([2, 4]);
-    line_of(pen, [x, y], [x, v.y(0)]);
+    stroke_of(pen, [x, y], [x, v.y(0)]);
     pen.setLineDash([]);
     const right = x < v.width - 90,
       down = y > v.height - 30 ? 4 : y < v.y(0) ? -4 : 18,
@@ -245,7 +245,7 @@ function draw_graphs() {
     pen.fillText(`${line.title}${to} ${two_digits(most)} ${line.unit}`, left, 12);
     pen.strokeStyle = colour("line");
     pen.lineWidth = 1;
-    line_of(pen, [left, bottom], [right, bottom]);
+    stroke_of(pen, [left, bottom], [right, bottom]);
     const curve = (series, stroke, dash) => {
       pen.strokeStyle = stroke;
       pen.lineWidth = 1.3;
@@ -268,7 +268,7 @@ function draw_graphs() {
     curve(line.scheme, colour("key"), line.exact ? [4, 3] : []);
     const x = left + ((right - left) * film.at) / (rows - 1);
     pen.strokeStyle = colour("force");
-    line_of(pen, [x, top], [x, bottom]);
+    stroke_of(pen, [x, top], [x, bottom]);
     pen.fillStyle = colour("soft");
     (pen.fillText("0", left, height - 3),
       pen.fillText(`${digits(1e3 * run_seconds())} ms`, right - 34, height - 3));
