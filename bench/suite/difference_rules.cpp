@@ -7,9 +7,9 @@
 // depend on the scale of the start, so 1e-9 of a kilohertz is added. The tolerance thus covers
 // relative changes of 1e-9. Another vector width changes the order of sums. With SSE2 in place of
 // AVX-512, 5 of 6632 figures in the smoke suite moved by more than 100 floors, and only centroids
-// by more than 350. A changed equation moves figures by far more. All taps of a string hear the same
-// decay, and a floor may be small by chance: the largest among the taps counts for a decay. (Sums
-// in another order moved one by 1600 of its own floors, and by 200 of the largest.)
+// by more than 350. A changed equation moves figures by far more. All taps of a string hear the
+// same decay, and a floor may be small by chance: the largest among the taps counts for a decay.
+// (Sums in another order moved one by 1600 of its own floors, and by 200 of the largest.)
 //
 // Numbers that follow the motion and have no noise floor (contact force, penetration, certificates
 // for stand-ins) may move by 1000 times the cell's largest floor plus 1e-6 of themselves. An error
