@@ -56,18 +56,19 @@ struct FieldWords {
 };
 namespace fields {
 inline constexpr FieldWords  //
-    schemes{"schemes", "what is compared",
+    schemes{"schemes", "schemes that are compared",
             "every scheme that represents the scene, but for controls"},
-    rates{"rates", "at which each scheme runs", "44100 x 1, 2, 4, 8, 16, 32, 64"},
-    modes{"modes", "of each string",
+    rates{"rates", "sample rates of each scheme", "44100 x 1, 2, 4, 8, 16, 32, 64"},
+    modes{"modes", "modes of each string",
           "those below 20 kHz, and in a search 1.5, 2, 3 and 4 times as many where they lie below "
           "rate/2"},
-    reference_modes{"reference_modes",
-                    "of the reference; 0: doubled until nothing moves, and the points of a profile "
-                    "with them; cell: those of the schemes",
-                    "0"},
-    duration{"duration", "how long each run lasts", "the scene's"},
-    tap_rate{"tap_rate", "rows per second that are compared",
+    reference_modes{
+        "reference_modes",
+        "modes of the reference; 0: doubled until nothing moves, and the points of a profile "
+        "with them; cell: those of the schemes",
+        "0"},
+    duration{"duration", "length of each run", "the scene's"},
+    tap_rate{"tap_rate", "rows per second",
              "44100 for its multiples, the lowest rate for others; 44100 and 48000 have each "
              "their own"},
     repeats{"repeats", "timed runs of each cell; a slow cell gets fewer, two at least", "5"};

@@ -7,9 +7,7 @@
 // depend on the scale of the start, so 1e-9 of a kilohertz is added. The tolerance thus covers
 // relative changes of 1e-9. Another vector width changes the order of sums. With SSE2 in place of
 // AVX-512, 5 of 6632 figures in the smoke suite moved by more than 100 floors, and only centroids
-// by more than 350. A changed equation moves figures by far more. All taps of a string hear the
-// same decay, and a floor may be small by chance: the largest among the taps counts for a decay.
-// (Sums in another order moved one by 1600 of its own floors, and by 200 of the largest.)
+// by more than 350. A changed equation moves figures by far more.
 //
 // Numbers that follow the motion and have no noise floor (contact force, penetration, certificates
 // for stand-ins) may move by 1000 times the cell's largest floor plus 1e-6 of themselves. An error
@@ -62,15 +60,13 @@ bool is_closed_form(const std::string& fact) {
     return std::ranges::any_of(names, [&](const char* name) { return fact.starts_with(name); });
 }
 
-// The largest noise floor of a measure among a cell's taps.
-double largest_floor(const Cell& c, std::size_t measure) {
+// Sensitivity of a cell: the largest noise floor among its relative L2 errors.
+double sensitivity(const Cell& c) {
     double largest = 0;
     for (const std::string& tap : c.taps)
-        largest = std::fmax(largest, c.figure(measure, tap).floor);
+        largest = std::fmax(largest, c.figure(study::measure("error_l2_whole"), tap).floor);
     return largest;
 }
-// Sensitivity of a cell: the largest noise floor among its relative L2 errors.
-double sensitivity(const Cell& c) { return largest_floor(c, study::measure("error_l2_whole")); }
 
 // Tolerance for a number that follows the motion and has no noise floor. The lower of the two
 // cells' sensitivities counts, so a floor raised in either folder excuses nothing.
@@ -161,11 +157,7 @@ Turn turn_of(double study::Figure::*part, std::size_t measure, const std::string
     const F &b = before.figure(measure, tap), &a = after.figure(measure, tap);
     const study::Measure& m = study::measures()[measure];
     const double was = b.*part, is = a.*part, old = std::abs(was),
-                 moves = motion(before, after, was),
-                 floor =
-                     m.column == "decay_db" && !std::isnan(b.floor) && !std::isnan(a.floor)
-                         ? std::min(largest_floor(before, measure), largest_floor(after, measure))
-                         : std::fmin(b.floor, a.floor);
+                 moves = motion(before, after, was), floor = std::fmin(b.floor, a.floor);
     if (part == &F::floor) return turn_of(was, is, {9 * old + 1e-9, 0, true});
     if (part == &F::certificate || part == &F::certificate_in_model)
         return turn_of(was, is, {moves, 1});
