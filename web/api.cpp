@@ -44,6 +44,10 @@ auto tried(Do act) -> decltype(act()) {
     return {};
 }
 
+const char* answer(auto text) {  // nullptr: refused
+    return tried([&] { return (last_text = text()).c_str(); });
+}
+
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> all;
     for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1) {
@@ -112,23 +116,17 @@ JV const char* jv_list() { return (last_text = list_text()).c_str(); }
 
 // Scene as JSON, for drawing; nullptr: refused.
 JV const char* jv_scene(const char* text, const char* overrides) {
-    const bool done = tried([&] {
-        return !(last_text = scene_text(parse_scene(text, "scene", lines_of(overrides)))).empty();
-    });
-    return done ? last_text.c_str() : nullptr;
+    return answer([&] { return scene_text(parse_scene(text, "scene", lines_of(overrides))); });
 }
 
 // The problem as arrays, for a scheme typed into the page; nullptr: refused.
 JV const char* jv_problem(const char* text, const char* overrides, double rate, int modes,
                           double duration) {
-    const bool done = tried([&] {
+    return answer([&] {
         Scene scene = parse_scene(text, "scene", lines_of(overrides));
         scene.duration = duration;
-        return !(last_text =
-                     problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}}))
-                    .empty();
+        return problem_text(scene, {.sample_rate = rate, .modes = modes, .options = {}});
     });
-    return done ? last_text.c_str() : nullptr;
 }
 
 // Runs a scene. `duration` 0: the scene's. `modes` 0: the scheme's default. `options`: a line
@@ -188,11 +186,7 @@ JV double jv_louder(const Kept* a, const Kept* b, int tap, double hertz) {
 }
 // How a sounds beside b; nullptr: refused.
 JV const char* jv_sounds(const Kept* a, const Kept* b, int tap) {
-    const bool done = tried([&] {
-        last_text = sounds_text(a->free(tap), b->free(tap), b->run.trace.tap_rate);
-        return true;
-    });
-    return done ? last_text.c_str() : nullptr;
+    return answer([&] { return sounds_text(a->free(tap), b->free(tap), b->run.trace.tap_rate); });
 }
 JV double jv_left_after(double last, double before, int matched) {
     const double changes[] = {before, last};

@@ -83,7 +83,6 @@ std::string barrier_text(const Barrier& b, double length) {
     if (const auto* point = std::get_if<LumpedBarrier>(&b))
         return o.with("shape", "lumped")
             .with("position", point->position)
-            .with("width", point->width)
             .with("height", point->height)
             .with("stiffness", point->stiffness.k)
             .with("exponent", point->exponent)
@@ -99,28 +98,17 @@ std::string barrier_text(const Barrier& b, double length) {
         .with("from", profile.from)
         .with("to", profile.to)
         .with("stiffness", profile.stiffness.K)
-        .with("exponent", profile.exponent)
         .raw("x", array(x, [](double v) { return text_of(v); }))
         .raw("height", array(h, [](double v) { return text_of(v); }))
         .text();
 }
 
-std::string start_text(const ModeShape& m) {
-    return Object()
-        .with("shape", "mode")
-        .with("number", static_cast<double>(m.number))
-        .with("amplitude", m.amplitude)
-        .text();
+std::string start_text(const auto& shape) {  // a start from a file or at rest has neither
+    Object o;
+    if constexpr (requires { shape.position; }) o.with("position", shape.position);
+    if constexpr (requires { shape.amplitude; }) o.with("amplitude", shape.amplitude);
+    return o.text();
 }
-std::string start_text(const TriangleShape& t) {
-    return Object()
-        .with("shape", "triangle")
-        .with("position", t.position)
-        .with("amplitude", t.amplitude)
-        .text();
-}
-
-std::string start_text(const auto&) { return "{}"; }  // from a file, or at rest
 
 std::string string_text(const String& s) {
     Object o;
@@ -144,8 +132,6 @@ std::string string_text(const String& s) {
         o.raw("pluck", Object()
                            .with("position", s.pluck->position)
                            .with("amplitude", s.pluck->amplitude)
-                           .with("start", s.pluck->start)
-                           .with("duration", s.pluck->duration)
                            .text());
     return o.text();
 }
@@ -161,11 +147,7 @@ std::string list_text() {
 std::string scene_text(const Scene& scene) {
     const Descriptor* reference = best_reference(scene);
     const auto tap = [](const Tap& t) {
-        return Object()
-            .with("name", t.name)
-            .with("quantity", name_of(t.quantity))
-            .with("unit", unit_of(t.quantity))
-            .text();
+        return Object().with("name", t.name).with("quantity", name_of(t.quantity)).text();
     };
     std::vector<std::string> able;
     for (const Descriptor& d : schemes())
@@ -202,7 +184,6 @@ std::string run_text(const Run& r, const Scene& scene, int modes, Balance promis
     return Object()
         .with("outcome", name_of(r.status.outcome))
         .with("step", static_cast<double>(r.status.step))
-        .with("steps", static_cast<double>(r.steps))
         .with("rows", static_cast<double>(r.trace.rows))
         .with("rate", r.trace.tap_rate)
         .with("dofs", static_cast<double>(r.dofs))

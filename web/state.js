@@ -106,7 +106,7 @@ async function read_address(hash) {
 // range, and whether the range is logarithmic.
 
 const point_of = s => (s.barrier[0]?.shape === "lumped" ? s.barrier[0] : undefined),
-  pulled = s => (s.start?.shape === "triangle" ? s.start.position : undefined),
+  pulled = s => s.start?.position,
   within = (low, high) => (v, s) => [low * s.length, high * s.length],
   times = (low, high) => v => [low * v, high * v].sort((a, b) => a - b),
   near_end = (high, most) => (v, s) => [0.3 * v, Math.min(high * v, most * s.length)];
