@@ -68,7 +68,8 @@ Act report_verb(CLI::App& program) {
     Verb<ReportRequest> v(
         program, "report",
         "page and pictures, made again from a folder that compare or suite wrote");
-    v.option("folder", v.r.folder, {"DIR"}, "holds manifest.json and cells.csv, maps.csv or both")
+    v.option("folder", v.r.folder, {"DIR"},
+             "what compare, suite or trim wrote; results.json alone will do")
         ->required();
     v.option("--width", v.r.width, {"WIDTH"}, "of the pictures, as 85mm for a column of a paper");
     v.flag("--playground", v.r.playground,

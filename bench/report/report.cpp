@@ -271,7 +271,9 @@ std::vector<std::string> write_report(const fs::path& folder, const store::Liste
     const Results results = read_results(folder);
     store::must_be_writable(folder / "report.html");
     const auto tables = tables_of(results);
-    store::write_fresh(folder / "results.json", store::compact(values_of(results, tables)) + "\n");
+    auto kept = tables;  // with every error, as read_cells reads it
+    if (!results.cells.empty()) kept["errors"] = study::errors_table(results.cells);
+    store::write_fresh(folder / "results.json", store::compact(values_of(results, kept)) + "\n");
     Json data = data_of(results, tables);
     const Vega vega = find_vega();
     std::vector<std::string> written{"results.json"};

@@ -50,6 +50,7 @@ std::vector<std::string> series_of(const std::vector<Named>& rows) {
 }
 
 void name_rows(store::Table& t, const std::string& scene) {
+    if (t.column("problem") >= 0) return;  // a table of results.json
     const auto from = std::ranges::find(t.columns, "scene"),
                to = std::ranges::find(t.columns, "scheme");
     const bool swept = from != t.columns.end() && to - from > 1;
@@ -104,7 +105,7 @@ Results read_results(const fs::path& path) {
     for (const char* name : {"strings", "fronts", "advice"}) r.tables[name] = folder.table(name);
     // a population has too many cells
     const bool population = !r.tables["strings"].columns.empty();
-    if (!population) r.cells = study::read_cells(path, true);
+    if (!population) r.cells = study::read_cells(folder, true);
     for (const char* name : {"convergence", "maps", "boundaries", "sounds", "path", "needs"})
         r.tables[name] = folder.table(name);
     if (r.cells.empty() && !population && r.tables["maps"].columns.empty() &&
@@ -123,7 +124,8 @@ Results read_results(const fs::path& path) {
     for (const study::TabledCell& c : r.cells)
         named.push_back({c.problem(), c.variant(), c.rate, c.modes});
     r.series = series_of(named);
-    r.sounds = r.tables["sounds"];
+    // results.json may have come without the sounds
+    if (!folder.is_one_file() || fs::is_directory(path / "sounds")) r.sounds = r.tables["sounds"];
     return r;
 }
 

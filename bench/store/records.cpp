@@ -236,37 +236,79 @@ nlohmann::ordered_json table_json(const Table& table) {
     return {{"columns", table.columns}, {"rows", std::move(rows)}};
 }
 
+Table table_in(const nlohmann::ordered_json& j) {
+    Table table;
+    j.at("columns").get_to(table.columns);
+    for (const auto& row : j.at("rows")) {
+        auto& fields = table.rows.emplace_back();
+        for (const auto& field : row)
+            if (field.is_string()) fields.emplace_back(field.get<std::string>());
+            else if (field.is_boolean()) fields.emplace_back(field.get<bool>());
+            else if (field.is_number())
+                fields.push_back(Field::as_written(number_text(field.get<double>())));
+            else if (field.is_array()) fields.emplace_back(HUGE_VAL * field.at(0).get<double>());
+            else fields.emplace_back();
+        if (fields.size() != table.columns.size())
+            throw std::runtime_error(fmt::format("row {}: found {} fields, expected {}",
+                                                 table.rows.size(), fields.size(),
+                                                 table.columns.size()));
+    }
+    return table;
+}
+
 namespace fs = std::filesystem;
 
 namespace {
-[[noreturn]] void refuse(const Folder& folder, const std::string& file, const char* why) {
-    throw UsageError(fmt::format("{}/{}: {}", folder.path.string(), file, why));
-}
 
 std::optional<std::string> content(const fs::path& file) {  // nothing for a missing file
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return std::nullopt;
     return read_whole(file);
 }
-}  // namespace
 
-nlohmann::ordered_json Folder::manifest() const {
-    const auto text = content(path / "manifest.json");
-    if (!text)
-        throw UsageError(path.string() +
-                         ": no manifest.json, expected a folder that compare, suite or trim wrote");
+template <class Read>
+auto naming(const fs::path& file, Read read) {  // the file in the message of a failure
     try {
-        auto m = parsed(*text);
-        return m.is_object() ? m : throw std::runtime_error("it holds no object");
-    } catch (const std::exception& e) { refuse(*this, "manifest.json", e.what()); }
+        return read();
+    } catch (const std::exception& e) {
+        throw UsageError(fmt::format("{}: {}", file.string(), e.what()));
+    }
 }
 
-Table Folder::table(const std::string& file) const {
-    const auto text = content(path / (file + ".csv"));
-    if (!text) return {};
-    try {
-        return read_csv(as_utf8(*text));
-    } catch (const std::exception& e) { refuse(*this, file + ".csv", e.what()); }
+std::shared_ptr<const nlohmann::ordered_json> object(nlohmann::ordered_json j) {
+    if (!j.is_object()) throw std::runtime_error("it holds no object");
+    return std::make_shared<const nlohmann::ordered_json>(std::move(j));
+}
+}  // namespace
+
+Folder::Folder(fs::path folder) : path(std::move(folder)) {
+    const auto parse = [this](const char* name, auto read) {
+        naming(path / name, [&] {
+            if (const auto text = content(path / name)) read(parsed(*text));
+        });
+    };
+    parse("manifest.json", [this](const auto& j) { manifest_ = object(j); });
+    if (!manifest_)
+        parse("results.json", [this](const auto& values) {
+            manifest_ = object(values.at("manifest"));
+            tables_ = object(values.at("tables"));
+        });
+    if (!manifest_)
+        throw UsageError(path.string() +
+                         ": neither manifest.json nor results.json, expected a folder that "
+                         "compare, suite or trim wrote");
+}
+
+std::string Folder::file(const std::string& table) const {
+    return (path / (tables_ ? "results.json" : table + ".csv")).string();
+}
+
+Table Folder::table(const std::string& name) const {
+    return naming(file(name), [&]() -> Table {
+        if (tables_) return tables_->contains(name) ? table_in(tables_->at(name)) : Table();
+        const auto text = content(file(name));
+        return text ? read_csv(as_utf8(*text)) : Table();
+    });
 }
 
 }  // namespace jvari::bench::store

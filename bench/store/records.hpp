@@ -1,11 +1,12 @@
-// Results are rows: a table of fields with named columns, written and read as CSV (RFC 4180), and
-// written as JSON. Fields keep their types in CSV: a text that looks like a number has quotation
+// Results are rows: a table of fields with named columns, written and read as CSV (RFC 4180) and
+// as JSON. Fields keep their types in CSV: a text that looks like a number has quotation
 // marks. A spreadsheet would take a text that begins with = + - @ and is no number for a formula,
 // so the file puts an apostrophe in front. Texts that begin with an apostrophe get another one.
 #pragma once
 
 #include <concepts>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
@@ -75,18 +76,28 @@ std::string quoted(const std::string& text);     // CSV form
 nlohmann::ordered_json rows_json(const Table&);  // one object per row
 // {"columns": [...], "rows": [[...], ...]}. JSON has no infinity: it stands as [1] or [-1].
 nlohmann::ordered_json table_json(const Table&);
+Table table_in(const nlohmann::ordered_json&);  // reads table_json
 std::string csv(const Table&);
 // Reads a number from each field without quotation marks that has one. Throws std::runtime_error
 // with the line if a row has too few or too many fields.
 Table read_csv(const std::string& text);
 
-// A folder of results: its manifest and its tables. An unreadable file throws UsageError with the
+// A folder of results: its manifest and its tables, from manifest.json and NAME.csv. A folder
+// without manifest.json has both in results.json. An unreadable file throws UsageError with the
 // folder's name, the file and the reason.
-struct Folder {
-    std::filesystem::path path;
+class Folder {
+public:
+    explicit Folder(std::filesystem::path);
 
-    nlohmann::ordered_json manifest() const;
-    Table table(const std::string& file) const;  // FILE.csv; empty if there is none
+    const std::filesystem::path path;
+    const nlohmann::ordered_json& manifest() const { return *manifest_; }
+    Table table(const std::string& name) const;        // empty if there is none
+    std::string file(const std::string& table) const;  // where it stands
+    bool is_one_file() const { return tables_ != nullptr; }
+
+private:
+    // tables_: those of results.json, nullptr where it is not read
+    std::shared_ptr<const nlohmann::ordered_json> manifest_, tables_;
 };
 
 }  // namespace jvari::bench::store

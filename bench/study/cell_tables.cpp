@@ -216,39 +216,40 @@ Cells cells_in(const store::Table& facts) {
 }
 }  // namespace
 
-Cells read_cells(const std::filesystem::path& path, bool whole) {
-    const store::Folder folder{path};
+Cells read_cells(const store::Folder& folder, bool whole) {
     const auto with = [&](const char* name, std::initializer_list<const char*> required) {
         store::Table t = folder.table(name);
         for (const char* column : required)
             if (!t.columns.empty() && t.column(column) < 0)
-                throw store::UsageError(
-                    fmt::format("{}/{}.csv: found no column {}; make the results again",
-                                path.string(), name, column));
+                throw store::UsageError(fmt::format(
+                    "{}: found no column {}; make the results again", folder.file(name), column));
         return t;
     };
-    const store::Table facts = with("facts", {"cell", "scheme", "rate", "status", "flags"});
+    // In results.json the table of cells has the facts and the costs.
+    const char* const own = folder.is_one_file() ? "cells" : "facts";
+    const store::Table facts = with(own, {"cell", "scheme", "rate", "status", "flags"});
     if (facts.columns.empty()) return {};
     if (facts.rows.empty())
-        throw store::UsageError(
-            path.string() + "/facts.csv: it has no row below its header; make the results again");
+        throw store::UsageError(folder.file(own) +
+                                ": it has no row below its header; make the results again");
     Cells cells = cells_in(facts);
     std::map<std::string, TabledCell*> named;
     for (TabledCell& c : cells)
         if (!named.emplace(c.cell, &c).second)
             throw store::UsageError(
-                fmt::format("{}/facts.csv: row {}: found the cell {} for the second time, expected "
-                            "one row per cell",
-                            path.string(), &c - cells.data() + 1, c.cell));
-    const auto refuse = [&path](const char* file, const std::string& cell) {
-        throw store::UsageError(fmt::format("{}/{}: found the cell {}, which facts.csv has not",
-                                            path.string(), file, cell));
+                fmt::format("{}: row {}: found the cell {} for the second time, expected one row "
+                            "per cell",
+                            folder.file(own), &c - cells.data() + 1, c.cell));
+    const auto refuse = [&](const char* table, const std::string& cell) {
+        throw store::UsageError(
+            fmt::format("{}: found the cell {}, which {} has not", folder.file(table), cell,
+                        std::filesystem::path(folder.file(own)).filename().string()));
     };
     const store::Table errors = with("errors", {"cell", "tap", "measure", "value", "floor"}),
                        cost = with("cost", {"cell", "scheme", "rate"});
     for (std::size_t i = 0; i < errors.rows.size(); ++i) {
         const auto found = named.find(errors.text(i, "cell"));
-        if (found == named.end()) refuse("errors.csv", errors.text(i, "cell"));
+        if (found == named.end()) refuse("errors", errors.text(i, "cell"));
         TabledCell& c = *found->second;
         const std::string name_of_tap = errors.text(i, "tap");
         const std::size_t m = measure(errors.text(i, "measure")),
@@ -266,7 +267,7 @@ Cells read_cells(const std::filesystem::path& path, bool whole) {
         const bool same = found != named.end() && found->second->scheme == cost.text(i, "scheme") &&
                           found->second->rate == cost.at(i, "rate");
         if (same) fill(*found->second, cost, i);
-        else if (whole) refuse("cost.csv", cost.text(i, "cell"));
+        else if (whole) refuse("cost", cost.text(i, "cell"));
     }
     return cells;
 }

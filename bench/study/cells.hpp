@@ -4,7 +4,8 @@
 //   facts.csv   a row per cell: the run's own figures, the same bit for bit with one program
 //   errors.csv  a row per cell, tap and measure; also the same bit for bit
 //   cost.csv    a row per cell: measured times
-// The program reads back the last three. cells.csv follows from them and is not read.
+// The program reads back the last three. cells.csv follows from them and is not read. In
+// results.json (store::Folder) the table of cells has what the first, second and last have.
 #pragma once
 
 #include <algorithm>
@@ -111,9 +112,9 @@ enum class Contents { cells, facts, cost, everything };
 store::Table table_of(const Cells&, Contents);
 store::Table errors_table(const Cells&);
 
-// Reads a folder of results; empty if there is no facts.csv. `whole`: throws UsageError if cost.csv
-// has other cells.
-Cells read_cells(const std::filesystem::path& folder, bool whole);
+// Reads a folder of results; empty if it has no cells. `whole`: throws UsageError if cost.csv has
+// other cells.
+Cells read_cells(const store::Folder&, bool whole);
 
 // ---- Groups of cells that share properties: the series behind fits and charts.
 

@@ -11,6 +11,7 @@
 
 #include "bench/store/records.hpp"
 #include "bench/store/usage.hpp"
+#include "scenes/wording.hpp"
 
 namespace jvari::bench::suite {
 
@@ -59,8 +60,11 @@ Named named_rows(const store::Table& t, const std::vector<std::string>& columns)
     std::map<std::string, int> seen;
     for (std::size_t i = 0; i < t.rows.size(); ++i) {
         std::string text;
-        for (const std::string& name : columns)
-            if (!t.at(i, name).empty()) text += (text.empty() ? "" : " ") + t.text(i, name);
+        for (const std::string& name : columns) {
+            const double x = t.number(i, name);  // 1e+05 is 100000
+            const std::string value = std::isnan(x) ? t.text(i, name) : number_text(x);
+            if (!value.empty()) text += (text.empty() ? "" : " ") + value;
+        }
         named[counted(seen, text)] = i;
     }
     return named;
@@ -245,7 +249,7 @@ std::string Provenance::machine() const {
 
 namespace {
 Provenance provenance_of(const store::Folder& folder) {
-    const Json m = folder.manifest();
+    const Json& m = folder.manifest();
     const auto text = [&](const char* key) {
         const auto found = m.find(key);
         return found == m.end()     ? "unknown"
@@ -263,7 +267,7 @@ Results read_results(const std::filesystem::path& path) {
         throw store::UsageError(fmt::format("{}: no such folder", path.string()));
     const store::Folder folder{path};
     const Results f{
-        path.string(),        provenance_of(folder),      study::read_cells(path, false),
+        path.string(),        provenance_of(folder),      study::read_cells(folder, false),
         folder.table("maps"), folder.table("boundaries"), folder.table("cells")};
     if (f.cells.empty() && f.maps.columns.empty())
         throw store::UsageError(fmt::format("{}: neither facts.csv nor maps.csv", f.name));

@@ -587,7 +587,7 @@ TEST(ComparedWithACertificate, AnErrorIsShownAsNoMoreThanItAndTheCertificateToge
     const std::string out = shelf / "out";
     const Ended o = jvari(shelf, small_compare + "--out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    const bench::study::Cells cells = bench::study::read_cells(out, true);
+    const bench::study::Cells cells = bench::study::read_cells(bench::store::Folder(out), true);
     const auto figure = [](const bench::study::TabledCell& c, const char* measure,
                            const char* tap = "") {
         return c.figure(bench::study::measure(measure), tap);
@@ -664,7 +664,7 @@ TEST(ComparedWithAStandIn, TheTableSaysSoAndTheFiguresAreItsOwnEstimates) {
 
     const Scene scene = short_scene("sitar_c5_two_planes", 0.02);
     const Oversampled own = oversampled(*stand_ins(scene).front(), scene, {88200, 44100, 0, {}}, 4);
-    const bench::study::Cells cells = bench::study::read_cells(out, true);
+    const bench::study::Cells cells = bench::study::read_cells(bench::store::Folder(out), true);
     for (std::size_t tap = 0; tap < scene.taps.size(); ++tap) {
         const auto figure = [&](const char* measure) {
             return cells[0].figure(bench::study::measure(measure), scene.taps[tap].name);
@@ -701,7 +701,7 @@ TEST(SuiteWithACertificate, EveryCellHasTheFigures) {
     const Ended o =
         jvari(shelf, "suite " + (shelf / "a.toml") + " --out " + out, shelf.environment);
     ASSERT_EQ(o.code, 0) << o.err;
-    const bench::study::Cells cells = bench::study::read_cells(out, true);
+    const bench::study::Cells cells = bench::study::read_cells(bench::store::Folder(out), true);
     ASSERT_EQ(cells.size(), 4u);
     const std::size_t whole = bench::study::measure("error_l2_whole");
     EXPECT_EQ(cells[0].figure(whole).certificate, 0.25);

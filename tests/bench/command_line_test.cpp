@@ -126,7 +126,7 @@ TEST(CommandLine, EveryKindOfBadUsageEndsWith2AndSaysWhatWasExpected) {
         {"compare free_string --repeats 0", "whole number from 1 to 9999999"},
         {"compare free_string --jobs 0", "whole number from 1 to 9999999"},
         {"compare free_string --out /proc/nowhere", "/proc/nowhere"},
-        {"report nowhere", "nowhere/facts.csv"},
+        {"report nowhere", "nowhere: neither manifest.json nor results.json"},
     };
     for (const auto& [arguments, expected] : cases) {
         const Ended o = jvari(scratch, arguments);
@@ -436,7 +436,8 @@ TEST(CommandLine, CompareRepeatsItsErrorsToTheLastDigitOneByOneAndSideBySide) {
                       content(scratch / (folder + std::string(file))))
                 << folder << file;
 
-    const bench::study::Cells cells = bench::study::read_cells(scratch.path / "a", true);
+    const bench::study::Cells cells =
+        bench::study::read_cells(bench::store::Folder(scratch / "a"), true);
     const auto figure = [&](std::size_t cell, const char* measure, const char* tap = "") {
         return cells[cell].figure(bench::study::measure(measure), tap);
     };
@@ -469,7 +470,7 @@ TEST(CommandLine, RatesWithoutRowsInCommonHaveTheErrorsThatEachHasAlone) {
         EXPECT_EQ(o.err.find("44100 and 48000 rows a second") != std::string::npos,
                   rates.size() > 5)
             << o.err;
-        return bench::study::read_cells(out, true);
+        return bench::study::read_cells(bench::store::Folder(out), true);
     };
     const bench::study::Cells both = errors("48000,44100"), one = errors("44100"),
                               other = errors("48000");

@@ -83,9 +83,29 @@ TEST(Report, AFolderSaysItsValuesToAProgramInOneDocumentWithTypes) {
     EXPECT_GT(values.at("tables").at("cheapest").at("rows").size(), 0u);
     EXPECT_GT(values.at("answers").size(), 0u);
     EXPECT_TRUE(values.at("warnings").is_array());
-    // the page draws these values
-    const Json page = data_of(content(folder / "report.html"));
-    for (const auto& [name, value] : values.items()) EXPECT_EQ(page.at(name), value) << name;
+    // the page draws these values, and of the errors those that it has a chart of
+    Json own = values, page = data_of(content(folder / "report.html"));
+    for (Json* of : {&own, &page}) of->at("tables").erase("errors");
+    for (const auto& [name, value] : own.items()) EXPECT_EQ(page.at(name), value) << name;
+}
+
+TEST(Report, ResultsJsonAloneIsAFolderOfResults) {
+    const Folder folder(every_file), alone({});
+    const auto report = [](const Folder& of) {
+        return jvari(of, "report " + of.path.string(), "JVARI_NODE_MODULES=/nowhere");
+    };
+    ASSERT_EQ(report(folder).code, 0);
+    const std::string values = content(folder / "results.json");
+    std::ofstream(alone / "results.json") << values;
+    const Ended diff = jvari(alone, "diff " + folder.path.string() + " " + alone.path.string());
+    EXPECT_EQ(diff.code, 0) << diff.err;
+    EXPECT_TRUE(says(diff.out, "0 worse, 0 better, 0 moved")) << diff.out;
+    EXPECT_TRUE(says(diff.out, "came back to the last digit")) << diff.out;
+    ASSERT_EQ(report(alone).code, 0);
+    EXPECT_EQ(content(alone / "results.json"), values);
+    EXPECT_TRUE(content(alone / "report.html") == content(folder / "report.html"));
+    std::ofstream(alone / "results.json") << values.substr(0, values.size() / 2);
+    EXPECT_TRUE(ends(report(alone), 2, "results.json: "));
 }
 
 TEST(Report, AFolderWithoutResultsIsRefused) {

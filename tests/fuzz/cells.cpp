@@ -30,18 +30,21 @@ Tables tables_in(const std::string& input) {
 
 class OwnFolder {
 public:
-    OwnFolder() : path_(OwnFile("cells").path()) { std::filesystem::create_directory(path_); }
+    OwnFolder() : path_(OwnFile("cells").path()) {
+        std::filesystem::create_directory(path_);
+        std::ofstream(path_ / "manifest.json") << "{}";
+    }
     ~OwnFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
-    const std::filesystem::path& holding(const Tables& tables) {
+    jvari::bench::store::Folder holding(const Tables& tables) {
         constexpr const char* names[] = {"facts.csv", "errors.csv", "cost.csv"};
         for (std::size_t k = 0; k < tables.size(); ++k) {
             if (tables[k].empty()) std::filesystem::remove(path_ / names[k]);
             else std::ofstream(path_ / names[k], std::ios::binary) << tables[k];
         }
-        return path_;
+        return jvari::bench::store::Folder(path_);
     }
 
 private:

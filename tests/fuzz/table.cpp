@@ -1,10 +1,11 @@
-// Whatever bytes come, a CSV table is read or refused with std::runtime_error; what is read
-// survives being written. So do numbers, and bytes as base64 text.
+// Whatever bytes come, a table of CSV or JSON is read or refused with std::exception; what is read
+// survives being written as either. So do numbers, and bytes as base64 text.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "bench/store/encoding.hpp"
+#include "bench/store/json.hpp"
 #include "bench/store/records.hpp"
 #include "fuzz.hpp"
 
@@ -33,12 +34,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                     std::isnan(x) || bench::store::number_of(jvari::bench::store::text_of(x)) == x,
                     "a number reads back as itself", t.text(i, name));
             }
+        const auto json = table_json(t);
+        promise(table_json(bench::store::table_in(json)) == json, "JSON reads back as itself",
+                bench::store::compact(json));
         if (!t.columns.empty() && !written_as_nothing(t)) {
             const bench::store::Table again = bench::store::read_csv(bench::store::csv(t));
             promise(table_json(again) == table_json(t), "written and read back is the same table",
                     bench::store::csv(t));
         }
     } catch (const std::runtime_error&) {}
+    try {
+        bench::store::table_in(bench::store::parsed(text));
+        ++inputs_read;
+    } catch (const std::exception&) {}
     promise(bench::store::bytes_of_base64(bench::store::base64(text)) == text,
             "bytes survive base64", text);
     try {
