@@ -37,8 +37,8 @@ struct Results {
 // Scene of a trim's manifest; "" for a comparison and for a suite.
 std::string trimmed_scene(const nlohmann::ordered_json& manifest);
 
-// Throws UsageError if manifest.json is missing, if facts.csv, maps.csv and path.csv are all
-// missing, or if a file cannot be read.
+// Throws UsageError if the folder has no manifest or no cells, map or path, or if a file cannot be
+// read.
 Results read_results(const std::filesystem::path&);
 
 // Problem: a scene at a single point in a sweep; runs on different problems are not compared.

@@ -28,12 +28,12 @@ struct Results {
     std::string name;
     Provenance provenance;
     study::Cells cells;
-    store::Table maps, boundaries;  // empty if the file is absent
-    store::Table shown;             // cells.csv
+    store::Table maps, boundaries;  // empty if absent
+    store::Table shown;             // cells.csv, or the cells of results.json
 };
 
-// Throws UsageError if manifest.json is missing, there are neither cells nor maps, or a file cannot
-// be read.
+// Throws UsageError if the folder has no manifest or neither cells nor maps, or if a file cannot be
+// read.
 Results read_results(const std::filesystem::path&);
 
 // ---- The rules
