@@ -21,6 +21,8 @@ namespace {
 
 const std::string plugin = std::string(" --plugin ") + JVARI_STUMBLING_PLUGIN;
 
+using Json = nlohmann::ordered_json;
+
 nlohmann::json json_from(const Scratch& scratch, const std::string& arguments) {
     const Ended o = jvari(scratch, arguments + " --json");
     EXPECT_EQ(o.code, 0) << arguments << o.err;
