@@ -50,8 +50,9 @@ double left_after(std::span<const double> changes, bool matched) {
         return std::numeric_limits<double>::quiet_NaN();
     const double ratio = last / before;
     if (!(ratio <= slowest)) return of_order_half * std::fmax(last, before);
-    const double of_order_one = 1;
-    return last * std::max(ratio / (1 - ratio), matched ? of_order_half : of_order_one);
+    const double series = last * ratio / (1 - ratio);
+    return matched ? std::max(series, of_order_half * last)
+                   : std::max({series, last, before - last});
 }
 
 double no_less(double left_out, double apart, double change) {

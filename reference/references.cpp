@@ -41,7 +41,8 @@ std::optional<OptionValues> matched(const Descriptor& reference, const Scene& sc
     if (!declares(reference, compliance_option.name) ||
         std::any_of(options.begin(), options.end(), is_compliance) || needed.any(never))
         return {};
-    if (!needed.has(Feature::lumped_barrier) && !needed.has(Feature::thread)) return {};
+    constexpr Features touching = Feature::lumped_barrier | Feature::thread | any_mass;
+    if (!needed.any(touching)) return {};
     options.emplace_back(compliance_option.name, "matched");
     return options;
 }

@@ -121,7 +121,7 @@ std::vector<Scene> make_scenes_of_numbers() {
         all.back().taps.push_back({"mass" + number, Quantity::bridge_force, 0, 0, mass});
     }
     add("ring", [](String& s) {  // on a spring, and with a weight
-        s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 0}};
+        s.masses = {{2e-3, 0.12, 0.08, 1, 2e-4, 3e4, 1.5, 10, LossLaw::clipped}};
         Mass& ring = s.masses.front();
         ring.spring = 400, ring.damping = 0.4, ring.weight = 0.5;
     });

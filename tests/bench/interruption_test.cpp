@@ -231,8 +231,8 @@ TEST(Interruption, ASuiteSaysWhichReferencesAreKeptAndLeavesNoLock) {
         [&] { return cells_in(scratch / "all/cells") == 1 && files_of(references, ".lock") == 1; });
     suite.send(SIGINT);
     EXPECT_EQ(suite.end(), SIGINT);
-    EXPECT_EQ(files_of(references, ".run"), 6);  // of the free string
-    const std::string message = "interrupted: 1 of 2 cells and 6 runs of references are kept in " +
+    EXPECT_EQ(files_of(references, ".run"), 8);  // of the free string
+    const std::string message = "interrupted: 1 of 2 cells and 8 runs of references are kept in " +
                                 (scratch / "all") + "; --resume";
     EXPECT_TRUE(says(content(scratch / "stderr"), message));
     EXPECT_EQ(files_of(references, ".lock") + files_of(scratch / "all/cells", ".lock"), 0);

@@ -68,6 +68,11 @@ void measured(Scene& scene, auto change) {
         if (!p.file.empty()) change(p);
     });
 }
+void masses(Scene& scene, auto change) {
+    strings(scene, [&](String& s) {
+        for (Mass& m : s.masses) change(m);
+    });
+}
 void body(Scene& scene, auto change) {
     if (scene.body)
         for (BodyMode& m : scene.body->modes) change(m);
@@ -167,12 +172,30 @@ constexpr Deaf table_of[] = {
              if (x.masses.size() > 1) x.masses[1].velocity = 0;
          });
      }},
+    {"mass_up", [](Scene& s) { masses(s, [](auto& m) { m.mass *= 1.1; }); }},
+    {"gap_of_a_mass_ignored", [](Scene& s) { masses(s, [](auto& m) { m.gap = 0; }); }},
+    {"clipped_loss_of_a_mass_as_hunt_crossley",
+     [](Scene& s) { masses(s, [](auto& m) { m.loss_law = LossLaw::hunt_crossley; }); }},
+    {"profile_a_millimetre_aside",
+     [](Scene& s) {
+         strings(s, [](String& x) {
+             for (Barrier& b : x.barriers)
+                 if (auto* profile = std::get_if<ProfileBarrier>(&b))
+                     profile->from += 1e-3, profile->to += 1e-3;
+         });
+     }},
     {"parabola_of_a_profile_up",
      [](Scene& s) { curves<ParabolaCurve>(s, [](auto&, auto& c) { c.coefficient *= 1.05; }); }},
     {"line_of_a_profile_up",
      [](Scene& s) { curves<LineCurve>(s, [](auto&, auto& c) { c.coefficient *= 1.05; }); }},
     {"density_of_a_profile_up",
      [](Scene& s) { curves<ParabolaCurve>(s, [](auto& b, auto&) { b.stiffness.K *= 1.2; }); }},
+    {"bridge_above_2e5_newtons_per_metre_softer",
+     [](Scene& s) {
+         lumped(s, [](auto& b) {
+             if (b.stiffness.k > 2e5 && b.stiffness.k != rigid) b.stiffness.k *= 0.02;
+         });
+     }},
     {"hard_bridge_softer",
      [](Scene& scene) {
          strings(scene, [](String& s) {
