@@ -127,11 +127,18 @@ private:
         return s;
     }
 
+    // Makes the scheme once, for the question whether it can be made and for its run.
+    void make(const Settings& s) {
+        const std::string key = settings_text(*scheme_, s);
+        if (rows_.contains(key) || made_.contains(key)) return;
+        made_.emplace(key, make_scheme(*scheme_, scene_, s));
+    }
+
     // Largest possible number from `modes` down to that share; 0: none can be made.
     int taken(double rate, int modes, const std::string& compliance, bool finer, double share) {
         for (int n = modes; n >= 1 && n >= share * modes; n = n * 4 / 5) {
             try {
-                make_scheme(*scheme_, scene_, settings(rate, n, compliance, finer));
+                make(settings(rate, n, compliance, finer));
                 return n;
             } catch (const BadOption&) { throw; } catch (const Refusal& e) {
                 refused_ = e.what();
@@ -169,9 +176,14 @@ private:
 
     // judged rows; empty if the run failed or is silent
     const std::vector<double>& rows_of(const Settings& s) {
-        const auto [at, fresh] = rows_.try_emplace(settings_text(*scheme_, s));
-        if (!fresh) return at->second;
+        const std::string key = settings_text(*scheme_, s);
+        if (const auto known = rows_.find(key); known != rows_.end()) return known->second;
+        make(s);
+        const auto scheme = made_.extract(key);
+        std::vector<double>& kept = rows_[key];
         RunOptions options;
+        // An exact balance needs no look at its energy, which takes as long as many rows do.
+        options.timed = scheme_->balance == Balance::exact;
         options.progress = store::within(
             patience - a_.seconds,
             [this, &s](long done, long all) {
@@ -179,14 +191,13 @@ private:
                                 fmt::format("{:g} kHz", s.sample_rate / 1000));
             },
             0.05);
-        const double start = store::processor_seconds();
-        const Run r = run(*scheme_, scene_, s, options);
-        a_.seconds += store::processor_seconds() - start;
-        if (r.status.outcome != Outcome::ok) return at->second;
+        const Run r = run(*scheme.mapped(), scene_, s, options);
+        a_.seconds = store::processor_seconds() - start_;
+        if (r.status.outcome != Outcome::ok) return kept;
         const auto rows = rows_from(r.trace.column(0), from_, r.trace.tap_rate);
         if (std::ranges::any_of(rows, [](double x) { return x != 0; }))
-            at->second.assign(rows.begin(), rows.end());
-        return at->second;
+            kept.assign(rows.begin(), rows.end());
+        return kept;
     }
 
     double difference(const Settings& coarse, const Settings& fine) {  // NaN: no answer
@@ -227,7 +238,9 @@ private:
     const double from_;  // [s]
     bool rigid_ = false;
     const Descriptor* scheme_ = nullptr;
-    std::map<std::string, std::vector<double>> rows_;  // by settings
+    const double start_ = store::processor_seconds();
+    std::map<std::string, std::unique_ptr<Scheme>> made_;  // by settings, before their run
+    std::map<std::string, std::vector<double>> rows_;      // by settings
     std::string refused_;
     std::unique_ptr<store::Progress> progress_;
 };

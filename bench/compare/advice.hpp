@@ -46,7 +46,7 @@ struct Advice {
     double difference = nan, counted = nan, margin = 0;
     bool within = false;  // false: the settings are the nearest that were tried
     std::string ended;    // reason why no further rungs, or none at all, were run
-    double seconds = 0;   // processor time of all runs
+    double seconds = 0;   // processor time of all runs and of making their schemes
     // The longest window over which the waveform's estimated error is at most 10 %, by the same two
     // runs [s]; NaN: the whole one. A second advice, for third octaves, has that of the first.
     double known_for = nan;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "bench/compare/record/findings.hpp"
@@ -17,7 +18,7 @@
 #include "tests/says.hpp"
 
 namespace jvari {
-extern const Descriptor exact_contact;
+extern const Descriptor exact_contact, modal_two_point;
 namespace {
 using namespace bench;
 using compare::Advice;
@@ -78,6 +79,24 @@ TEST(Advice, EstimatesByTheDifferenceOfTwoRunsThatAnyoneCanMake) {
     const Advice dear = advised(c3, "0.1%", "nut");
     EXPECT_EQ(dear.settings.sample_rate, 4 * 44100);
     EXPECT_GE(dear.finer.modes, 1.5 * dear.settings.modes);
+}
+
+// Making a scheme with matched compliance takes as long as many of its rows.
+TEST(Advice, MakesNoSchemeTwice) {
+    static std::multiset<std::string> settings_of_makes;
+    Descriptor counted = modal_two_point;
+    counted.make = [](const Descriptor& d, const Scene& scene, const Settings& s) {
+        settings_of_makes.insert(compare::settings_text(d, s));
+        return modal_two_point.make(d, scene, s);
+    };
+    compare::Catalogue all;
+    for (const Descriptor*& d : all.schemes)
+        if (d->name == std::string_view(counted.name)) d = &counted;
+    compare::advise(c3_release(), {.within = "0.1%", .tap = "nut", .scheme = counted.name}, all,
+                    silent);
+    EXPECT_GT(settings_of_makes.size(), 4u);
+    for (const std::string& one : settings_of_makes)
+        EXPECT_EQ(settings_of_makes.count(one), 1u) << one;
 }
 
 TEST(Advice, IsTrueOnStringsThatWereMadeToFoolIt) {

@@ -69,6 +69,50 @@ TEST(MacroWindow, ASoftContactIsWhatSmallStepsMakeOfItAsFarAsItsSpan) {
     for (const double k : {1e4, 3e5, 3e6}) EXPECT_LT(split_against_steps(2, 21, 1, k), 1e-11) << k;
 }
 
+// Many points in contact are solved by a fixed-point iteration, or by Newton's where that does not
+// contract. Either way the forces at the nodes obey the law on the path that they cause. Over
+// a whole window at 2e6 N/m the fixed-point iteration diverges, over a tenth it does not.
+double misfit_of_forces(double stiffness, double exponent, double loss, double step) {
+    constexpr int points = 9;
+    String s = c3_release().strings.front();
+    s.barriers.clear();
+    for (int a = 0; a < points; ++a)
+        s.barriers.push_back(LumpedBarrier{0.01 + 2e-3 * a, 0, 0, {stiffness}, exponent, loss});
+    const MacroWindow w(modes_of(s, 60), s, 1 / 44100., 1e-13);
+    const BarrierLaw law{{stiffness, exponent}, loss};
+    CollocatedContact contact(w, std::vector<BarrierLaw>(points, law));
+    std::vector<double> r(w.contacts * w.stride, 0.0), path(r.size());
+    std::vector<int> touching(points);
+    for (int a = 0; a < points; ++a) {
+        touching[a] = a;
+        r[a * w.stride] = -1e-5 * (1 + 0.3 * std::sin(3 * a));
+        r[a * w.stride + 1] = -2e-6 * std::cos(a);
+    }
+    contact.step(r.data(), touching, step, CollocatedContact::From::elsewhere);
+    contact.path(r.data(), path.data());
+    double misfit = 0, most = 0;
+    for (int a = 0; a < points; ++a)
+        for (const double node : {0.2372337950418355, 0.5917173212478248}) {
+            double at[3];
+            w.sweep().evaluate(&path[a * w.stride], w.size, node * step, at);
+            const double by_law = law.force(-at[0], at[1] / w.seconds());
+            misfit = std::max(misfit, std::abs(contact.force(a, node * step) - by_law));
+            most = std::max(most, std::abs(by_law));
+        }
+    return misfit / most;
+}
+
+TEST(MacroWindow, ForcesOfManyPointsObeyTheLawOnThePathThatTheyCause) {
+    for (const double stiffness : {1e4, 2e6})
+        for (const double step : {0.1, 1.0}) {
+            EXPECT_LT(misfit_of_forces(stiffness, 1, 0, step), 1e-10) << stiffness << " " << step;
+            EXPECT_LT(misfit_of_forces(stiffness, 1, 0.01, step), 1e-10)
+                << stiffness << " " << step;
+            EXPECT_LT(misfit_of_forces(stiffness * 300, 1.5, 0, step), 1e-10)
+                << stiffness << " " << step;
+        }
+}
+
 // The linear systems of a collocation: I + a matrix of a norm below one half, so that no pivots are
 // needed.
 TEST(MacroWindow, FactorsSolveTheSystemThatTheyAreOf) {
