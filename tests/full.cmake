@@ -106,7 +106,7 @@ jvari_gate(Web.ThePlaygroundShowsSoundsAndIsWalked web/check.sh page.mjs $<TARGE
     ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/node_modules)
 set_tests_properties(Web.ThePlaygroundShowsSoundsAndIsWalked PROPERTIES COST 100 LABELS web)
 if(JVARI_PYTHON)
-    set(python_module $<TARGET_FILE_DIR:jvari_python>)
+    set(python_module $<TARGET_FILE_DIR:jvari_python> ${Python_EXECUTABLE})
 endif()
 jvari_gate(Web.WhatIsTakenCompilesAndPlaysTheString web/check.sh take.mjs $<TARGET_FILE:jvari>
     ${CMAKE_SOURCE_DIR}/build/web ${CMAKE_SOURCE_DIR} ${prefix} ${python_module})

@@ -1,4 +1,4 @@
-// take.mjs PROGRAM BUILD SOURCES PREFIX [PYTHON_MODULE]: the files that "Take it" gives compile
+// take.mjs PROGRAM BUILD SOURCES PREFIX [PYTHON_MODULE PYTHON]: the files that "Take it" gives compile
 // against the engine installed in PREFIX as they stand, and run. The C++ file plays what the program
 // plays; the script does where the module is given.
 import {spawnSync} from "node:child_process";
@@ -7,7 +7,7 @@ import {tmpdir} from "node:os";
 import {join, resolve} from "node:path";
 import vm from "node:vm";
 
-const [program, , sources, prefix, module] = process.argv.slice(2).map(p => resolve(p)),
+const [program, , sources, prefix, module, python] = process.argv.slice(2).map(p => resolve(p)),
   taken = vm.runInThisContext(`${readFileSync(join(sources, "web/take.js"), "utf8")}; taken`),
   scratch = mkdtempSync(join(tmpdir(), "jvari-take-"));
 let failures = 0;
@@ -70,7 +70,7 @@ for (const [name, more] of Object.entries(strings)) {
     console.log(`FAILED: ${name}: it does not begin with its error`, ++failures);
   writeFileSync(join(scratch, "string.py"), taken.Python(string));
   if (!module) continue;
-  const script = ended(`${name}, script`, ["python3", "string.py"], {
+  const script = ended(`${name}, script`, [python, "string.py"], {
     env: {...process.env, PYTHONPATH: module},
   });
   if (!/largest value [\d.e-]+ N/.test(script))
